@@ -1,0 +1,140 @@
+/* pbmpm: results, identifiers, memory, threads, and what the library tells about itself. */
+#ifndef PBMPM_BASE_H
+#define PBMPM_BASE_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "version.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#if defined(PBMPM_BUILDING_LIBRARY) && defined(__GNUC__)
+#define PBMPM_API __attribute__((visibility("default")))
+#elif defined(_WIN32) && defined(PBMPM_BUILDING_LIBRARY)
+#define PBMPM_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define PBMPM_API __declspec(dllimport)
+#else
+#define PBMPM_API
+#endif
+
+/** What a call came to. Zero is success; everything else left the world as it was before the call, except
+ *  where the function says otherwise. Details: pbmpm_last_error(). */
+typedef enum pbmpm_result {
+    PBMPM_OK = 0,
+    PBMPM_ERROR_INVALID_ARGUMENT = 1, /**< null pointer, NaN, infinity, or a value outside its documented range */
+    PBMPM_ERROR_INVALID_ID = 2,       /**< null, stale, foreign or made-up identifier */
+    PBMPM_ERROR_OUT_OF_MEMORY = 3,    /**< the allocator returned null, or the memory budget is used up */
+    PBMPM_ERROR_CAPACITY = 4,         /**< more particles, materials, colliders or worlds than there is room for */
+    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world */
+    PBMPM_ERROR_UNSUPPORTED_CPU = 6,  /**< the CPU has no SSE4.2 */
+    PBMPM_ERROR_UNSUPPORTED = 7,      /**< a structure size, material or feature that this build does not know */
+    PBMPM_ERROR_THREAD = 8,           /**< a worker thread could not be started */
+    PBMPM_ERROR_IN_USE = 9,           /**< the object still has users (a material that particles refer to) */
+    PBMPM_ERROR_FORKED = 10,          /**< the world belongs to the parent process; in the child only destroy works */
+    PBMPM_RESULT_FORCE32 = 0x7fffffff
+} pbmpm_result;
+
+/** A short constant name of a result ("PBMPM_ERROR_CAPACITY"); never null, never to be freed. Any thread. */
+PBMPM_API const char *pbmpm_result_name(pbmpm_result result);
+
+/** The message of the last call that failed on this thread, or an empty string. Valid until the next call that
+ *  fails on this thread; never null. Any thread. */
+PBMPM_API const char *pbmpm_last_error(void);
+
+/** Identifiers are values of 8 bytes. All zero means "none". A generation is never used twice in a process (short
+ *  of 2^32 objects), so a stale identifier or one of another world is refused and never mistaken for a live one. */
+typedef struct pbmpm_world_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_world_id;
+
+typedef struct pbmpm_material_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_material_id;
+
+typedef struct pbmpm_collider_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_collider_id;
+
+typedef struct pbmpm_particle_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_particle_id;
+
+/** Receives one line per notable happening (a refused call, an event). May come from any thread that calls the
+ *  library, never from a worker; must not call the library. */
+typedef void pbmpm_log_callback(const char *message, void *user);
+
+/** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
+ *  library. Bindings need not use it: everything it says can also be polled. */
+PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
+
+/** Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
+ *  null; `release` gets the size that was asked for. Called from the thread that calls the library. */
+typedef struct pbmpm_allocator {
+    void *(*allocate)(size_t size, size_t alignment, void *user);
+    void (*release)(void *memory, size_t size, void *user);
+    void *user;
+} pbmpm_allocator;
+
+/** One share of parallel work; `index` counts from 0. */
+typedef void pbmpm_task(int32_t index, void *context);
+
+/** Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
+ *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
+ *  of them have returned. Null functions: the world's own thread pool is used. */
+typedef struct pbmpm_task_hooks {
+    void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user);
+    void (*finish)(void *handle, void *user);
+    void *user;
+} pbmpm_task_hooks;
+
+/** Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
+ *  it, lowers the choice (never raises it). */
+typedef enum pbmpm_isa {
+    PBMPM_ISA_NONE = 0, /**< the CPU is not supported */
+    PBMPM_ISA_SSE4 = 1,
+    PBMPM_ISA_AVX2 = 2,
+    PBMPM_ISA_AVX512 = 3,
+    PBMPM_ISA_FORCE32 = 0x7fffffff
+} pbmpm_isa;
+
+/** The version of the library that is loaded, as major * 1000000 + minor * 1000 + patch. Any thread. */
+PBMPM_API uint32_t pbmpm_version(void);
+
+/** PBMPM_ABI_VERSION of the library that is loaded; a binding refuses to run when it differs from its own. Any thread. */
+PBMPM_API uint32_t pbmpm_abi_version(void);
+
+/** The kernels in use. Any thread. */
+PBMPM_API pbmpm_isa pbmpm_active_isa(void);
+
+/** The name of an instruction set ("AVX2"); never null. Any thread. */
+PBMPM_API const char *pbmpm_isa_name(pbmpm_isa isa);
+
+/** One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
+ *  structure itself (offset 0, size of the whole). */
+typedef struct pbmpm_layout_entry {
+    const char *structure;
+    const char *field;
+    uint32_t offset; /**< bytes from the start of the structure */
+    uint32_t size;   /**< bytes */
+} pbmpm_layout_entry;
+
+/** The layouts of all public structures as this library was compiled. Every binding compares it with its own
+ *  mirror when it loads. The table is constant and lives as long as the library. Any thread. */
+PBMPM_API pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count);
+
+/** Destroys all worlds and joins all threads of the library. For hosts that unload the library. No other call may be
+ *  under way. Afterwards the library may be used again. */
+PBMPM_API pbmpm_result pbmpm_shutdown(void);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

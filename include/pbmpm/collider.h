@@ -1,0 +1,56 @@
+/* pbmpm: solid obstacles. */
+#ifndef PBMPM_COLLIDER_H
+#define PBMPM_COLLIDER_H
+
+#include "particles.h"
+#include "shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { PBMPM_MAX_COLLIDERS = 1024 };
+
+typedef enum pbmpm_friction {
+    PBMPM_FRICTION_COULOMB = 0, /**< tangential impulse up to friction_coefficient times the normal impulse */
+    PBMPM_FRICTION_STICK = 1,   /**< matter moves with the surface and cannot leave it */
+    PBMPM_FRICTION_SLIP = 2,    /**< no tangential impulse */
+    PBMPM_FRICTION_FORCE32 = 0x7fffffff
+} pbmpm_friction;
+
+typedef struct pbmpm_collider_def {
+    uint32_t size;              /**< sizeof(pbmpm_collider_def), set by pbmpm_collider_def_init() */
+    pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
+    float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
+    int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
+    pbmpm_shape shape;
+} pbmpm_collider_def;
+
+PBMPM_API pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
+
+/** Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
+PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider);
+PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
+
+/** Reads the definition with the current pose. `def->size` must be set. */
+PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def);
+
+/** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
+ *  matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
+ *  `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT (also: not kinematic), BUSY. */
+PBMPM_API pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
+                                           const float rotation[4]);
+
+/** Puts an obstacle somewhere at once, without velocity. Works for static ones too. */
+PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
+                                               const float rotation[4]);
+
+/** Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape(). */
+PBMPM_API pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity,
+                                            uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

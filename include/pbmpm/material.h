@@ -1,0 +1,68 @@
+/* pbmpm: materials.
+ * Method: C. Lewin, "A Position Based Material Point Method", SIGGRAPH 2024 Talks, doi 10.1145/3641233.3664323. */
+#ifndef PBMPM_MATERIAL_H
+#define PBMPM_MATERIAL_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum { PBMPM_MAX_MATERIALS = 256 };
+
+typedef enum pbmpm_material_kind {
+    PBMPM_LIQUID = 0,  /**< keeps its volume: J = 1 */
+    PBMPM_ELASTIC = 1, /**< keeps its shape and volume: F is a rotation */
+    PBMPM_MATERIAL_KIND_FORCE32 = 0x7fffffff
+} pbmpm_material_kind;
+
+/** What happens to an elastic particle that is strained beyond all measure. */
+typedef enum pbmpm_strain_policy {
+    PBMPM_STRAIN_CLAMP = 0,  /**< singular values of F are kept in [strain_min, strain_max] */
+    PBMPM_STRAIN_DELETE = 1, /**< deleted, with an event, when the condition number of F exceeds condition_max (the paper's rule) */
+    PBMPM_STRAIN_POLICY_FORCE32 = 0x7fffffff
+} pbmpm_strain_policy;
+
+/** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
+ *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
+ *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
+ *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. */
+typedef struct pbmpm_material_def {
+    uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
+    pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
+    float density;              /**< rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000 */
+    float relaxation;           /**< share of the constraint error removed per iteration, in (0, 2); default 1.5 */
+    float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
+                                     Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
+    float volume_feedback;      /**< liquid: share per substep by which J follows the volume measured on the grid where
+                                     that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing. */
+    float elasticity_ratio;     /**< elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1 */
+    pbmpm_strain_policy strain_policy; /**< elastic; default PBMPM_STRAIN_CLAMP */
+    float strain_min;           /**< elastic: lower bound of the singular values of F, in [1e-3, 1]; default 0.1 */
+    float strain_max;           /**< elastic: upper bound, in [1, 1e4]; default 20 */
+    float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
+    float rebound_max;          /**< bound of the strain that a correction may add per iteration, in (0, 10]; default 0.3.
+                                     Matter that was crushed to nothing grows back at this rate instead of exploding. */
+} pbmpm_material_def;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size);
+
+/** Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown), CAPACITY,
+ *  OUT_OF_MEMORY (the first elastic material makes room for F), BUSY. */
+PBMPM_API pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material);
+
+/** Reads a material. `def->size` must be set. */
+PBMPM_API pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def);
+
+/** Changes the parameters of a material (not its kind or density); takes effect with the next step. */
+PBMPM_API pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def);
+
+/** Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY. */
+PBMPM_API pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

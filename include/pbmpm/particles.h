@@ -1,0 +1,100 @@
+/* pbmpm: adding, removing, reading, changing and finding particles. */
+#ifndef PBMPM_PARTICLES_H
+#define PBMPM_PARTICLES_H
+
+#include "material.h"
+#include "shape.h"
+#include "world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Particles from arrays. Arrays are read during the call only. "d" is the world's dimension. */
+typedef struct pbmpm_particles_def {
+    uint32_t size;              /**< sizeof(pbmpm_particles_def), set by pbmpm_particles_def_init() */
+    uint32_t count;             /**< number of particles in the arrays */
+    pbmpm_material_id material; /**< their material */
+    const float *positions;     /**< count * d floats [m], relative to the origin; inside the domain box if there is one */
+    const float *velocities;    /**< count * d floats [m/s], or null for rest */
+    const float *volumes;       /**< count floats: rest volumes [m^d], > 0, or null for `volume` */
+    float volume;               /**< rest volume of each particle [m^d]; 0 (default): (dx/2)^d */
+} pbmpm_particles_def;
+
+/** Particles that fill a shape on a jittered lattice. */
+typedef struct pbmpm_fill_def {
+    uint32_t size;              /**< sizeof(pbmpm_fill_def), set by pbmpm_fill_def_init() */
+    uint32_t seed;              /**< of the jitter; equal seeds give equal particles; default 1 */
+    pbmpm_material_id material;
+    pbmpm_shape shape;          /**< any kind but PBMPM_PLANE */
+    float particles_per_axis;   /**< lattice points per cell and axis, in [0.25, 16]; default 2 (4 per cell in 2D, 8 in 3D) */
+    float jitter;               /**< random offset as a share of the lattice spacing, in [0, 1]; default 0.5 */
+    float velocity[3];          /**< of every particle [m/s]; default 0 */
+} pbmpm_fill_def;
+
+PBMPM_API pbmpm_result pbmpm_particles_def_init(pbmpm_particles_def *def, size_t size);
+PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
+
+/** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY. */
+PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
+
+/** Fills a shape. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
+ *  says how many the shape needs. `added` may be null. */
+PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added);
+
+/** Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed. */
+PBMPM_API pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count);
+PBMPM_API pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *shape, uint32_t *removed);
+
+/** Number of live particles. */
+PBMPM_API pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count);
+
+/** Fields of particles. */
+typedef enum pbmpm_field {
+    PBMPM_POSITION = 0,        /**< d floats [m], relative to the origin */
+    PBMPM_VELOCITY = 1,        /**< d floats [m/s] */
+    PBMPM_AFFINE_VELOCITY = 2, /**< d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood */
+    PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle; det F of an elastic one as of its last step */
+    PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; needs an elastic material in the world */
+    PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
+    PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
+    PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
+    PBMPM_FIELD_FORCE32 = 0x7fffffff
+} pbmpm_field;
+
+/** A window on the world's own memory. Element (i, c) of the field is at
+ *  (const char *)data + i * stride + c * component_stride. Read-only. */
+typedef struct pbmpm_view {
+    uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
+    uint32_t count;            /**< particles */
+    uint32_t components;       /**< values per particle */
+    uint32_t component_stride; /**< bytes from one component to the next */
+    uint64_t stride;           /**< bytes from one particle to the next */
+    const void *data;          /**< null when count is 0 */
+    uint64_t generation;       /**< valid while pbmpm_world_generation() returns this number */
+} pbmpm_view;
+
+/** A view of a field. The order of particles is the same in all views of one generation and changes with steps; their
+ *  identity is PBMPM_PARTICLE. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (no such field in this world), BUSY. */
+PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
+
+/** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
+ *  Settable: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+ *  with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
+ *  All or nothing; expires views. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count,
+                                           const float *values);
+
+/** Where particles stand in the current storage order (the row in a view). */
+PBMPM_API pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
+
+/** Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
+ *  `ids` may be null when capacity is 0. */
+PBMPM_API pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity,
+                                         uint32_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,75 @@
+/* pbmpm: what a step cost, what state it left, and what happened in it. */
+#ifndef PBMPM_STATS_H
+#define PBMPM_STATS_H
+
+#include "particles.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Figures of the last step. Times are of the whole step (all substeps); state is that at its end. Momentum and angular
+ *  momentum are relative to the world's origin; in 2D only component 2 of the angular momentum is used. */
+typedef struct pbmpm_stats {
+    uint32_t size;                /**< sizeof(pbmpm_stats), set by the caller */
+    uint32_t particle_count;      /**< live particles */
+    uint64_t step_count;          /**< steps since creation */
+    double simulated_seconds;     /**< since creation */
+    uint64_t memory_bytes;        /**< held by the world */
+    uint32_t particle_blocks;     /**< blocks of 4^d cells with particles */
+    uint32_t node_blocks;         /**< blocks of 4^d nodes that they touch */
+    uint32_t contacts;            /**< node-obstacle pairs in the last substep */
+    uint32_t substeps;            /**< of the step */
+    uint32_t iterations;          /**< per substep */
+    uint32_t thread_count;        /**< shares the work was cut into */
+    float ms_total;               /**< wall time [ms] of the step */
+    float ms_sort;                /**< ... of which binning and reordering */
+    float ms_scatter;             /**< first P2G and predictor */
+    float ms_contacts;            /**< finding nodes near obstacles */
+    float ms_iterate;             /**< N passes of G2P, projection, P2G and grid update */
+    float ms_integrate;           /**< last G2P, integration, guards */
+    float volume_error_rms;       /**< root mean square of |J - 1| over particles */
+    float volume_error_max;       /**< largest |J - 1| */
+    float max_speed;              /**< [m/s] */
+    float max_displacement;       /**< largest particle displacement of the last substep [cells] (the Courant number) */
+    double mass;                  /**< [kg] */
+    double momentum[3];           /**< [kg m/s] */
+    double angular_momentum[3];   /**< about the origin, with the affine part [kg m^2/s] */
+    double kinetic_energy;        /**< translation of particles [J] */
+    double potential_energy;      /**< in gravity, relative to the origin [J] */
+    float cell_changes;           /**< share of particles that left their cell in the last substep */
+    float lane_occupancy;         /**< share of SIMD lanes that held a particle; 1 is perfect */
+    uint64_t deleted_total;       /**< particles deleted by the library since creation (never by calls) */
+    uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
+} pbmpm_stats;
+
+/** Figures of the last step; before the first all are 0 but the counts. `stats->size` must be set.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);
+
+typedef enum pbmpm_event_kind {
+    PBMPM_EVENT_DELETED_NOT_FINITE = 1,   /**< a particle's state was NaN or infinite; it was taken out before it touched others */
+    PBMPM_EVENT_DELETED_OUT_OF_RANGE = 2, /**< beyond PBMPM_MAX_CELL */
+    PBMPM_EVENT_DELETED_CONDITION = 3,    /**< strain beyond condition_max */
+    PBMPM_EVENT_SPEED_CLAMPED = 4,        /**< slowed to max_displacement */
+    PBMPM_EVENT_CAPACITY = 5,             /**< a call asked for more particles than there is room for; count: how many */
+    PBMPM_EVENT_KIND_FORCE32 = 0x7fffffff
+} pbmpm_event_kind;
+
+typedef struct pbmpm_event {
+    pbmpm_event_kind kind;
+    uint32_t count;             /**< how many particles (deletions: always 1) */
+    pbmpm_particle_id particle; /**< the particle, or the first one of several */
+    float position[3];          /**< where [m] */
+    uint32_t substep;           /**< in which substep of the step */
+    uint64_t step;              /**< step_count when it happened */
+} pbmpm_event;
+
+/** Events of the last step, and of calls since then. The array belongs to the world and is valid until its next step or
+ *  change. When more happened than the array holds, *missed says how many are not in it; totals are in pbmpm_stats. */
+PBMPM_API pbmpm_result pbmpm_world_events(pbmpm_world_id world, const pbmpm_event **events, uint32_t *count, uint32_t *missed);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

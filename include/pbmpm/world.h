@@ -1,0 +1,90 @@
+/* pbmpm: worlds, their settings, and the step. */
+#ifndef PBMPM_WORLD_H
+#define PBMPM_WORLD_H
+
+#include "base.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    PBMPM_MAX_WORLDS = 1024,
+    PBMPM_MAX_PARTICLES = 1 << 28,
+    PBMPM_MAX_SUBSTEPS = 256,
+    PBMPM_MAX_ITERATIONS = 1000,
+    /** Largest displacement of a particle in one substep [cells]. */
+    PBMPM_MAX_CELLS_PER_SUBSTEP = 64,
+    /** Cells per axis and direction around the origin that a particle can be in; beyond, it is deleted with an event. */
+    PBMPM_MAX_CELL = 1 << 22
+};
+
+/** What a world is made of for all its life. Fill it with pbmpm_world_def_init(), then change what differs. */
+typedef struct pbmpm_world_def {
+    uint32_t size;              /**< sizeof(pbmpm_world_def), set by pbmpm_world_def_init() */
+    int32_t dimension;          /**< 2 or 3; default 3. In 2D the third component of every vector is ignored. */
+    float cell_size;            /**< grid spacing dx [m], in [1e-6, 1e6]; default 0.1 */
+    uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation. */
+    double origin[3];           /**< what positions are relative to [m]; default 0. Used by nothing but the caller's own
+                                     conversion, so a scene far from zero loses no precision. */
+    uint64_t memory_budget;     /**< bytes that the world may hold at once; 0 (default): no limit */
+    int32_t thread_count;       /**< 1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
+                                     With task hooks: how many shares the work is cut into. */
+    int32_t domain_enabled;     /**< 0 (default): unbounded. 1: closed box, walls that hold matter in. */
+    float domain_min[3];        /**< lower corner of the box [m], relative to the origin; default 0 */
+    float domain_max[3];        /**< upper corner; at least 4 cells above domain_min per axis; default 1 */
+    float domain_friction;      /**< Coulomb coefficient of the walls, >= 0; default 0 */
+    pbmpm_allocator allocator;  /**< both functions null (default): the C library's */
+    pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
+} pbmpm_world_def;
+
+/** What may change between steps. State is kept in physical units, so a change of rate changes nothing in flight. */
+typedef struct pbmpm_settings {
+    uint32_t size;          /**< sizeof(pbmpm_settings), set by pbmpm_settings_init() */
+    int32_t substeps;       /**< equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1 */
+    int32_t iterations;     /**< N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5 */
+    float gravity[3];       /**< acceleration [m/s^2]; default 0 */
+    float max_displacement; /**< largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
+                                 default 32. Faster particles are slowed to it; each time is counted in the events. */
+} pbmpm_settings;
+
+/** Writes the defaults. `size` is the caller's sizeof(*def).
+ *  Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread. */
+PBMPM_API pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size);
+PBMPM_API pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size);
+
+/** Creates a world and takes its memory. On failure *world is the null identifier and nothing is held.
+ *  Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, CAPACITY (worlds), UNSUPPORTED_CPU, THREAD. Any thread. */
+PBMPM_API pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *world);
+
+/** Destroys a world and everything in it; views and identifiers of it become invalid.
+ *  Errors: INVALID_ID (also on a second destroy), BUSY. Any thread. */
+PBMPM_API pbmpm_result pbmpm_world_destroy(pbmpm_world_id world);
+
+/** The definition the world was made from. `def->size` must be set (pbmpm_world_def_init). */
+PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
+
+/** Reads and changes the settings; take effect with the next step.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world. */
+PBMPM_API pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings);
+PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
+
+/** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
+ *  of occupied blocks has stopped growing. `dt` must be finite, in (0, 10].
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
+ *  needed it is not begun, earlier substeps of the call stay done.
+ *  Any thread, one at a time per world; different worlds step at the same time. */
+PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
+
+/** A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
+ *  the view's own. */
+PBMPM_API pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation);
+
+/** 64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for
+ *  the same calls on the same binary and instruction set, for any number of threads. */
+PBMPM_API pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
