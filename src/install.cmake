@@ -1,0 +1,17 @@
+# Installs the headers, the shared library, a CMake package (pbmpm::pbmpm) and a pkg-config file.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
+install(TARGETS pbmpm EXPORT pbmpm LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
+install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-config.cmake DESTINATION "${package_dir}")
+
+# Before 1.0 a new minor version may change the interface.
+write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" DESTINATION "${package_dir}")
+
+# The paths in the .pc file are relative to itself, so an installed tree may be moved.
+file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+configure_file(pbmpm.pc.in pbmpm.pc @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
