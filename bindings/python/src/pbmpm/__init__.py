@@ -1,0 +1,80 @@
+"""Liquids and elastic solids in real time by the Position Based Material Point Method.
+
+>>> import pbmpm
+>>> with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (2, 1))) as world:
+...     water = world.add_material(pbmpm.Liquid())
+...     count = world.fill(pbmpm.Box((0.5, 0.25), (0.4, 0.2)), water)
+...     for _ in range(60):
+...         world.step(1 / 60)
+...     heights = world.positions[:, 1]
+"""
+
+from ._ffi import ffi as _ffi
+from ._library import lib as _lib
+from ._library import library_path, version_text
+from .colliders import Collider, Friction
+from .errors import (
+    BusyError,
+    CapacityError,
+    ClosedError,
+    ExpiredViewError,
+    ForkedError,
+    InUseError,
+    InvalidArgumentError,
+    InvalidIdError,
+    LibraryError,
+    OutOfMemoryError,
+    PbmpmError,
+    ThreadError,
+    UnsupportedCpuError,
+    UnsupportedError,
+)
+from .materials import Elastic, Liquid, Material, StrainPolicy
+from .shapes import Box, Capsule, Plane, Shape, Sphere
+from .stats import Event, EventKind, Stats
+from .views import Field, View
+from .world import World
+
+__version__ = version_text(_lib.pbmpm_version())
+
+
+def isa() -> str:
+    """The instruction set of the kernels in use ("AVX2"). The environment variable PBMPM_ISA may lower the choice."""
+    return _ffi.string(_lib.pbmpm_isa_name(_lib.pbmpm_active_isa())).decode()
+
+
+__all__ = [
+    "Box",
+    "BusyError",
+    "Capsule",
+    "CapacityError",
+    "ClosedError",
+    "Collider",
+    "Elastic",
+    "Event",
+    "EventKind",
+    "ExpiredViewError",
+    "Field",
+    "ForkedError",
+    "Friction",
+    "InUseError",
+    "InvalidArgumentError",
+    "InvalidIdError",
+    "LibraryError",
+    "Liquid",
+    "Material",
+    "OutOfMemoryError",
+    "PbmpmError",
+    "Plane",
+    "Shape",
+    "Sphere",
+    "Stats",
+    "StrainPolicy",
+    "ThreadError",
+    "UnsupportedCpuError",
+    "UnsupportedError",
+    "View",
+    "World",
+    "isa",
+    "library_path",
+]

@@ -1,0 +1,92 @@
+"""Obstacles in 3D pictures, found by marching along the viewing rays through their distance functions."""
+
+from __future__ import annotations
+
+from typing import Callable, Iterator
+
+import numpy as np
+
+from .camera import Camera
+from .motion import collider_pose, rotation_matrix
+from .picture import OBSTACLE
+from .scene import ColliderPart
+
+_STEPS = 64
+_TOUCH = 2e-4  # [scene sizes] a ray that comes this near has hit
+
+
+def trace_obstacles(
+    colliders: list[ColliderPart], time: float, camera: Camera, rays: np.ndarray, light: np.ndarray, size: float
+) -> Iterator[tuple[np.ndarray, np.ndarray]]:
+    """Yields depth and colour images of each obstacle. Planes are left out: the floor stands for them."""
+    for collider in colliders:
+        if collider.shape.kind == "plane":
+            continue
+        position, rotation = collider_pose(collider, time)
+        turn = rotation_matrix(rotation)
+        eye = (camera.eye - np.array(position)) @ turn
+        rows, columns = _rows_and_columns(camera, np.array(position), _outer_radius(collider.shape))
+        local = (rays[rows, columns].reshape(-1, 3).astype(np.float64)) @ turn
+        yield _trace(collider.shape, eye, local, (rows, columns), camera, turn, light, size)
+
+
+def _trace(shape, eye, rays, window, camera: Camera, turn, light, size: float) -> tuple[np.ndarray, np.ndarray]:
+    distance = _distance_function(shape)
+    length = np.linalg.norm(rays, axis=1)
+    depth = np.zeros(len(rays))
+    for _ in range(_STEPS):
+        depth += np.maximum(distance(eye + depth[:, None] * rays), 0.0) / length
+        depth = np.minimum(depth, 100 * size)
+    points = eye + depth[:, None] * rays
+    hit = distance(points) < _TOUCH * size
+    normal = _gradient(distance, points, 1e-3 * size) @ turn.T
+    bright = 0.5 + 0.5 * np.clip(normal @ light, 0.0, 1.0)
+    depth_map = np.full((camera.height, camera.width), np.inf, dtype=np.float32)
+    colour = np.zeros((camera.height, camera.width, 3), dtype=np.float32)
+    rows, columns = window
+    box = (rows.stop - rows.start, columns.stop - columns.start)
+    depth_map[rows, columns] = np.where(hit, depth, np.inf).reshape(box)
+    colour[rows, columns] = (bright[:, None] * np.array(OBSTACLE)).reshape(*box, 3)
+    return depth_map, colour
+
+
+def _distance_function(shape) -> Callable[[np.ndarray], np.ndarray]:
+    """Signed distance to the surface in the shape's own frame."""
+    if shape.kind == "sphere":
+        return lambda p: np.linalg.norm(p, axis=1) - shape.radius
+    if shape.kind == "capsule":
+        return lambda p: np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
+    half = np.array(shape.half_extents)
+
+    def box(p: np.ndarray) -> np.ndarray:
+        q = np.abs(p) - half
+        return np.linalg.norm(np.maximum(q, 0.0), axis=1) + np.minimum(q.max(axis=1), 0.0)
+
+    return box
+
+
+def _along(points: np.ndarray, shape) -> np.ndarray:
+    return np.clip(points[:, 0], -shape.half_length, shape.half_length)
+
+
+def _gradient(distance, points: np.ndarray, step: float) -> np.ndarray:
+    columns = [distance(points + step * axis) - distance(points - step * axis) for axis in np.eye(3)]
+    gradient = np.stack(columns, axis=1)
+    return gradient / np.maximum(np.linalg.norm(gradient, axis=1, keepdims=True), 1e-20)
+
+
+def _outer_radius(shape) -> float:
+    if shape.kind == "box":
+        return float(np.linalg.norm(shape.half_extents))
+    return shape.radius + getattr(shape, "half_length", 0.0)
+
+
+def _rows_and_columns(camera: Camera, centre: np.ndarray, radius: float) -> tuple[slice, slice]:
+    """The part of the picture that can show a ball; all of it when the ball is near the eye."""
+    column, row, depth = (float(value[0]) for value in camera.project(centre[None]))
+    if depth < 2 * radius:
+        return slice(0, camera.height), slice(0, camera.width)
+    reach = 1.3 * camera.focal * radius / (depth - radius)
+    rows = np.clip([row - reach, row + reach + 1], 0, camera.height).astype(int)
+    columns = np.clip([column - reach, column + reach + 1], 0, camera.width).astype(int)
+    return slice(*rows), slice(*columns)

@@ -1,0 +1,118 @@
+"""What the pictures of 2D and 3D scenes have in common: colours, captions, and the way to a file."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image, ImageDraw, ImageFont
+
+from .files import replace_when_complete
+from .frame import Frame
+from .scene import Scene
+
+BACKGROUND = (246, 247, 249)
+INK = (40, 44, 52)
+OBSTACLE = (128, 133, 142)
+
+_SPEED_RAMP = np.array(
+    [[18, 52, 120], [28, 96, 180], [44, 146, 214], [110, 200, 226], [196, 234, 238], [255, 255, 255]], dtype=np.float32
+)
+_MATERIAL_COLOURS = np.array(
+    [[36, 98, 190], [232, 119, 46], [60, 160, 92], [178, 74, 160], [214, 178, 40], [90, 90, 100]], dtype=np.float32
+)
+
+
+@dataclass(frozen=True)
+class Look:
+    """What is the same in all pictures of one run."""
+
+    scene: Scene
+    settings: str
+    """One line for the caption: rate, substeps, iterations."""
+    particle_diameter: float
+    """[m]; the lattice spacing of the finest fill"""
+    top_speed: float
+    """[m/s] at the bright end of the colour ramp"""
+
+
+def look_of(scene: Scene, settings: str) -> Look:
+    """Derives the look of a scene; the ramp ends at the speed of a fall over 70 % of the highest fill."""
+    diameter = scene.cell_size / max(fill.particles_per_axis for fill in scene.fills)
+    return Look(scene, settings, diameter, _typical_speed(scene))
+
+
+def _typical_speed(scene: Scene) -> float:
+    gravity = float(np.linalg.norm(scene.gravity))
+    sizes = [2 * max(getattr(fill.shape, "half_extents", [getattr(fill.shape, "radius", 0.0)])) for fill in scene.fills]
+    falling = (2 * gravity * 0.7 * max(sizes)) ** 0.5
+    thrown = max(float(np.linalg.norm(fill.velocity or [0.0])) for fill in scene.fills)
+    return max(falling, thrown, 0.1 * scene.cell_size)
+
+
+def particle_colours(frame: Frame, look: Look) -> np.ndarray:
+    """(n, 3) float32 in 0..255. Liquids by speed unless the scene asks for materials; solids always by material."""
+    material_colours = _MATERIAL_COLOURS[frame.materials % len(_MATERIAL_COLOURS)]
+    names = list(look.scene.materials.values())
+    liquid = np.array([material.kind == "liquid" for material in names])[frame.materials]
+    share = np.clip(frame.speeds / look.top_speed, 0.0, 1.0)
+    if look.scene.pictures.colour == "material":
+        return material_colours + (255 - material_colours) * (0.45 * share)[:, None]
+    shaded = material_colours * (0.85 + 0.15 * share)[:, None]
+    return np.where(liquid[:, None], speed_colours(share), shaded).astype(np.float32)
+
+
+def speed_colours(share: np.ndarray) -> np.ndarray:
+    """Colours of speeds given as shares of the top speed; (n,) to (n, 3) in 0..255."""
+    place = share * (len(_SPEED_RAMP) - 1)
+    lower = np.minimum(place.astype(int), len(_SPEED_RAMP) - 2)
+    return _SPEED_RAMP[lower] + (place - lower)[:, None] * (_SPEED_RAMP[lower + 1] - _SPEED_RAMP[lower])
+
+
+def annotate(image: Image.Image, frame: Frame, look: Look) -> Image.Image:
+    """Adds a strip with the time, the settings and the scale of colours above the picture."""
+    size = max(14, image.width // 64)
+    strip = int(2.9 * size)
+    result = Image.new("RGB", (image.width, image.height + strip), BACKGROUND)
+    result.paste(image, (0, strip))
+    draw = ImageDraw.Draw(result)
+    font, small = ImageFont.load_default(size), ImageFont.load_default(int(0.8 * size))
+    draw.text((size // 2, size // 4), f"{look.scene.name}   t = {frame.time:.3f} s", fill=INK, font=font)
+    error = float(np.sqrt(np.mean((frame.volume_ratios - 1.0) ** 2))) if len(frame.volume_ratios) else 0.0
+    facts = f"{look.settings}   {len(frame.positions)} particles   volume error {100 * error:.1f} % rms"
+    draw.text((size // 2, int(1.55 * size)), facts, fill=INK, font=small)
+    _draw_legend(result, draw, look, small, size)
+    return result
+
+
+def _draw_legend(image: Image.Image, draw: ImageDraw.ImageDraw, look: Look, font, size: int) -> None:
+    width, height = 12 * size, size // 2
+    left, top = image.width - width - size, size // 2
+    if look.scene.pictures.colour == "material":
+        text = "   ".join(look.scene.materials)
+        x = image.width - size - draw.textlength(text, font=font) - 1.2 * size * len(look.scene.materials)
+        for index, name in enumerate(look.scene.materials):
+            colour = tuple(int(c) for c in _MATERIAL_COLOURS[index % len(_MATERIAL_COLOURS)])
+            draw.rectangle((x, top, x + 0.7 * size, top + 0.7 * size), fill=colour)
+            draw.text((x + size, top - 0.2 * size), name, fill=INK, font=font)
+            x += 1.2 * size + draw.textlength(name + "   ", font=font)
+        return
+    ramp = speed_colours(np.linspace(0, 1, width)).astype(np.uint8)
+    image.paste(Image.fromarray(np.broadcast_to(ramp, (height, width, 3)).copy()), (left, top))
+    draw.rectangle((left, top, left + width, top + height), outline=INK)
+    draw.text((left, top + height + size // 5), f"speed 0 to {look.top_speed:.2g} m/s or more", fill=INK, font=font)
+
+
+def save_png(image: Image.Image, path: Path) -> None:
+    """Writes a complete PNG or nothing."""
+    with replace_when_complete(path) as temporary:
+        image.save(temporary, format="PNG")
+
+
+def draw_picture(frame: Frame, look: Look) -> Image.Image:
+    """The picture of one moment."""
+    from .picture2d import draw_2d
+    from .picture3d import draw_3d
+
+    return annotate(draw_2d(frame, look) if frame.dimension == 2 else draw_3d(frame, look), frame, look)

@@ -1,0 +1,315 @@
+"""Scene files: a documented JSON format, checked field by field.
+
+A scene holds everything a run needs: the world, its materials, what fills it, the obstacles and how they move, the
+rate, and when to take pictures. ``samples/scenes/README.md`` describes each field; the classes here are the same
+description in code. Lengths are metres, times seconds, angles radians. Vectors have as many components as the
+scene's ``dimension``. Unknown fields are refused.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Annotated, Any, Literal, Union
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+
+from .errors import InputError
+
+FORMAT_NAME = "pbmpm-scene"
+FORMAT_VERSION = 1
+DEFAULT_PICTURE_COUNT = 5
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0, le=1)]
+Vector = Annotated[list[Finite], Field(min_length=2, max_length=3)]
+PositiveVector = Annotated[list[Positive], Field(min_length=2, max_length=3)]
+Rotation = Union[Finite, Annotated[list[Finite], Field(min_length=4, max_length=4)]]
+
+
+class _Part(BaseModel):
+    """Base of all parts of a scene: unknown fields and wrong types are errors."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
+
+
+class LiquidPart(_Part):
+    """A liquid. Fields and defaults are those of ``pbmpm_material_def``."""
+
+    kind: Literal["liquid"]
+    density: Annotated[float, Field(ge=1e-3, le=1e6)] = 1000.0
+    relaxation: Annotated[float, Field(gt=0, lt=2)] = 1.5
+    viscosity: Share = 0.0
+    volume_feedback: Share = 0.1
+    rebound_max: Annotated[float, Field(gt=0, le=10)] = 0.3
+
+
+class ElasticPart(_Part):
+    """An elastic solid. Fields and defaults are those of ``pbmpm_material_def``."""
+
+    kind: Literal["elastic"]
+    density: Annotated[float, Field(ge=1e-3, le=1e6)] = 1000.0
+    relaxation: Annotated[float, Field(gt=0, lt=2)] = 1.5
+    elasticity_ratio: Share = 1.0
+    strain_policy: Literal["clamp", "delete"] = "clamp"
+    strain_min: Annotated[float, Field(ge=1e-3, le=1)] = 0.1
+    strain_max: Annotated[float, Field(ge=1, le=1e4)] = 20.0
+    condition_max: Annotated[float, Field(ge=10, le=1e6)] = 1e6
+    rebound_max: Annotated[float, Field(gt=0, le=10)] = 0.3
+
+
+MaterialPart = Annotated[Union[LiquidPart, ElasticPart], Field(discriminator="kind")]
+
+
+class PlanePart(_Part):
+    """Half space behind the plane (2D: line) through ``position`` with the outward ``normal``."""
+
+    kind: Literal["plane"]
+    position: Vector
+    normal: Vector
+
+
+class BoxPart(_Part):
+    """Box (2D: rectangle) around ``position``."""
+
+    kind: Literal["box"]
+    position: Vector
+    half_extents: PositiveVector
+    rotation: Rotation = 0.0
+
+
+class SpherePart(_Part):
+    """Ball (2D: disc)."""
+
+    kind: Literal["sphere"]
+    position: Vector
+    radius: Positive
+
+
+class CapsulePart(_Part):
+    """All points within ``radius`` of a segment of ``half_length`` along the local first axis."""
+
+    kind: Literal["capsule"]
+    position: Vector
+    half_length: Annotated[float, Field(ge=0, allow_inf_nan=False)]
+    radius: Positive
+    rotation: Rotation = 0.0
+
+
+SolidPart = Annotated[Union[BoxPart, SpherePart, CapsulePart], Field(discriminator="kind")]
+ObstaclePart = Annotated[Union[PlanePart, BoxPart, SpherePart, CapsulePart], Field(discriminator="kind")]
+
+
+class DomainPart(_Part):
+    """Closed box that holds the matter in."""
+
+    min: Vector
+    max: Vector
+    friction: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+
+
+class FillPart(_Part):
+    """A shape filled with particles of one material on a jittered lattice."""
+
+    shape: SolidPart
+    material: str
+    particles_per_axis: Annotated[float, Field(ge=0.25, le=16)] = 2.0
+    jitter: Share = 0.5
+    velocity: Vector | None = None
+    seed: Annotated[int, Field(ge=0, lt=2**32)] = 1
+
+
+class KeyframePart(_Part):
+    """Where an obstacle is at one time."""
+
+    time: Annotated[float, Field(ge=0, allow_inf_nan=False)]
+    position: Vector
+    rotation: Rotation = 0.0
+
+
+class MotionPart(_Part):
+    """Poses over time, linear between the keyframes; held before the first and after the last, or repeated."""
+
+    keyframes: Annotated[list[KeyframePart], Field(min_length=2)]
+    repeat: bool = False
+
+    @model_validator(mode="after")
+    def _times_rise(self) -> "MotionPart":
+        times = [frame.time for frame in self.keyframes]
+        if any(later <= earlier for earlier, later in zip(times, times[1:])):
+            raise ValueError("the times of the keyframes must rise")
+        return self
+
+
+class ColliderPart(_Part):
+    """An obstacle; with ``motion`` it is kinematic."""
+
+    shape: ObstaclePart
+    friction: Literal["coulomb", "stick", "slip"] = "coulomb"
+    friction_coefficient: Annotated[float, Field(ge=0, le=100)] = 0.2
+    motion: MotionPart | None = None
+
+
+class CameraPart(_Part):
+    """A perspective camera for pictures of 3D scenes."""
+
+    eye: Annotated[list[Finite], Field(min_length=3, max_length=3)]
+    target: Annotated[list[Finite], Field(min_length=3, max_length=3)]
+    field_of_view: Annotated[float, Field(gt=0.05, lt=3.0)] = 0.6
+
+
+class PicturesPart(_Part):
+    """When to take pictures and how they look."""
+
+    times: list[Annotated[float, Field(ge=0, allow_inf_nan=False)]] | None = None
+    colour: Literal["speed", "material"] = "speed"
+    width: Annotated[int, Field(ge=160, le=7680)] = 1280
+    camera: CameraPart | None = None
+
+
+class Scene(_Part):
+    """A whole scene. ``notes`` is filled by importers with what they could not carry over."""
+
+    format: Literal["pbmpm-scene"]
+    version: Literal[1]
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9_.-]+$", max_length=80)]
+    description: str = ""
+    dimension: Literal[2, 3]
+    cell_size: Annotated[float, Field(ge=1e-6, le=1e6)]
+    origin: Vector | None = None
+    gravity: Vector
+    domain: DomainPart | None = None
+    seconds: Positive
+    rate_hz: Annotated[float, Field(ge=0.1, le=1e6)] = 60.0
+    substeps: Annotated[int, Field(ge=1, le=256)] = 1
+    iterations: Annotated[int, Field(ge=1, le=1000)] = 5
+    max_displacement: Annotated[float, Field(ge=0.1, le=64)] = 32.0
+    materials: Annotated[dict[str, MaterialPart], Field(min_length=1)]
+    fills: Annotated[list[FillPart], Field(min_length=1)]
+    colliders: list[ColliderPart] = []
+    pictures: PicturesPart = PicturesPart()
+    notes: list[str] = []
+
+    def picture_times(self, seconds: float) -> list[float]:
+        """The scene's own times up to ``seconds``, or evenly spread ones when it names none."""
+        if self.pictures.times is not None:
+            return [time for time in self.pictures.times if time <= seconds]
+        return [seconds * index / (DEFAULT_PICTURE_COUNT - 1) for index in range(DEFAULT_PICTURE_COUNT)]
+
+
+def load_scene(path: Path) -> Scene:
+    """Reads a scene of our own format or of the EA demo's, told apart by their contents."""
+    from .ea_scene import import_ea_scene, looks_like_ea_scene
+
+    data = _read_json(path)
+    if looks_like_ea_scene(data):
+        return import_ea_scene(data, path.name)
+    return parse_scene(data, str(path))
+
+
+def parse_scene(data: Any, source: str = "scene") -> Scene:
+    """Checks decoded JSON and makes a Scene of it; InputError names each field that is wrong."""
+    if not isinstance(data, dict) or data.get("format") != FORMAT_NAME:
+        raise InputError(f"{source}: not a scene: the field 'format' must be \"{FORMAT_NAME}\"")
+    try:
+        scene = Scene.model_validate(data)
+    except ValidationError as error:
+        raise InputError(_describe(error, data, source)) from None
+    problems = _cross_check(scene)
+    if problems:
+        raise InputError("\n".join(f"{source}: {problem}" for problem in problems))
+    return scene
+
+
+def _read_json(path: Path) -> Any:
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"{path}: cannot be read: {error}") from None
+    try:
+        return json.loads(text)
+    except json.JSONDecodeError as error:
+        raise InputError(f"{path}:{error.lineno}:{error.colno}: not JSON: {error.msg}") from None
+
+
+def _describe(error: ValidationError, data: Any, source: str) -> str:
+    lines = []
+    for item in error.errors():
+        message = item["msg"].removeprefix("Value error, ")
+        if item["type"] == "extra_forbidden":
+            message = "unknown field"
+        elif item["type"] == "missing":
+            message = "this field is required"
+        lines.append(f"{source}: {_field_path(item['loc'], data)}: {message}")
+    return "\n".join(dict.fromkeys(lines))
+
+
+def _field_path(location: tuple[int | str, ...], data: Any) -> str:
+    """The path as the user wrote it: without the names of union members that pydantic puts in between."""
+    path = ""
+    for position, step in enumerate(location):
+        last = position == len(location) - 1
+        known = _holds(data, step)
+        if not known and not (last and isinstance(data, dict) and isinstance(step, str)):
+            continue
+        path += f"[{step}]" if isinstance(step, int) else f".{step}" if path else step
+        data = data[step] if known else None
+    return path or "(whole file)"
+
+
+def _holds(data: Any, step: int | str) -> bool:
+    if isinstance(data, dict):
+        return step in data
+    return isinstance(data, list) and isinstance(step, int) and step < len(data)
+
+
+def _cross_check(scene: Scene) -> list[str]:
+    """What no single field shows: vector lengths, references, domain size."""
+    problems = list(_vector_problems(scene, scene.dimension, ""))
+    for index, fill in enumerate(scene.fills):
+        if fill.material not in scene.materials:
+            known = ", ".join(sorted(scene.materials))
+            problems.append(f"fills[{index}].material: no material is called '{fill.material}' (there are: {known})")
+    for index, collider in enumerate(scene.colliders):
+        if collider.shape.kind == "plane" and math.hypot(*collider.shape.normal) < 1e-6:
+            problems.append(f"colliders[{index}].shape.normal: must not be zero")
+    if scene.domain is not None and not problems:
+        for axis in range(scene.dimension):
+            if scene.domain.max[axis] - scene.domain.min[axis] < 4 * scene.cell_size:
+                problems.append(f"domain.max[{axis}]: must be at least 4 cells above domain.min[{axis}]")
+    return problems
+
+
+def _vector_problems(part: _Part, dimension: int, path: str):
+    """Yields a complaint for each vector or rotation that does not fit the dimension."""
+    for name in type(part).model_fields:
+        value = getattr(part, name)
+        where = f"{path}.{name}" if path else name
+        if isinstance(value, CameraPart):
+            continue
+        if isinstance(value, _Part):
+            yield from _vector_problems(value, dimension, where)
+        elif name == "rotation":
+            yield from _rotation_problems(value, dimension, where)
+        elif isinstance(value, dict):
+            continue
+        elif isinstance(value, list) and value and isinstance(value[0], _Part):
+            for index, item in enumerate(value):
+                yield from _vector_problems(item, dimension, f"{where}[{index}]")
+        elif name in _VECTOR_FIELDS and value is not None and len(value) != dimension:
+            yield f"{where}: needs {dimension} numbers in a scene of dimension {dimension}, has {len(value)}"
+
+
+_VECTOR_FIELDS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity"}
+
+
+def _rotation_problems(value: float | list[float], dimension: int, where: str):
+    if isinstance(value, list):
+        if dimension == 2:
+            yield f"{where}: in 2D this is one angle in radians"
+        elif not 0.5 <= math.hypot(*value) <= 2:
+            yield f"{where}: a quaternion (x, y, z, w) of length 1 is needed"
+    elif dimension == 3 and value != 0:
+        yield f"{where}: in 3D this is a quaternion [x, y, z, w]"

@@ -1,0 +1,103 @@
+"""Solid obstacles."""
+
+from __future__ import annotations
+
+import enum
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._convert import Rotation, Vector, assign, initialised, quaternion, shortest, sized, vector
+from ._ffi import ffi
+from ._library import lib
+from .shapes import Shape, from_c, to_c
+
+if TYPE_CHECKING:
+    from .world import World
+
+
+class Friction(enum.Enum):
+    """How matter moves along a surface."""
+
+    COULOMB = ffi.integer_const("PBMPM_FRICTION_COULOMB")  #: up to the coefficient times the normal impulse
+    STICK = ffi.integer_const("PBMPM_FRICTION_STICK")  #: with the surface, and it cannot leave
+    SLIP = ffi.integer_const("PBMPM_FRICTION_SLIP")  #: freely
+
+
+def definition(
+    shape: Shape, dimension: int, friction: Friction, friction_coefficient: float | None, kinematic: bool
+) -> Any:
+    """The C structure of a collider."""
+    out = initialised("pbmpm_collider_def")
+    out.friction = Friction(friction).value
+    if friction_coefficient is not None:
+        assign(out, "friction_coefficient", friction_coefficient)
+    out.kinematic = bool(kinematic)
+    out.shape = to_c(shape, dimension)[0]
+    return out
+
+
+class Collider:
+    """An obstacle in a world. Made by `World.add_collider()`."""
+
+    __slots__ = ("_world", "_id")
+
+    def __init__(self, world: World, identifier: Any) -> None:
+        self._world = world
+        self._id = identifier
+
+    def _definition(self) -> Any:
+        out = sized("pbmpm_collider_def")
+        out.shape.size = ffi.sizeof("pbmpm_shape")
+        self._world._call(lib.pbmpm_collider_get, self._id, out)
+        return out
+
+    @property
+    def shape(self) -> Shape:
+        """The shape with its current pose; the rotation is a quaternion."""
+        return from_c(self._definition().shape, self._world.dimension)
+
+    @property
+    def friction(self) -> Friction:
+        return Friction(self._definition().friction)
+
+    @property
+    def friction_coefficient(self) -> float:
+        """Coulomb coefficient."""
+        return shortest(self._definition().friction_coefficient)
+
+    @property
+    def kinematic(self) -> bool:
+        """Whether `move()` may move it."""
+        return bool(self._definition().kinematic)
+
+    def move(self, position: Vector, rotation: Rotation | None = None) -> None:
+        """Sets the pose that a kinematic obstacle shall have at the end of the next step; its velocity follows.
+
+        Args:
+            position: shape (d,) [m].
+            rotation: angle [rad] in 2D, or a quaternion (x, y, z, w); None leaves it as it is.
+        """
+        self._set_pose(lib.pbmpm_collider_move, position, rotation)
+
+    def teleport(self, position: Vector, rotation: Rotation | None = None) -> None:
+        """Puts the obstacle somewhere at once, without velocity; static ones too. Arguments as for `move()`."""
+        self._set_pose(lib.pbmpm_collider_teleport, position, rotation)
+
+    def _set_pose(self, function: Any, position: Vector, rotation: Rotation | None) -> None:
+        components = vector("position", position, self._world.dimension)
+        c_position = ffi.new("float[3]", components)
+        c_rotation = ffi.NULL if rotation is None else ffi.new("float[4]", quaternion(rotation))
+        self._world._call(function, self._id, c_position, c_rotation)
+
+    def query(self) -> npt.NDArray[np.uint32]:
+        """Identifiers of the particles inside, deeper than 1/100 cell: shape (n, 2), in storage order."""
+        return self._world._query(lib.pbmpm_query_collider, self._id)
+
+    def destroy(self) -> None:
+        """Removes the obstacle."""
+        self._world._call(lib.pbmpm_collider_destroy, self._id)
+
+    def __repr__(self) -> str:
+        return f"<pbmpm.Collider {self._id.index}:{self._id.generation}>"

@@ -1,0 +1,133 @@
+"""Materials: their parameters, and the handle of a material in a world."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, Union
+
+from ._convert import assign, initialised, shortest, sized
+from ._ffi import ffi
+from ._library import lib
+
+if TYPE_CHECKING:
+    from .world import World
+
+_DEFAULTS = initialised("pbmpm_material_def")
+
+
+def _default(field: str) -> float:
+    return shortest(getattr(_DEFAULTS, field))
+
+
+class StrainPolicy(enum.Enum):
+    """What happens to an elastic particle that is strained beyond all measure."""
+
+    CLAMP = ffi.integer_const("PBMPM_STRAIN_CLAMP")  #: singular values of F stay in [strain_min, strain_max]
+    DELETE = ffi.integer_const("PBMPM_STRAIN_DELETE")  #: deleted, with an event, beyond condition_max
+
+
+@dataclass(frozen=True)
+class Liquid:
+    """Keeps its volume. Defaults are those of the C library.
+
+    Attributes:
+        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
+        relaxation: share of the volume error removed per iteration, in (0, 2).
+        viscosity: share of the deviatoric strain rate removed per iteration, in [0, 1]. Acts as a kinematic viscosity
+            of iterations * viscosity * cell_size^2 / (8 * substep length).
+        volume_feedback: share per substep by which the volume ratio follows the volume measured on the grid where
+            that shows compression, in [0, 1].
+        rebound_max: bound of the strain that a correction may add per iteration, in (0, 10].
+    """
+
+    density: float = _default("density")
+    relaxation: float = _default("relaxation")
+    viscosity: float = _default("viscosity")
+    volume_feedback: float = _default("volume_feedback")
+    rebound_max: float = _default("rebound_max")
+
+
+@dataclass(frozen=True)
+class Elastic:
+    """Keeps its shape and its volume. Defaults are those of the C library.
+
+    Attributes:
+        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
+        relaxation: share of the constraint error removed per iteration, in (0, 2).
+        elasticity_ratio: blend of keeping the shape (1) and keeping only the volume (0).
+        strain_policy: what happens beyond all measure of strain.
+        strain_min: lower bound of the singular values of F, in [1e-3, 1].
+        strain_max: upper bound, in [1, 1e4].
+        condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
+        rebound_max: bound of the strain that a correction may add per iteration, in (0, 10].
+    """
+
+    density: float = _default("density")
+    relaxation: float = _default("relaxation")
+    elasticity_ratio: float = _default("elasticity_ratio")
+    strain_policy: StrainPolicy = StrainPolicy(_DEFAULTS.strain_policy)
+    strain_min: float = _default("strain_min")
+    strain_max: float = _default("strain_max")
+    condition_max: float = _default("condition_max")
+    rebound_max: float = _default("rebound_max")
+
+
+Parameters = Union[Liquid, Elastic]
+
+_KINDS: dict[type, int] = {
+    Liquid: ffi.integer_const("PBMPM_LIQUID"),
+    Elastic: ffi.integer_const("PBMPM_ELASTIC"),
+}
+
+
+def to_c(parameters: Parameters) -> Any:
+    """The C structure of a material."""
+    if type(parameters) not in _KINDS:
+        raise TypeError(f"a Liquid or an Elastic is needed, not {type(parameters).__name__}")
+    out = initialised("pbmpm_material_def")
+    out.kind = _KINDS[type(parameters)]
+    for item in fields(parameters):
+        value = getattr(parameters, item.name)
+        assign(out, item.name, value.value if isinstance(value, StrainPolicy) else value)
+    return out
+
+
+def from_c(definition: Any) -> Parameters:
+    """The parameters in a C structure."""
+    kind = Liquid if definition.kind == _KINDS[Liquid] else Elastic
+    values: dict[str, Any] = {item.name: getattr(definition, item.name) for item in fields(kind)}
+    return kind(**{n: StrainPolicy(v) if n == "strain_policy" else shortest(v) for n, v in values.items()})
+
+
+class Material:
+    """A material in a world. Made by `World.add_material()`."""
+
+    __slots__ = ("_world", "_id")
+
+    def __init__(self, world: World, identifier: Any) -> None:
+        self._world = world
+        self._id = identifier
+
+    @property
+    def index(self) -> int:
+        """What `World.material_indices` shows for particles of this material."""
+        return self._id.index
+
+    @property
+    def parameters(self) -> Parameters:
+        """The current parameters. Setting them takes effect with the next step; kind and density cannot change."""
+        definition = sized("pbmpm_material_def")
+        self._world._call(lib.pbmpm_material_get, self._id, definition)
+        return from_c(definition)
+
+    @parameters.setter
+    def parameters(self, value: Parameters) -> None:
+        self._world._call(lib.pbmpm_material_set, self._id, to_c(value))
+
+    def destroy(self) -> None:
+        """Removes the material; InUseError while particles refer to it."""
+        self._world._call(lib.pbmpm_material_destroy, self._id)
+
+    def __repr__(self) -> str:
+        return f"<pbmpm.Material {self._id.index}:{self._id.generation}>"

@@ -1,0 +1,93 @@
+"""What a step cost, what state it left, and what happened in it."""
+
+from __future__ import annotations
+
+import enum
+from dataclasses import dataclass, fields
+from typing import Any
+
+from ._convert import plain
+from ._ffi import ffi
+
+
+@dataclass(frozen=True)
+class Stats:
+    """Figures of the last step; before the first all are 0 but the counts. Times are of the whole step (all substeps),
+    state is that at its end. Momenta are relative to the world's origin; in 2D only the third component of the angular
+    momentum is used."""
+
+    particle_count: int  #: live particles
+    step_count: int  #: steps since creation
+    simulated_seconds: float  #: since creation
+    memory_bytes: int  #: held by the world
+    particle_blocks: int  #: blocks of 4^d cells with particles
+    node_blocks: int  #: blocks of 4^d nodes that they touch
+    contacts: int  #: node-obstacle pairs in the last substep
+    substeps: int  #: of the step
+    iterations: int  #: per substep
+    thread_count: int  #: shares the work was cut into
+    ms_total: float  #: wall time of the step [ms]
+    ms_sort: float  #: ... of which binning and reordering
+    ms_scatter: float  #: first particle-to-grid transfer and predictor
+    ms_contacts: float  #: finding nodes near obstacles
+    ms_iterate: float  #: the iterations
+    ms_integrate: float  #: last grid-to-particle transfer, integration, guards
+    volume_error_rms: float  #: root mean square of |J - 1| over particles
+    volume_error_max: float  #: largest |J - 1|
+    max_speed: float  #: [m/s]
+    max_displacement: float  #: largest displacement of the last substep [cells]
+    mass: float  #: [kg]
+    momentum: tuple[float, float, float]  #: [kg m/s]
+    angular_momentum: tuple[float, float, float]  #: about the origin [kg m^2/s]
+    kinetic_energy: float  #: translation of particles [J]
+    potential_energy: float  #: in gravity, relative to the origin [J]
+    cell_changes: float  #: share of particles that left their cell in the last substep
+    lane_occupancy: float  #: share of SIMD lanes that held a particle
+    deleted_total: int  #: particles deleted by the library since creation
+    clamped_total: int  #: times a particle was slowed to max_displacement since creation
+
+
+class EventKind(enum.Enum):
+    """What happened."""
+
+    DELETED_NOT_FINITE = ffi.integer_const("PBMPM_EVENT_DELETED_NOT_FINITE")  #: its state was NaN or infinite
+    DELETED_OUT_OF_RANGE = ffi.integer_const("PBMPM_EVENT_DELETED_OUT_OF_RANGE")  #: too far from the origin
+    DELETED_CONDITION = ffi.integer_const("PBMPM_EVENT_DELETED_CONDITION")  #: strained beyond condition_max
+    SPEED_CLAMPED = ffi.integer_const("PBMPM_EVENT_SPEED_CLAMPED")  #: slowed to max_displacement
+    CAPACITY = ffi.integer_const("PBMPM_EVENT_CAPACITY")  #: a call asked for more particles than there is room for
+
+
+@dataclass(frozen=True)
+class Event:
+    """Something that happened to particles in the last step or in a call since then.
+
+    Attributes:
+        kind: what.
+        count: how many particles (deletions: always 1).
+        particle: identifier (index, generation) of the particle, or of the first one.
+        position: where [m], one number per axis.
+        substep: in which substep of the step.
+        step: `Stats.step_count` when it happened.
+    """
+
+    kind: EventKind
+    count: int
+    particle: tuple[int, int]
+    position: tuple[float, ...]
+    substep: int
+    step: int
+
+
+def stats_from_c(stats: Any) -> Stats:
+    return Stats(**{item.name: plain(getattr(stats, item.name)) for item in fields(Stats)})
+
+
+def event_from_c(event: Any, dimension: int) -> Event:
+    return Event(
+        kind=EventKind(event.kind),
+        count=event.count,
+        particle=(event.particle.index, event.particle.generation),
+        position=tuple(event.position)[:dimension],
+        substep=event.substep,
+        step=event.step,
+    )

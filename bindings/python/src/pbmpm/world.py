@@ -1,0 +1,497 @@
+"""Worlds: matter, obstacles, settings and the step."""
+
+from __future__ import annotations
+
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import colliders, materials, shapes
+from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, plain, pointer, shortest, sized
+from ._ffi import ffi
+from ._handle import WorldHandle
+from ._library import lib
+from .colliders import Collider, Friction
+from .errors import CapacityError, ClosedError, InvalidArgumentError, check
+from .materials import Material, Parameters
+from .shapes import Shape
+from .stats import Event, Stats, event_from_c, stats_from_c
+from .views import MATRICES, Field, View
+
+#: Identifiers of particles: shape (n, 2), index and generation. A generation alone is unique in a process.
+Ids = npt.NDArray[np.uint32]
+
+
+class World:
+    """A world of liquid and elastic matter.
+
+    Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one
+    number per axis. Everything that does not fit raises a `PbmpmError`, and the world is then as it was before.
+
+    Use it as a context manager, or call `close()`; a forgotten world is destroyed when it is collected. Calls release
+    Python's global lock: different worlds may step at the same time in different threads; a second thread in the same
+    world gets a BusyError.
+
+    Args:
+        dimension: 2 or 3.
+        cell_size: grid spacing [m].
+        capacity: hard limit of the number of particles; memory for them is taken at once.
+        gravity: acceleration [m/s^2].
+        domain: lower and upper corner [m] of a closed box that holds matter in; None: unbounded.
+        domain_friction: Coulomb coefficient of the box's walls.
+        origin: what positions are relative to [m]; for the caller's own conversion.
+        memory_budget: bytes that the world may hold at once; 0: no limit.
+        threads: threads that share the work, counting the caller; 0: one per core. Results do not depend on it.
+        substeps, iterations, max_displacement: see the properties.
+
+    Arguments left at None take the C library's defaults.
+    """
+
+    def __init__(
+        self,
+        dimension: int | None = None,
+        cell_size: float | None = None,
+        *,
+        capacity: int | None = None,
+        gravity: Vector | None = None,
+        domain: tuple[Vector, Vector] | None = None,
+        domain_friction: float | None = None,
+        origin: Vector | None = None,
+        memory_budget: int | None = None,
+        threads: int | None = None,
+        substeps: int | None = None,
+        iterations: int | None = None,
+        max_displacement: float | None = None,
+    ) -> None:
+        self._handle: WorldHandle | None = None
+        definition = initialised("pbmpm_world_def")
+        numbers = {
+            "dimension": dimension,
+            "cell_size": cell_size,
+            "particle_capacity": capacity,
+            "domain_friction": domain_friction,
+            "memory_budget": memory_budget,
+            "thread_count": threads,
+        }
+        for name, value in numbers.items():
+            if value is not None:
+                assign(definition, name, value)
+        axes = definition.dimension if definition.dimension in (2, 3) else 3
+        if origin is not None:
+            assign_vector(definition, "origin", origin, axes)
+        if domain is not None:
+            definition.domain_enabled = 1
+            lower, upper = domain
+            assign_vector(definition, "domain_min", lower, axes)
+            assign_vector(definition, "domain_max", upper, axes)
+        self._handle = WorldHandle(definition)
+        self._dimension: int = definition.dimension
+        self._change_settings(
+            gravity=gravity, substeps=substeps, iterations=iterations, max_displacement=max_displacement
+        )
+
+    # Life
+
+    def close(self) -> None:
+        """Ends the use of the world; further calls raise ClosedError. A second close does nothing.
+
+        Its memory is released at once, or, when views or arrays over it are still alive, with the last of them.
+        """
+        self._handle = None
+
+    @property
+    def closed(self) -> bool:
+        return self._handle is None
+
+    def __enter__(self) -> World:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        if self._handle is None:
+            return "<pbmpm.World, closed>"
+        return f"<pbmpm.World {self._dimension}D, cell size {self.cell_size} m, {len(self)} particles>"
+
+    def _call(self, function: Any, *arguments: Any) -> WorldHandle:
+        """Calls a function of the C library with this world. The handle cannot be destroyed meanwhile, for this frame
+        holds it, and it is returned for those who want to go on holding it."""
+        handle = self._handle
+        if handle is None:
+            raise ClosedError("the world has been closed")
+        check(function(handle.id, *arguments))
+        return handle
+
+    def _number(self, function: Any, ctype: str, *arguments: Any) -> int:
+        """Calls a function whose last parameter receives a number."""
+        out = ffi.new(f"{ctype} *")
+        self._call(function, *arguments, out)
+        return int(out[0])
+
+    # What the world was made of
+
+    def _definition(self) -> Any:
+        definition = sized("pbmpm_world_def")
+        self._call(lib.pbmpm_world_get_def, definition)
+        return definition
+
+    @property
+    def dimension(self) -> int:
+        """2 or 3."""
+        return self._dimension
+
+    @property
+    def cell_size(self) -> float:
+        """Grid spacing [m]."""
+        return shortest(self._definition().cell_size)
+
+    @property
+    def capacity(self) -> int:
+        """Hard limit of the number of particles."""
+        return self._definition().particle_capacity
+
+    @property
+    def domain(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
+        """Lower and upper corner [m] of the closed box; None when unbounded."""
+        definition = self._definition()
+        if not definition.domain_enabled:
+            return None
+        return plain(definition.domain_min)[: self._dimension], plain(definition.domain_max)[: self._dimension]
+
+    @property
+    def domain_friction(self) -> float:
+        """Coulomb coefficient of the box's walls."""
+        return shortest(self._definition().domain_friction)
+
+    @property
+    def origin(self) -> tuple[float, ...]:
+        """What positions are relative to [m]."""
+        return plain(self._definition().origin)[: self._dimension]
+
+    @property
+    def memory_budget(self) -> int:
+        """Bytes that the world may hold at once; 0: no limit."""
+        return self._definition().memory_budget
+
+    @property
+    def threads(self) -> int:
+        """Threads as asked for at creation; 0: one per core."""
+        return self._definition().thread_count
+
+    # Settings
+
+    def _settings(self) -> Any:
+        settings = sized("pbmpm_settings")
+        self._call(lib.pbmpm_world_get_settings, settings)
+        return settings
+
+    def _change_settings(self, gravity: Vector | None = None, **numbers: float | None) -> None:
+        settings = self._settings()
+        if gravity is not None:
+            assign_vector(settings, "gravity", gravity, self._dimension)
+        for name, value in numbers.items():
+            if value is not None:
+                assign(settings, name, value)
+        self._call(lib.pbmpm_world_set_settings, settings)
+
+    @property
+    def gravity(self) -> tuple[float, ...]:
+        """Acceleration [m/s^2]. Settings take effect with the next step."""
+        return plain(self._settings().gravity)[: self._dimension]
+
+    @gravity.setter
+    def gravity(self, value: Vector) -> None:
+        self._change_settings(gravity=value)
+
+    @property
+    def substeps(self) -> int:
+        """Equal parts that a step is cut into."""
+        return self._settings().substeps
+
+    @substeps.setter
+    def substeps(self, value: int) -> None:
+        self._change_settings(substeps=value)
+
+    @property
+    def iterations(self) -> int:
+        """Rounds of projection and transfer per substep."""
+        return self._settings().iterations
+
+    @iterations.setter
+    def iterations(self, value: int) -> None:
+        self._change_settings(iterations=value)
+
+    @property
+    def max_displacement(self) -> float:
+        """Largest displacement of a particle per substep [cells]; faster ones are slowed to it, with an event."""
+        return shortest(self._settings().max_displacement)
+
+    @max_displacement.setter
+    def max_displacement(self, value: float) -> None:
+        self._change_settings(max_displacement=value)
+
+    # Matter
+
+    def add_material(self, parameters: Parameters) -> Material:
+        """Adds a material: a `Liquid` or an `Elastic`."""
+        out = ffi.new("pbmpm_material_id *")
+        self._call(lib.pbmpm_material_create, materials.to_c(parameters), out)
+        return Material(self, out[0])
+
+    def add_particles(
+        self,
+        material: Material,
+        positions: npt.ArrayLike,
+        velocities: npt.ArrayLike | None = None,
+        volumes: npt.ArrayLike | None = None,
+    ) -> Ids:
+        """Adds particles from arrays: all of them or none.
+
+        Args:
+            material: their material.
+            positions: shape (n, d) [m], relative to the origin, inside the domain.
+            velocities: shape (n, d) [m/s]; None: at rest.
+            volumes: rest volumes, one number or shape (n,) [m^d]; None: (cell_size / 2)^d.
+
+        Returns:
+            Their identifiers, shape (n, 2).
+        """
+        place = floats("positions", positions, (-1, self._dimension))
+        count = len(place)
+        speed = None if velocities is None else floats("velocities", velocities, (count, self._dimension))
+        definition = initialised("pbmpm_particles_def")
+        sizes = None
+        if volumes is not None and np.ndim(volumes) == 0:
+            if not float(volumes) > 0:  # type: ignore[arg-type]
+                raise InvalidArgumentError(f"volumes: {volumes} is not greater than 0")
+            assign(definition, "volume", volumes)
+        elif volumes is not None:
+            sizes = floats("volumes", volumes, (count,))
+        pointers = [pointer("float", array) for array in (place, speed, sizes)]
+        definition.count, definition.material = count, self._id_of(material)
+        definition.positions, definition.velocities, definition.volumes = pointers
+        ids = np.empty((count, 2), np.uint32)
+        self._call(lib.pbmpm_particles_add, definition, pointer("pbmpm_particle_id", ids, writable=True))
+        return ids
+
+    def fill(
+        self,
+        shape: Shape,
+        material: Material,
+        *,
+        particles_per_axis: float | None = None,
+        jitter: float | None = None,
+        seed: int | None = None,
+        velocity: Vector | None = None,
+    ) -> int:
+        """Fills a shape (not a plane) with particles on a jittered lattice.
+
+        Args:
+            shape: what to fill; lattice points outside the domain are left out.
+            material: of the particles.
+            particles_per_axis: lattice points per cell and axis, in [0.25, 16]; default 2.
+            jitter: random offset as a share of the lattice spacing, in [0, 1]; default 0.5.
+            seed: of the jitter; equal seeds give equal particles.
+            velocity: of every particle [m/s]; default at rest.
+
+        Returns:
+            How many particles were added.
+
+        Raises:
+            CapacityError: there is no room; nothing was added, and the message says how many the shape needs.
+        """
+        definition = initialised("pbmpm_fill_def")
+        definition.material = self._id_of(material)
+        definition.shape = shapes.to_c(shape, self._dimension)[0]
+        numbers = {"particles_per_axis": particles_per_axis, "jitter": jitter, "seed": seed}
+        for name, value in numbers.items():
+            if value is not None:
+                assign(definition, name, value)
+        if velocity is not None:
+            assign_vector(definition, "velocity", velocity, self._dimension)
+        added = ffi.new("uint32_t *")
+        try:
+            self._call(lib.pbmpm_particles_fill, definition, added)
+        except CapacityError as error:
+            raise CapacityError(f"{error.message} (the shape needs {added[0]} particles)") from None
+        return added[0]
+
+    def remove(self, ids: npt.ArrayLike) -> None:
+        """Removes particles, shape (n, 2); with an unknown identifier none is removed."""
+        array = identifiers(ids)
+        self._call(lib.pbmpm_particles_remove, pointer("pbmpm_particle_id", array), len(array))
+
+    def remove_in(self, shape: Shape) -> int:
+        """Removes all particles inside a shape and says how many."""
+        return self._number(lib.pbmpm_particles_remove_in, "uint32_t", shapes.to_c(shape, self._dimension))
+
+    def find(self, ids: npt.ArrayLike) -> npt.NDArray[np.uint32]:
+        """The rows, shape (n,), at which particles with these identifiers stand in the views of now."""
+        array = identifiers(ids)
+        rows = np.empty(len(array), np.uint32)
+        pointers = pointer("pbmpm_particle_id", array), len(array), pointer("uint32_t", rows, writable=True)
+        self._call(lib.pbmpm_particles_find, *pointers)
+        return rows
+
+    def query(self, shape: Shape) -> Ids:
+        """Identifiers of the particles inside a shape, shape (n, 2), in storage order."""
+        return self._query(lib.pbmpm_query_shape, shapes.to_c(shape, self._dimension))
+
+    def _query(self, function: Any, what: Any) -> Ids:
+        room = np.empty((len(self), 2), np.uint32)
+        found = self._number(function, "uint32_t", what, pointer("pbmpm_particle_id", room, writable=True), len(room))
+        return room[:found].copy()
+
+    def __len__(self) -> int:
+        """Number of live particles."""
+        return self._number(lib.pbmpm_particles_count, "uint32_t")
+
+    def __bool__(self) -> bool:
+        return True
+
+    def _id_of(self, material: Material) -> Any:
+        if not isinstance(material, Material):
+            raise TypeError(f"material: a Material is needed (World.add_material), not {type(material).__name__}")
+        return material._id
+
+    # Fields of the particles
+
+    def view(self, field: Field) -> View:
+        """A view of a field; it expires with the next change."""
+        return View(self, Field(field))
+
+    def set(self, field: Field, values: npt.ArrayLike, ids: npt.ArrayLike | None = None) -> None:
+        """Writes a field of some particles, or of all of them in storage order.
+
+        Args:
+            field: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid) or DEFORMATION (elastic).
+            values: one row per particle, shaped as in the view.
+            ids: shape (n, 2); None: all particles.
+        """
+        field = Field(field)
+        chosen = None if ids is None else identifiers(ids)
+        count = len(self) if chosen is None else len(chosen)
+        columns: tuple[int, ...] = (self._dimension,) if field in (Field.POSITION, Field.VELOCITY) else ()
+        if field in MATRICES:
+            columns = (self._dimension, self._dimension)
+        array = floats(field.name.lower(), values, (count, *columns))
+        pointers = pointer("pbmpm_particle_id", chosen), count, pointer("float", array)
+        self._call(lib.pbmpm_particles_set, field.value, *pointers)
+
+    @property
+    def positions(self) -> View:
+        """Positions, shape (n, d) [m], relative to the origin. Assigning writes those of all particles."""
+        return self.view(Field.POSITION)
+
+    @positions.setter
+    def positions(self, values: npt.ArrayLike) -> None:
+        self.set(Field.POSITION, values)
+
+    @property
+    def velocities(self) -> View:
+        """Velocities, shape (n, d) [m/s]. Assigning writes those of all particles."""
+        return self.view(Field.VELOCITY)
+
+    @velocities.setter
+    def velocities(self, values: npt.ArrayLike) -> None:
+        self.set(Field.VELOCITY, values)
+
+    @property
+    def affine_velocities(self) -> View:
+        """Velocity gradients, shape (n, d, d) [1/s]. Assigning writes those of all particles."""
+        return self.view(Field.AFFINE_VELOCITY)
+
+    @affine_velocities.setter
+    def affine_velocities(self, values: npt.ArrayLike) -> None:
+        self.set(Field.AFFINE_VELOCITY, values)
+
+    @property
+    def volume_ratios(self) -> View:
+        """Volume relative to the rest volume, shape (n,): J, or det F of elastic matter as of its last step."""
+        return self.view(Field.VOLUME_RATIO)
+
+    @property
+    def deformations(self) -> View:
+        """Deformation gradients F, shape (n, d, d); needs an elastic material in the world."""
+        return self.view(Field.DEFORMATION)
+
+    @property
+    def material_indices(self) -> View:
+        """`Material.index` of each particle, shape (n,)."""
+        return self.view(Field.MATERIAL)
+
+    @property
+    def ids(self) -> View:
+        """Identifiers, shape (n, 2): index and generation."""
+        return self.view(Field.PARTICLE)
+
+    @property
+    def masses(self) -> View:
+        """Masses, shape (n,) [kg] (2D: per metre of depth)."""
+        return self.view(Field.MASS)
+
+    # Obstacles
+
+    def add_collider(
+        self,
+        shape: Shape,
+        *,
+        friction: Friction = Friction.COULOMB,
+        friction_coefficient: float | None = None,
+        kinematic: bool = False,
+    ) -> Collider:
+        """Adds an obstacle.
+
+        Args:
+            shape: with its pose.
+            friction: how matter moves along its surface.
+            friction_coefficient: Coulomb coefficient, in [0, 100].
+            kinematic: whether `Collider.move()` may move it.
+        """
+        definition = colliders.definition(shape, self._dimension, friction, friction_coefficient, kinematic)
+        out = ffi.new("pbmpm_collider_id *")
+        self._call(lib.pbmpm_collider_create, definition, out)
+        return Collider(self, out[0])
+
+    # The step
+
+    def step(self, dt: float) -> None:
+        """Advances the world by `dt` seconds, in (0, 10], in `substeps` equal parts. Expires all views."""
+        self._call(lib.pbmpm_world_step, dt)
+
+    @property
+    def generation(self) -> int:
+        """A number that changes with every call that moves, adds or removes particles."""
+        return self._number(lib.pbmpm_world_generation, "uint64_t")
+
+    @property
+    def stats(self) -> Stats:
+        """Figures of the last step."""
+        stats = sized("pbmpm_stats")
+        self._call(lib.pbmpm_world_get_stats, stats)
+        return stats_from_c(stats)
+
+    @property
+    def events(self) -> list[Event]:
+        """What happened in the last step and in calls since then, as far as the library kept it."""
+        return self._events()[0]
+
+    @property
+    def events_missed(self) -> int:
+        """How many events of the last step are not in `events` for want of room."""
+        return self._events()[1]
+
+    def _events(self) -> tuple[list[Event], int]:
+        events, numbers = ffi.new("pbmpm_event **"), ffi.new("uint32_t[2]")
+        self._call(lib.pbmpm_world_events, events, numbers, numbers + 1)
+        return [event_from_c(events[0][i], self._dimension) for i in range(numbers[0])], numbers[1]
+
+    def hash(self) -> int:
+        """64-bit hash of the state of all particles. Equal for the same calls on the same library and instruction
+        set, for any number of threads."""
+        return self._number(lib.pbmpm_world_hash, "uint64_t")
