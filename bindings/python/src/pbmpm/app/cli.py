@@ -1,0 +1,157 @@
+"""The ``pbmpm`` command.
+
+Exit codes: 0 all is well; 1 a check failed; 2 the command line or a file cannot be used; 130 interrupted.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+from pathlib import Path
+from typing import Any
+
+import click
+
+from .errors import InputError
+
+EXIT_CHECK_FAILED = 1
+EXIT_USAGE = 2
+EXIT_INTERRUPTED = 130
+
+JSON_HELP = "Write the figures as JSON to this file, or to standard output with '-'."
+
+
+@click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
+@click.version_option(package_name="pbmpm", message="pbmpm %(version)s")
+def cli() -> None:
+    """Simulate liquids and elastic solids with the Position Based Material Point Method, and measure the result."""
+
+
+def main() -> None:
+    """Entry point of the console script."""
+    import pbmpm
+
+    try:
+        cli.main(standalone_mode=False)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except (InputError, pbmpm.PbmpmError) as error:
+        print(f"pbmpm: {error}", file=sys.stderr)
+        sys.exit(EXIT_USAGE)
+    except (click.Abort, KeyboardInterrupt):
+        sys.exit(EXIT_INTERRUPTED)
+
+
+def emit_json(data: dict[str, Any], target: str | None) -> None:
+    """Writes a report where ``--json`` says; nothing without the option."""
+    from .files import write_json
+
+    if target == "-":
+        print(json.dumps(data, indent=2, allow_nan=False))
+    elif target is not None:
+        write_json(data, Path(target))
+
+
+class TimeList(click.ParamType):
+    """Times in seconds separated by commas."""
+
+    name = "t1,t2,..."
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
+        try:
+            times = [float(part) for part in str(value).split(",") if part.strip()]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of times like 0,0.5,1", param, ctx)
+        if not all(0 <= time < float("inf") for time in times):
+            self.fail("times must be finite and not negative", param, ctx)
+        return times
+
+
+@cli.command()
+@click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
+@click.option("--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]")
+@click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]")
+@click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]")
+@click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]")
+@click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
+@click.option("--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for files.  [default: NAME-output]")
+@click.option("--ply", is_flag=True, help="Write a PLY file per frame.")
+@click.option("--vtk", is_flag=True, help="Write a VTU file per frame and a PVD index for ParaView.")
+@click.option("--every", type=click.IntRange(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
+@click.option("--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]")
+@click.option("--warmup-steps", type=click.IntRange(0), default=0, show_default=True, help="First steps to leave out of the timing.")
+@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options: Any) -> None:
+    """Simulate a scene file, ours or one of the EA demo.
+
+    Files are written only with --output, --ply, --vtk or --pictures. Ctrl-C ends the run after the current step and
+    leaves complete files.
+    """
+    from .runner import run_scene
+    from .scene import load_scene
+
+    scene = load_scene(scene_file)
+    for note in scene.notes:
+        click.echo(f"note: {note}", err=True)
+    settings, seconds = _settings(scene, options)
+    if warmup_steps >= seconds * settings.rate_hz:
+        raise InputError("--warmup-steps: leaves no step to measure")
+    output = _output(scene, settings, seconds, options)
+    result = run_scene(scene, settings, seconds, output, warmup_steps)
+    emit_json(result.report, json_target)
+    if json_target != "-":
+        click.echo(_summary(result.report))
+        if output.folder is not None:
+            click.echo(f"files: {output.folder}")
+    for problem in result.problems:
+        click.echo(f"check failed: {problem}", err=True)
+    if result.interrupted:
+        sys.exit(EXIT_INTERRUPTED)
+    if result.problems:
+        sys.exit(EXIT_CHECK_FAILED)
+
+
+def _settings(scene, options: dict[str, Any]):
+    from .simulation import RunSettings
+
+    settings = RunSettings(
+        options["rate"] or scene.rate_hz,
+        options["substeps"] or scene.substeps,
+        options["iterations"] or scene.iterations,
+        options["threads"],
+    )
+    return settings, options["seconds"] or scene.seconds
+
+
+def _output(scene, settings, seconds: float, options: dict[str, Any]):
+    from .runner import OutputOptions
+
+    wanted = options["pictures"]
+    if options["output"] is None and not (options["ply"] or options["vtk"] or wanted):
+        return OutputOptions()
+    folder = options["output"] or Path(f"{scene.name}-output")
+    times = scene.picture_times(seconds) if wanted is None else wanted
+    late = [time for time in times if time > seconds]
+    if late:
+        raise InputError(f"--pictures: {late[0]:g} s is after the end of the run at {seconds:g} s")
+    every = options["every"] or max(1, round(settings.rate_hz / 30))
+    return OutputOptions(folder, options["ply"], options["vtk"], every, times)
+
+
+def _summary(report: dict[str, Any]) -> str:
+    """The report for a person."""
+    rate = report["million_particle_iterations_per_second"]
+    lines = [
+        f"{report['scene']}: {report['particles']} particles, {report['simulated_seconds']:.3f} s in {report['steps']} steps"
+        f" of {report['substeps']} x {report['iterations']} iterations{' (interrupted)' if report['interrupted'] else ''}",
+        f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
+        f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",
+    ]
+    if rate is not None:
+        machine = report["machine"]
+        lines.append(
+            f"{report['ms_per_simulated_second']:.0f} ms per simulated second, {rate:.1f} million particle-iterations/s"
+            f" ({machine['isa']}, {machine['threads']} threads, {machine['cpu']})"
+        )
+    return "\n".join(lines)
