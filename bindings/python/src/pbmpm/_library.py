@@ -69,8 +69,12 @@ def check_layout(own: Layout, theirs: Layout) -> None:
     """Compares what this package expects with what the library has.
 
     A newer library may have appended fields to a structure that begins with its size; everything else must be equal.
+    The error names the first field that differs: the library's table lists structures before those that contain them.
     """
-    for (structure, field), expected in own.items():
+    order = {structure: i for i, (structure, _) in enumerate(theirs)}
+    fields_first = sorted(own, key=lambda entry: (order.get(entry[0], len(order)), entry[1] == ""))
+    for structure, field in fields_first:
+        expected = own[structure, field]
         found = theirs.get((structure, field))
         grown = found is not None and not field and found[1] > expected[1] and (structure, "size") in own
         if found != expected and not grown:
@@ -115,7 +119,7 @@ def load() -> Any:
         check_layout(own_layout(ffi), library_layout(ffi, library))
     except LibraryError as problem:
         raise LibraryError(f"{problem} (library: {path})") from None
-    except (OSError, AttributeError) as problem:
+    except (OSError, AttributeError, ffi.error) as problem:
         raise LibraryError(f"pbmpm: cannot load the shared library {path}: {problem}") from problem
     return library
 
