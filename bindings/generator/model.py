@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any
 
 
 class Kind(Enum):
@@ -115,7 +116,7 @@ class Api:
     constants: tuple[Constant, ...]
     declarations: tuple[Declaration, ...]
 
-    def _select(self, kind: type) -> tuple:
+    def _select(self, kind: type) -> tuple[Any, ...]:
         return tuple(item for item in self.declarations if isinstance(item, kind))
 
     @property

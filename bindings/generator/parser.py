@@ -52,12 +52,12 @@ class _Preprocessor(pcpp.Preprocessor):
         self.headers = folder
         self.add_path(str(folder))
 
-    def on_include_not_found(self, is_malformed, is_system_include, curdir, includepath):
+    def on_include_not_found(self, is_malformed: bool, is_system_include: bool, curdir: str, includepath: str) -> None:
         if is_system_include and not is_malformed:
             raise pcpp.OutputDirective(pcpp.Action.IgnoreAndRemove)
         raise ParseError(f"cannot find the header {includepath!r} in {self.headers}")
 
-    def on_error(self, file, line, msg):
+    def on_error(self, file: str, line: int, msg: str) -> None:
         raise ParseError(f"{file}:{line}: {msg}")
 
     def numbers(self) -> Iterator[Constant]:

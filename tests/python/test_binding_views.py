@@ -92,9 +92,7 @@ def test_arrays_are_read_only(filled: pbmpm.World) -> None:
         lambda world: world.remove(world.ids[:1]),
         lambda world: world.remove_in(pbmpm.Sphere([1.0] * world.dimension, 10)),
         lambda world: world.set(Field.VELOCITY, np.zeros(world.velocities.shape)),
-        lambda world: world.fill(
-            pbmpm.Sphere([1.0] * world.dimension, 0.2), world.add_material(pbmpm.Liquid())
-        ),
+        lambda world: world.fill(pbmpm.Sphere([1.0] * world.dimension, 0.2), world.add_material(pbmpm.Liquid())),
     ],
     ids=["step", "remove", "remove_in", "set", "fill"],
 )
@@ -167,4 +165,4 @@ def test_closing_with_live_arrays(world: pbmpm.World, water: pbmpm.Material) -> 
 
 def test_deformation_needs_an_elastic_material(pool: pbmpm.World) -> None:
     with pytest.raises(pbmpm.UnsupportedError):
-        pool.deformations
+        pool.view(Field.DEFORMATION)

@@ -74,7 +74,7 @@ def test_materials(world: pbmpm.World, parameters: pbmpm.Liquid | pbmpm.Elastic)
     assert material.parameters == changed
     material.destroy()
     with pytest.raises(pbmpm.InvalidIdError):
-        material.parameters
+        material.destroy()
 
 
 def test_strain_policy(world: pbmpm.World) -> None:

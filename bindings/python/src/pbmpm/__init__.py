@@ -40,7 +40,8 @@ __version__ = version_text(_lib.pbmpm_version())
 
 def isa() -> str:
     """The instruction set of the kernels in use ("AVX2"). The environment variable PBMPM_ISA may lower the choice."""
-    return _ffi.string(_lib.pbmpm_isa_name(_lib.pbmpm_active_isa())).decode()
+    name: str = _ffi.string(_lib.pbmpm_isa_name(_lib.pbmpm_active_isa())).decode()
+    return name
 
 
 __all__ = [

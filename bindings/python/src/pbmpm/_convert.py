@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Any, Union
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -15,9 +15,9 @@ from ._library import lib
 from .errors import InvalidArgumentError, check
 
 #: One number per axis of the world.
-Vector = Union[Sequence[float], npt.NDArray[Any]]
+Vector = Sequence[float] | npt.NDArray[Any]
 #: An angle [rad] about the third axis (all that 2D has), or a unit quaternion (x, y, z, w).
-Rotation = Union[float, Sequence[float], npt.NDArray[Any]]
+Rotation = float | Sequence[float] | npt.NDArray[Any]
 
 
 def sized(name: str) -> Any:
@@ -63,7 +63,8 @@ def vector(name: str, value: Vector, dimension: int) -> list[float]:
     array = np.asarray(value, dtype=np.float64)
     if array.shape != (dimension,):
         raise InvalidArgumentError(f"{name}: {dimension} numbers are needed, not an array of shape {array.shape}")
-    return array.tolist()
+    components: list[float] = array.tolist()
+    return components
 
 
 def assign_vector(structure: Any, field: str, value: Vector, dimension: int) -> None:
@@ -84,14 +85,15 @@ def quaternion(rotation: Rotation) -> list[float]:
 
 
 def floats(name: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float32]:
-    """A packed array of 32-bit floats with the given shape; -1 stands for any length."""
+    """A packed array of 32-bit floats with the given shape; -1 as its first number stands for
+    any length."""
     try:
         with np.errstate(over="ignore"):  # becomes infinity, which the library refuses
             array = np.ascontiguousarray(values, dtype=np.float32)
     except (TypeError, ValueError) as problem:
         raise InvalidArgumentError(f"{name}: {problem}") from None
-    fits = array.ndim == len(shape) and all(want in (-1, has) for want, has in zip(shape, array.shape))
-    if not fits:
+    wanted_shape = (*array.shape[:1], *shape[1:]) if shape[0] == -1 else shape
+    if array.shape != wanted_shape:
         wanted = str(shape).replace("-1", "n")
         raise InvalidArgumentError(f"{name}: an array of shape {wanted} is needed, not {array.shape}")
     return array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any, Union
+from typing import TYPE_CHECKING, Any
 
 from ._convert import assign, initialised, shortest, sized
 from ._ffi import ffi
@@ -73,7 +73,7 @@ class Elastic:
     rebound_max: float = _default("rebound_max")
 
 
-Parameters = Union[Liquid, Elastic]
+Parameters = Liquid | Elastic
 
 _KINDS: dict[type, int] = {
     Liquid: ffi.integer_const("PBMPM_LIQUID"),
@@ -96,8 +96,10 @@ def to_c(parameters: Parameters) -> Any:
 def from_c(definition: Any) -> Parameters:
     """The parameters in a C structure."""
     kind = Liquid if definition.kind == _KINDS[Liquid] else Elastic
-    values: dict[str, Any] = {item.name: getattr(definition, item.name) for item in fields(kind)}
-    return kind(**{n: StrainPolicy(v) if n == "strain_policy" else shortest(v) for n, v in values.items()})
+    values: dict[str, Any] = {item.name: shortest(getattr(definition, item.name)) for item in fields(kind)}
+    if kind is Elastic:
+        values["strain_policy"] = StrainPolicy(definition.strain_policy)
+    return kind(**values)
 
 
 class Material:
@@ -112,7 +114,7 @@ class Material:
     @property
     def index(self) -> int:
         """What `World.material_indices` shows for particles of this material."""
-        return self._id.index
+        return int(self._id.index)
 
     @property
     def parameters(self) -> Parameters:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Union
+from typing import Any
 
 from ._convert import Rotation, Vector, assign, assign_vector, initialised, plain, quaternion, shortest
 from ._ffi import ffi
@@ -70,7 +70,7 @@ class Capsule:
     rotation: Rotation = 0.0
 
 
-Shape = Union[Plane, Box, Sphere, Capsule]
+Shape = Plane | Box | Sphere | Capsule
 
 _KINDS: dict[type, int] = {
     Plane: ffi.integer_const("PBMPM_PLANE"),

@@ -129,6 +129,8 @@ class View:
 def _wrap(handle: WorldHandle, field: Field, dimension: int, view: Any) -> npt.NDArray[Any]:
     """A NumPy array over the memory that a C view describes."""
     step = view.component_stride
+    shape: tuple[int, ...]
+    strides: tuple[int, ...]
     if field in MATRICES:
         shape, strides = (view.count, dimension, dimension), (view.stride, dimension * step, step)
     elif field in _SCALARS:

@@ -133,6 +133,10 @@ class World:
         self._call(function, *arguments, out)
         return int(out[0])
 
+    def _vector(self, components: Any) -> tuple[float, ...]:
+        """A vector of a C structure, which always has three components."""
+        return tuple(plain(components)[: self._dimension])
+
     # What the world was made of
 
     def _definition(self) -> Any:
@@ -153,7 +157,7 @@ class World:
     @property
     def capacity(self) -> int:
         """Hard limit of the number of particles."""
-        return self._definition().particle_capacity
+        return int(self._definition().particle_capacity)
 
     @property
     def domain(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:
@@ -161,7 +165,7 @@ class World:
         definition = self._definition()
         if not definition.domain_enabled:
             return None
-        return plain(definition.domain_min)[: self._dimension], plain(definition.domain_max)[: self._dimension]
+        return self._vector(definition.domain_min), self._vector(definition.domain_max)
 
     @property
     def domain_friction(self) -> float:
@@ -171,17 +175,17 @@ class World:
     @property
     def origin(self) -> tuple[float, ...]:
         """What positions are relative to [m]."""
-        return plain(self._definition().origin)[: self._dimension]
+        return self._vector(self._definition().origin)
 
     @property
     def memory_budget(self) -> int:
         """Bytes that the world may hold at once; 0: no limit."""
-        return self._definition().memory_budget
+        return int(self._definition().memory_budget)
 
     @property
     def threads(self) -> int:
         """Threads as asked for at creation; 0: one per core."""
-        return self._definition().thread_count
+        return int(self._definition().thread_count)
 
     # Settings
 
@@ -202,7 +206,7 @@ class World:
     @property
     def gravity(self) -> tuple[float, ...]:
         """Acceleration [m/s^2]. Settings take effect with the next step."""
-        return plain(self._settings().gravity)[: self._dimension]
+        return self._vector(self._settings().gravity)
 
     @gravity.setter
     def gravity(self, value: Vector) -> None:
@@ -211,7 +215,7 @@ class World:
     @property
     def substeps(self) -> int:
         """Equal parts that a step is cut into."""
-        return self._settings().substeps
+        return int(self._settings().substeps)
 
     @substeps.setter
     def substeps(self, value: int) -> None:
@@ -220,7 +224,7 @@ class World:
     @property
     def iterations(self) -> int:
         """Rounds of projection and transfer per substep."""
-        return self._settings().iterations
+        return int(self._settings().iterations)
 
     @iterations.setter
     def iterations(self, value: int) -> None:
@@ -319,7 +323,7 @@ class World:
             self._call(lib.pbmpm_particles_fill, definition, added)
         except CapacityError as error:
             raise CapacityError(f"{error.message} (the shape needs {added[0]} particles)") from None
-        return added[0]
+        return int(added[0])
 
     def remove(self, ids: npt.ArrayLike) -> None:
         """Removes particles, shape (n, 2); with an unknown identifier none is removed."""
