@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib.metadata
 import os
 import re
 import subprocess
@@ -113,6 +114,14 @@ def test_another_library_is_refused() -> None:
 def test_the_environment_variable_chooses_the_library() -> None:
     result = import_with(pbmpm.library_path(), "import pbmpm; print(pbmpm.library_path())")
     assert result.stdout.strip() == str(pbmpm.library_path())
+
+
+def test_one_wheel_for_all_pythons_holds_the_library() -> None:
+    package = importlib.metadata.distribution("pbmpm")
+    assert "Tag: py3-none-" in (package.read_text("WHEEL") or "")
+    assert pbmpm.__version__ == package.version
+    shipped = {str(file) for file in package.files or ()}
+    assert {f"pbmpm/{pbmpm.library_path().name}", "pbmpm/_ffi.py", "pbmpm/py.typed"} <= shipped
 
 
 def test_the_instruction_set_has_a_name() -> None:

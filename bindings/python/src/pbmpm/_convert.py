@@ -35,8 +35,8 @@ def initialised(name: str) -> Any:
 
 
 def plain(value: Any) -> Any:
-    """A field of a C structure as a Python value: arrays become tuples, floats lose the digits that a 32-bit float
-    does not have (0.1 instead of 0.10000000149)."""
+    """A field of a C structure as a Python value: a number as it is, an array as a tuple (of the shortest numbers if
+    it holds 32-bit floats)."""
     if isinstance(value, ffi.CData):
         shorten = ffi.typeof(value).item.cname == "float"
         return tuple(shortest(item) if shorten else item for item in value)
@@ -44,7 +44,7 @@ def plain(value: Any) -> Any:
 
 
 def shortest(value: float) -> float:
-    """The shortest decimal number that is the same 32-bit float."""
+    """The shortest decimal number that is the same 32-bit float: 0.1 instead of 0.10000000149."""
     return float(str(np.float32(value)))
 
 
