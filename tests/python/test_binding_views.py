@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm import Field
+from pbmpm import Field, views
+from pbmpm._ffi import ffi
 
 
 def scattered(dimension: int, count: int = 20) -> np.ndarray:
@@ -68,6 +69,33 @@ def test_matrices_are_row_major(filled: pbmpm.World) -> None:
     rows = filled.find(ids)
     np.testing.assert_allclose(filled.affine_velocities[rows], matrices, rtol=1e-6)
     np.testing.assert_allclose(filled.deformations[rows], matrices, rtol=1e-6)
+
+
+@pytest.mark.parametrize("by_component", [False, True], ids=["by particle", "by component"])
+@pytest.mark.parametrize(
+    ("field", "shape"),
+    [
+        (Field.VELOCITY, (5, 3)),
+        (Field.DEFORMATION, (5, 3, 3)),
+        (Field.VOLUME_RATIO, (5,)),
+        (Field.PARTICLE, (5, 2)),
+        (Field.MATERIAL, (5,)),
+    ],
+)
+def test_strides_of_any_storage(field: Field, shape: tuple[int, ...], by_component: bool) -> None:
+    dtype = np.uint32 if field in (Field.PARTICLE, Field.MATERIAL) else np.float32
+    values = np.arange(np.prod(shape), dtype=dtype).reshape(shape)
+    rows = values.reshape(5, -1)
+    storage = np.zeros((rows.shape[1], 8) if by_component else (8, rows.shape[1] + 3), dtype)
+    window = storage[:, :5].T if by_component else storage[:5, : rows.shape[1]]
+    window[:] = rows
+    view = ffi.new("pbmpm_view *")
+    view.count, view.components = rows.shape
+    view.stride, view.component_stride = window.strides
+    view.data = ffi.cast("void *", storage.ctypes.data)
+    array = views._wrap(storage, field, 3, view)
+    assert array.dtype == dtype and array.ctypes.data == storage.ctypes.data
+    np.testing.assert_array_equal(array, values)
 
 
 def test_an_array_is_the_memory_itself(filled: pbmpm.World) -> None:
