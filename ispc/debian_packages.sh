@@ -35,6 +35,7 @@ open_cache() {
     exec 9>"$CACHE/.lock"
     flock -w 900 9 || fail "another set-up has held $CACHE/.lock for 15 minutes"
     NEW=$CACHE/.new
+    trap 'rm -rf "$NEW" "$NEW.o" "$NEW.log"' EXIT
     rm -rf "$NEW"; mkdir -p "$NEW/root"
 }
 
@@ -107,7 +108,7 @@ download() {
     say "reading the index of Debian '$SUITE' ($ARCH) from this machine's archive"
     own_apt update apt-get -q update ||
         fail "could not read Debian '$SUITE'; full text: $APT/log/update.log" \
-            "if a key is missing, upgrade the package debian-archive-keyring"
+            "if a key is missing, upgrade the package debian-archive-keyring" "$OTHER_WAY"
     say "downloading $2"
     rm -f "$APT"/archives/*.deb
     case $1 in

@@ -23,17 +23,14 @@ END
 compiles() {
     [ -x "$CACHE/ispc/bin/ispc" ] &&
         echo 'export void f(uniform float a[], uniform int n) { foreach (i = 0 ... n) a[i] = sqrt(a[i]); }' |
-        "$CACHE/ispc/bin/ispc" --pic -O2 --target=sse4-i32x4 - -o "$CACHE/.probe.o" >"$CACHE/.probe.log" 2>&1
+            "$CACHE/ispc/bin/ispc" --pic -O2 --target=sse4-i32x4 - -o "$NEW.o" >"$NEW.log" 2>&1
 }
 
 open_cache "${1:?usage: provision.sh CACHE}"
-if compiles; then
-    rm -rf "$NEW"
-    exit 0
-fi
+compiles && exit 0
 fetch_package closure ispc
 (cd "$NEW/root" && rm -rf usr/share etc var sbin usr/sbin usr/lib/*/gconv usr/lib/*/perl*)
 write_launcher
 keep ispc
-compiles || { cat "$CACHE/.probe.log" >&2; fail "the unpacked ISPC does not run here" "$OTHER_WAY"; }
+compiles || { cat "$NEW.log" >&2; fail "the unpacked ISPC does not run here" "$OTHER_WAY"; }
 say "$("$CACHE/ispc/bin/ispc" --version) is in $CACHE/ispc"
