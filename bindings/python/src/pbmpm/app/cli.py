@@ -5,7 +5,6 @@ Exit codes: 0 all is well; 1 a check failed; 2 the command line or a file cannot
 
 from __future__ import annotations
 
-import json
 import sys
 from pathlib import Path
 from typing import Any
@@ -45,10 +44,10 @@ def main() -> None:
 
 def emit_json(data: dict[str, Any], target: str | None) -> None:
     """Writes a report where ``--json`` says; nothing without the option."""
-    from .files import write_json
+    from .files import json_text, write_json
 
     if target == "-":
-        print(json.dumps(data, indent=2, allow_nan=False))
+        print(json_text(data))
     elif target is not None:
         write_json(data, Path(target))
 
@@ -155,3 +154,74 @@ def _summary(report: dict[str, Any]) -> str:
             f" ({machine['isa']}, {machine['threads']} threads, {machine['cpu']})"
         )
     return "\n".join(lines)
+
+
+class NumberList(click.ParamType):
+    """Numbers above zero separated by commas."""
+
+    name = "n1,n2,..."
+
+    def __init__(self, kind: type, highest: float) -> None:
+        self._kind, self._highest = kind, highest
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
+        if isinstance(value, list):
+            return value
+        try:
+            numbers = [self._kind(part) for part in str(value).split(",")]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of numbers like 30,60,120", param, ctx)
+        if not all(0 < number <= self._highest for number in numbers):
+            self.fail(f"numbers must be above 0 and at most {self._highest:g}", param, ctx)
+        return sorted(set(numbers))
+
+
+@cli.command()
+@click.argument("case", required=False, type=click.Choice(["dam-break", "column"]))
+@click.option("--rates", type=NumberList(float, 1e5), default="30,60,120,240,480", show_default=True, help="Steps per second.")
+@click.option("--iterations", type=NumberList(int, 1000), default="1,2,5,10", show_default=True, help="Iterations per step.")
+@click.option("--quick", is_flag=True, help="Judge stability over 5 s instead of 20 s, and 30, 60, 240 Hz x 1, 5, 10 only.")
+@click.option("--width", type=click.FloatRange(1e-3, 1e3), help="Dam break: width of the column [m]; the experiment's is 0.05715.  [default: 1]")
+@click.option("--cells", type=click.IntRange(4, 256), help="Cells over the column's width (dam break) or height (column).")
+@click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
+@click.option("--chart", type=click.Path(path_type=Path, dir_okay=False), help="PNG to write.  [default: accuracy-CASE.png]")
+@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+def accuracy(case: str | None, json_target: str | None, chart: Path | None, **options: Any) -> None:
+    """Compare a CASE with experiment or theory over rates and iterations: error against milliseconds.
+
+    dam-break: front and height of a collapsing column against Martin and Moyce (1952), by Froude similarity at the
+    given width. column: settled height and volume of water at rest against the solver's own law. Without CASE: both.
+    Exit code 1 when a setting is not stable.
+    """
+    from .accuracy.sweep import sweep, table, without_curves
+    from .accuracy.chart import save_chart
+
+    if case is None and chart is not None:
+        raise InputError("--chart: needs a CASE; without one the charts are called accuracy-CASE.png")
+    rates, iterations = options["rates"], options["iterations"]
+    if options["quick"]:
+        rates, iterations = [30.0, 60.0, 240.0], [1, 5, 10]
+    reports = []
+    for item in _cases(case, options):
+        report = sweep(item, rates, iterations, options["threads"])
+        picture = chart or Path(f"accuracy-{item.name}.png")
+        save_chart(report, picture)
+        if json_target != "-":
+            click.echo(f"{item.name}: cell {report['cell_size']:.4g} m; stable: {report['stable_means']}")
+            click.echo(table(report))
+            click.echo(f"chart: {picture}\n")
+        reports.append(without_curves(report))
+    emit_json(reports[0] if case is not None else {"cases": reports}, json_target)
+    if not all(row["stable"] for report in reports for row in report["rows"]):
+        sys.exit(EXIT_CHECK_FAILED)
+
+
+def _cases(name: str | None, options: dict[str, Any]) -> list[Any]:
+    from .accuracy.column import Column
+    from .accuracy.dam_break import DamBreak
+
+    size = {} if options["cells"] is None else {"cells": options["cells"]}
+    width = {} if options["width"] is None else {"width": options["width"]}
+    quick = {"stability_seconds": 5.0} if options["quick"] else {}
+    cases = {"dam-break": DamBreak(**size, **width, **quick), "column": Column(**size)}
+    return [cases[name]] if name is not None else list(cases.values())

@@ -1,0 +1,1 @@
+"""What accuracy costs: reference cases swept over rate and iterations, error against milliseconds."""
