@@ -1,0 +1,234 @@
+#include "calls.h"
+
+static pbmpm_result call_get_def(const target *ids)
+{
+    pbmpm_world_def def = {.size = sizeof def};
+    return pbmpm_world_get_def(ids->world, &def);
+}
+
+static pbmpm_result call_get_settings(const target *ids)
+{
+    pbmpm_settings settings = {.size = sizeof settings};
+    return pbmpm_world_get_settings(ids->world, &settings);
+}
+
+static pbmpm_result call_set_settings(const target *ids)
+{
+    pbmpm_settings settings;
+    pbmpm_settings_init(&settings, sizeof settings);
+    return pbmpm_world_set_settings(ids->world, &settings);
+}
+
+static pbmpm_result call_step(const target *ids)
+{
+    return pbmpm_world_step(ids->world, 0.001f);
+}
+
+static pbmpm_result call_generation(const target *ids)
+{
+    uint64_t generation;
+    return pbmpm_world_generation(ids->world, &generation);
+}
+
+static pbmpm_result call_hash(const target *ids)
+{
+    uint64_t hash;
+    return pbmpm_world_hash(ids->world, &hash);
+}
+
+static pbmpm_result call_get_stats(const target *ids)
+{
+    pbmpm_stats stats = {.size = sizeof stats};
+    return pbmpm_world_get_stats(ids->world, &stats);
+}
+
+static pbmpm_result call_events(const target *ids)
+{
+    const pbmpm_event *events;
+    uint32_t count, missed;
+    return pbmpm_world_events(ids->world, &events, &count, &missed);
+}
+
+static pbmpm_result call_material_create(const target *ids)
+{
+    pbmpm_material_def def;
+    pbmpm_material_id material;
+    pbmpm_material_def_init(&def, sizeof def);
+    return pbmpm_material_create(ids->world, &def, &material);
+}
+
+static pbmpm_result call_material_get(const target *ids)
+{
+    pbmpm_material_def def = {.size = sizeof def};
+    return pbmpm_material_get(ids->world, ids->material, &def);
+}
+
+static pbmpm_result call_material_set(const target *ids)
+{
+    pbmpm_material_def def;
+    pbmpm_material_def_init(&def, sizeof def);
+    def.kind = PBMPM_ELASTIC;
+    return pbmpm_material_set(ids->world, ids->material, &def);
+}
+
+static pbmpm_result call_material_destroy(const target *ids)
+{
+    return pbmpm_material_destroy(ids->world, ids->spare);
+}
+
+static pbmpm_result call_collider_create(const target *ids)
+{
+    pbmpm_collider_def def;
+    pbmpm_collider_id collider;
+    pbmpm_collider_def_init(&def, sizeof def);
+    return pbmpm_collider_create(ids->world, &def, &collider);
+}
+
+static pbmpm_result call_collider_get(const target *ids)
+{
+    pbmpm_collider_def def = {.size = sizeof def};
+    return pbmpm_collider_get(ids->world, ids->collider, &def);
+}
+
+static pbmpm_result call_collider_move(const target *ids)
+{
+    const float position[3] = {0.5f, 0.5f, 0};
+    return pbmpm_collider_move(ids->world, ids->collider, position, NULL);
+}
+
+static pbmpm_result call_collider_teleport(const target *ids)
+{
+    const float position[3] = {0.5f, 0.25f, 0};
+    return pbmpm_collider_teleport(ids->world, ids->collider, position, NULL);
+}
+
+static pbmpm_result call_query_collider(const target *ids)
+{
+    uint32_t count;
+    return pbmpm_query_collider(ids->world, ids->collider, NULL, 0, &count);
+}
+
+static pbmpm_result call_collider_destroy(const target *ids)
+{
+    return pbmpm_collider_destroy(ids->world, ids->collider);
+}
+
+static pbmpm_result call_particles_add(const target *ids)
+{
+    const float position[2] = {1.5f, 1.5f};
+    pbmpm_particles_def def;
+    pbmpm_particles_def_init(&def, sizeof def);
+    def.material = ids->material;
+    def.count = 1;
+    def.positions = position;
+    return pbmpm_particles_add(ids->world, &def, NULL);
+}
+
+static pbmpm_result call_particles_fill(const target *ids)
+{
+    pbmpm_fill_def fill;
+    pbmpm_fill_def_init(&fill, sizeof fill);
+    fill.material = ids->material;
+    fill.shape.position[0] = fill.shape.position[1] = 1.5f;
+    fill.shape.half_extents[0] = fill.shape.half_extents[1] = 0.1f;
+    return pbmpm_particles_fill(ids->world, &fill, NULL);
+}
+
+static pbmpm_result call_particles_count(const target *ids)
+{
+    uint32_t count;
+    return pbmpm_particles_count(ids->world, &count);
+}
+
+static pbmpm_result call_particles_view(const target *ids)
+{
+    pbmpm_view view = {.size = sizeof view};
+    return pbmpm_particles_view(ids->world, PBMPM_POSITION, &view);
+}
+
+static pbmpm_result call_particles_set(const target *ids)
+{
+    const float velocity[2] = {0.5f, 0.25f};
+    return pbmpm_particles_set(ids->world, PBMPM_VELOCITY, &ids->particle, 1, velocity);
+}
+
+static pbmpm_result call_particles_find(const target *ids)
+{
+    uint32_t row;
+    return pbmpm_particles_find(ids->world, &ids->particle, 1, &row);
+}
+
+static pbmpm_result call_query_shape(const target *ids)
+{
+    pbmpm_shape shape;
+    uint32_t count;
+    pbmpm_shape_init(&shape, sizeof shape);
+    return pbmpm_query_shape(ids->world, &shape, NULL, 0, &count);
+}
+
+static pbmpm_result call_particles_remove(const target *ids)
+{
+    return pbmpm_particles_remove(ids->world, &ids->particle, 1);
+}
+
+static pbmpm_result call_particles_remove_in(const target *ids)
+{
+    pbmpm_shape shape;
+    pbmpm_shape_init(&shape, sizeof shape);
+    return pbmpm_particles_remove_in(ids->world, &shape, NULL);
+}
+
+static pbmpm_result call_world_destroy(const target *ids)
+{
+    return pbmpm_world_destroy(ids->world);
+}
+
+const world_call world_calls[] = {
+    {"pbmpm_world_get_def", call_get_def, 0},
+    {"pbmpm_world_get_settings", call_get_settings, 0},
+    {"pbmpm_world_set_settings", call_set_settings, 0},
+    {"pbmpm_world_step", call_step, 0},
+    {"pbmpm_world_generation", call_generation, 0},
+    {"pbmpm_world_hash", call_hash, 0},
+    {"pbmpm_world_get_stats", call_get_stats, 0},
+    {"pbmpm_world_events", call_events, 0},
+    {"pbmpm_material_create", call_material_create, 0},
+    {"pbmpm_material_get", call_material_get, USES_MATERIAL},
+    {"pbmpm_material_set", call_material_set, USES_MATERIAL},
+    {"pbmpm_material_destroy", call_material_destroy, USES_SPARE},
+    {"pbmpm_collider_create", call_collider_create, 0},
+    {"pbmpm_collider_get", call_collider_get, USES_COLLIDER},
+    {"pbmpm_collider_move", call_collider_move, USES_COLLIDER},
+    {"pbmpm_collider_teleport", call_collider_teleport, USES_COLLIDER},
+    {"pbmpm_query_collider", call_query_collider, USES_COLLIDER},
+    {"pbmpm_collider_destroy", call_collider_destroy, USES_COLLIDER},
+    {"pbmpm_particles_add", call_particles_add, USES_MATERIAL},
+    {"pbmpm_particles_fill", call_particles_fill, USES_MATERIAL},
+    {"pbmpm_particles_count", call_particles_count, 0},
+    {"pbmpm_particles_view", call_particles_view, 0},
+    {"pbmpm_particles_set", call_particles_set, USES_PARTICLE},
+    {"pbmpm_particles_find", call_particles_find, USES_PARTICLE},
+    {"pbmpm_query_shape", call_query_shape, 0},
+    {"pbmpm_particles_remove", call_particles_remove, USES_PARTICLE},
+    {"pbmpm_particles_remove_in", call_particles_remove_in, 0},
+    {"pbmpm_world_destroy", call_world_destroy, 0},
+};
+const int world_call_count = (int)(sizeof world_calls / sizeof *world_calls);
+
+target target_create(scene_tweak *tweak, void *user)
+{
+    pbmpm_world_def def = default_world(2, 0.1f, 2048);
+    def.domain_enabled = 1;
+    for (int a = 0; a < 3; a++)
+        def.domain_max[a] = 2;
+    if (tweak)
+        tweak(&def, user);
+    target made = {.world = create_world(&def)};
+    made.material = create_material(made.world, PBMPM_ELASTIC);
+    made.spare = create_material(made.world, PBMPM_LIQUID);
+    made.collider = create_collider(made.world, box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f), true);
+    fill_shape(made.world, made.material, box_shape(1, 1, 0, 0.4f, 0.4f, 0.5f), (const float[3]){0.5f, 0, 0});
+    const pbmpm_view identity = view_of(made.world, PBMPM_PARTICLE);
+    made.particle = (pbmpm_particle_id){view_uint(&identity, 7, 0), view_uint(&identity, 7, 1)};
+    return made;
+}

@@ -1,0 +1,314 @@
+/* Hard limits: capacities, the memory budget, and an allocator that fails at any one call. */
+#include <stdio.h>
+#include <string.h>
+
+#include "calls.h"
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    pbmpm_shutdown();
+}
+
+/* ---- capacities ---- */
+
+static void test_particles_stop_at_the_capacity(void)
+{
+    enum { CAPACITY = 10 };
+    static const float positions[2 * (CAPACITY + 1)];
+    const pbmpm_world_def def = default_world(2, 0.1f, CAPACITY);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particles_def particles;
+    pbmpm_particle_id ids[CAPACITY];
+    pbmpm_event event = {0};
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    particles.material = create_material(world, PBMPM_LIQUID);
+    particles.positions = positions;
+    particles.count = CAPACITY + 1;
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world, &particles, NULL));
+    TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+    TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_CAPACITY, &event));
+    TEST_ASSERT_EQUAL_UINT32(CAPACITY + 1, event.count);
+    particles.count = CAPACITY;
+    OK(pbmpm_particles_add(world, &particles, ids));
+    particles.count = 1;
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world, &particles, NULL));
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_particles_remove(world, &ids[3], 1));
+    OK(pbmpm_particles_add(world, &particles, &ids[3]));
+    TEST_ASSERT_EQUAL_UINT32(CAPACITY, world_count(world));
+}
+
+static void test_fill_says_how_many_it_needs(void)
+{
+    const pbmpm_world_def small = default_world(2, 0.1f, 50), large = default_world(2, 0.1f, 5000);
+    const pbmpm_world_id tight = create_world(&small), roomy = create_world(&large);
+    pbmpm_fill_def fill;
+    uint32_t needed = 0, added = 0;
+    OK(pbmpm_fill_def_init(&fill, sizeof fill));
+    fill.material = create_material(tight, PBMPM_LIQUID);
+    const snapshot before = snapshot_take(tight);
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(tight, &fill, &needed));
+    snapshot_expect_same(&before, tight, "fill beyond the capacity");
+    fill.material = create_material(roomy, PBMPM_LIQUID);
+    OK(pbmpm_particles_fill(roomy, &fill, &added));
+    TEST_ASSERT_EQUAL_UINT32(added, needed);
+}
+
+static void test_materials_stop_at_their_limit(void)
+{
+    const pbmpm_world_def def = default_world(2, 0.1f, 10);
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_def material = default_material(PBMPM_LIQUID);
+    pbmpm_material_id ids[PBMPM_MAX_MATERIALS], more = {1, 1};
+    for (int i = 0; i < PBMPM_MAX_MATERIALS; i++)
+        OK(pbmpm_material_create(world, &material, &ids[i]));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_material_create(world, &material, &more));
+    OK(pbmpm_material_destroy(world, ids[100]));
+    OK(pbmpm_material_create(world, &material, &more));
+}
+
+static void test_colliders_stop_at_their_limit(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_collider_def def;
+    pbmpm_collider_id ids[PBMPM_MAX_COLLIDERS], more;
+    OK(pbmpm_collider_def_init(&def, sizeof def));
+    def.shape = sphere_shape(0.5f, 0.1f, 0, 0.05f);
+    for (int i = 0; i < PBMPM_MAX_COLLIDERS; i++)
+        OK(pbmpm_collider_create(world, &def, &ids[i]));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_collider_create(world, &def, &more));
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_collider_destroy(world, ids[1000]));
+    OK(pbmpm_collider_create(world, &def, &more));
+}
+
+static void test_worlds_stop_at_their_limit(void)
+{
+    static pbmpm_world_id ids[PBMPM_MAX_WORLDS];
+    const pbmpm_world_def def = default_world(2, 0.1f, 1);
+    pbmpm_world_id more = {7, 7};
+    for (int i = 0; i < PBMPM_MAX_WORLDS; i++)
+        ids[i] = create_world(&def);
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_world_create(&def, &more));
+    TEST_ASSERT_TRUE(more.index == 0 && more.generation == 0);
+    OK(pbmpm_world_destroy(ids[512]));
+    OK(pbmpm_world_create(&def, &more));
+}
+
+/* ---- memory budget ---- */
+
+typedef struct limits {
+    ledger book;
+    uint64_t budget;
+    int32_t thread_count;
+} limits;
+
+static void use_limits(pbmpm_world_def *def, void *user)
+{
+    limits *given = user;
+    def->allocator = ledger_allocator(&given->book);
+    def->memory_budget = given->budget;
+    if (given->thread_count)
+        def->thread_count = given->thread_count;
+}
+
+/* A pool that spreads over a wide floor: its grid grows for many steps. */
+static pbmpm_world_id spreading_pool(limits *given)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 4096);
+    use_limits(&def, given);
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+    fill_shape(world, water, box_shape(0, 0.5f, 0, 0.5f, 0.5f, 0.5f), (const float[3]){0, 0, 0});
+    set_gravity(world, 0, -9.81f, 0);
+    return world;
+}
+
+static void test_the_budget_is_never_exceeded(void)
+{
+    limits open = {.budget = 0};
+    const pbmpm_world_id unlimited = spreading_pool(&open);
+    const uint64_t at_first = open.book.live_bytes;
+    for (int i = 0; i < 100; i++)
+        OK(pbmpm_world_step(unlimited, 0.01f));
+    const uint64_t needed = open.book.peak_bytes;
+    TEST_ASSERT_TRUE(needed > at_first);
+    OK(pbmpm_world_destroy(unlimited));
+
+    for (int part = 0; part <= 8; part++) {
+        limits given = {.budget = at_first + (needed - at_first) * (uint64_t)part / 8};
+        const pbmpm_world_id world = spreading_pool(&given);
+        int refused = 0;
+        for (int i = 0; i < 100; i++) {
+            const snapshot before = snapshot_take(world);
+            const pbmpm_result result = pbmpm_world_step(world, 0.01f);
+            if (result == PBMPM_OK)
+                continue;
+            TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, result);
+            TEST_ASSERT_EQUAL_HEX64(before.hash, world_hash(world)); /* one substep: it was not begun */
+            refused++;
+        }
+        TEST_ASSERT_TRUE(given.book.peak_bytes <= given.budget);
+        TEST_ASSERT_TRUE(part == 8 ? refused == 0 : part > 0 || refused > 0);
+        OK(pbmpm_world_destroy(world));
+        ledger_expect_clean(&given.book, "budget");
+    }
+}
+
+static void test_a_budget_too_small_for_the_world(void)
+{
+    ledger book = {0};
+    pbmpm_world_def def = default_world(3, 0.1f, 1000);
+    pbmpm_world_id world;
+    def.allocator = ledger_allocator(&book);
+    world = create_world(&def);
+    const uint64_t needed = book.live_bytes;
+    OK(pbmpm_world_destroy(world));
+    for (uint64_t part = 0; part < 16; part++) {
+        def.memory_budget = 1 + (needed - 2) * part / 15; /* from 1 to one byte too few */
+        EXPECT(PBMPM_ERROR_OUT_OF_MEMORY, pbmpm_world_create(&def, &world));
+        TEST_ASSERT_TRUE(world.index == 0 && world.generation == 0);
+        ledger_expect_clean(&book, "small budget");
+    }
+    def.memory_budget = needed;
+    OK(pbmpm_world_create(&def, &world));
+}
+
+/* ---- failing allocations ---- */
+
+enum { STORY_STEPS = 6 };
+
+/* Repeats a call that was refused for want of memory, once: the failure was a single one. */
+#define TRY(call)                                                                                                                            \
+    do {                                                                                                                                     \
+        result = (call);                                                                                                                     \
+        if (result == PBMPM_ERROR_OUT_OF_MEMORY && !book->sticky)                                                                            \
+            result = (call);                                                                                                                 \
+        if (result != PBMPM_OK)                                                                                                              \
+            return result;                                                                                                                   \
+    } while (0)
+
+/* The life of a world, with every call that may allocate. The hash at the end goes to *hash. */
+static pbmpm_result live(ledger *book, int32_t thread_count, pbmpm_world_id *world, uint64_t *hash)
+{
+    pbmpm_world_def def = default_world(2, 0.1f, 4096);
+    pbmpm_material_def liquid = default_material(PBMPM_LIQUID), elastic = default_material(PBMPM_ELASTIC);
+    pbmpm_collider_def ground;
+    pbmpm_collider_id collider;
+    pbmpm_particles_def arrays;
+    pbmpm_fill_def fill;
+    pbmpm_result result;
+    const float position[2] = {0, 2};
+    def.allocator = ledger_allocator(book);
+    def.thread_count = thread_count;
+    OK(pbmpm_collider_def_init(&ground, sizeof ground));
+    OK(pbmpm_particles_def_init(&arrays, sizeof arrays));
+    OK(pbmpm_fill_def_init(&fill, sizeof fill));
+    ground.shape = plane_shape(0, -0.5f, 0, 0, 1, 0);
+    TRY(pbmpm_world_create(&def, world));
+    TRY(pbmpm_material_create(*world, &liquid, &fill.material));
+    TRY(pbmpm_particles_fill(*world, &fill, NULL));
+    TRY(pbmpm_world_step(*world, 0.01f));
+    TRY(pbmpm_material_create(*world, &elastic, &arrays.material));
+    TRY(pbmpm_collider_create(*world, &ground, &collider));
+    arrays.count = 1;
+    arrays.positions = position;
+    TRY(pbmpm_particles_add(*world, &arrays, NULL));
+    for (int i = 0; i < STORY_STEPS; i++) {
+        TRY(pbmpm_world_step(*world, 0.02f));
+        fill.shape.position[0] += 1.5f; /* new blocks each time */
+        TRY(pbmpm_particles_fill(*world, &fill, NULL));
+    }
+    TRY(pbmpm_particles_remove_in(*world, &fill.shape, NULL));
+    return pbmpm_world_hash(*world, hash);
+}
+#undef TRY
+
+/* Lets allocation k = 1, 2, ... fail until none is left to fail. */
+static void check_failures(bool sticky, int32_t thread_count)
+{
+    enum { BOUND = 2000 };
+    uint64_t right_hash = 0;
+    ledger plain = {0};
+    pbmpm_world_id world = {0, 0};
+    OK(live(&plain, thread_count, &world, &right_hash));
+    OK(pbmpm_world_destroy(world));
+    ledger_expect_clean(&plain, "no failure");
+    for (uint64_t k = 1; k <= BOUND; k++) {
+        ledger book = {.fail_at = k, .sticky = sticky};
+        char label[64];
+        uint64_t hash = 0;
+        snprintf(label, sizeof label, "allocation %u fails", (unsigned)k);
+        world = (pbmpm_world_id){0, 0};
+        const pbmpm_result result = live(&book, thread_count, &world, &hash);
+        if (!sticky || result == PBMPM_OK) {
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_OK", pbmpm_result_name(result), label);
+            TEST_ASSERT_EQUAL_HEX64_MESSAGE(right_hash, hash, label);
+        } else {
+            TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_ERROR_OUT_OF_MEMORY", pbmpm_result_name(result), label);
+        }
+        if (world.generation)
+            OK(pbmpm_world_destroy(world));
+        ledger_expect_clean(&book, label);
+        if (book.failures == 0)
+            return;
+    }
+    TEST_FAIL_MESSAGE("the allocations do not end");
+}
+
+static void test_any_single_allocation_may_fail(void)
+{
+    check_failures(false, 1);
+}
+
+static void test_all_allocations_from_any_one_on_may_fail(void)
+{
+    check_failures(true, 1);
+}
+
+static void test_allocations_fail_in_a_world_with_threads(void)
+{
+    check_failures(false, 3);
+    check_failures(true, 3);
+}
+
+/* The substep that lacks memory is not begun, but those before it stay done. */
+static void test_earlier_substeps_stay_done(void)
+{
+    limits open = {.budget = 0};
+    const pbmpm_world_id unlimited = spreading_pool(&open);
+    const uint64_t at_first = open.book.live_bytes;
+    set_rate(unlimited, 100, 2);
+    OK(pbmpm_world_step(unlimited, 1.0f));
+    limits given = {.budget = (at_first + open.book.peak_bytes) / 2};
+    const pbmpm_world_id world = spreading_pool(&given);
+    const uint64_t before = world_hash(world);
+    set_rate(world, 100, 2);
+    EXPECT(PBMPM_ERROR_OUT_OF_MEMORY, pbmpm_world_step(world, 1.0f));
+    TEST_ASSERT_TRUE(before != world_hash(world));
+    world_expect_finite(world, "after a broken step");
+    TEST_ASSERT_TRUE(given.book.peak_bytes <= given.budget);
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_particles_stop_at_the_capacity);
+    RUN_TEST(test_fill_says_how_many_it_needs);
+    RUN_TEST(test_materials_stop_at_their_limit);
+    RUN_TEST(test_colliders_stop_at_their_limit);
+    RUN_TEST(test_worlds_stop_at_their_limit);
+    RUN_TEST(test_the_budget_is_never_exceeded);
+    RUN_TEST(test_a_budget_too_small_for_the_world);
+    RUN_TEST(test_any_single_allocation_may_fail);
+    RUN_TEST(test_all_allocations_from_any_one_on_may_fail);
+    RUN_TEST(test_allocations_fail_in_a_world_with_threads);
+    RUN_TEST(test_earlier_substeps_stay_done);
+    return UNITY_END();
+}

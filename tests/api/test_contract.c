@@ -1,0 +1,383 @@
+/* The library as a whole, worlds, settings and the step: each public call of base.h and world.h keeps its word. */
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes.h"
+
+static char seen_line[256];
+static int seen_count;
+
+void setUp(void)
+{
+    seen_count = 0;
+}
+
+void tearDown(void)
+{
+    pbmpm_set_log_callback(NULL, NULL);
+    pbmpm_shutdown();
+}
+
+/* ---- base.h ---- */
+
+static void test_versions_agree_with_the_headers(void)
+{
+    const uint32_t expected = PBMPM_VERSION_MAJOR * 1000000u + PBMPM_VERSION_MINOR * 1000u + PBMPM_VERSION_PATCH;
+    TEST_ASSERT_EQUAL_UINT32(expected, pbmpm_version());
+    TEST_ASSERT_EQUAL_UINT32(PBMPM_ABI_VERSION, pbmpm_abi_version());
+}
+
+static void test_every_result_has_its_name(void)
+{
+    static const struct {
+        pbmpm_result result;
+        const char *name;
+    } rows[] = {
+        {PBMPM_OK, "PBMPM_OK"},
+        {PBMPM_ERROR_INVALID_ARGUMENT, "PBMPM_ERROR_INVALID_ARGUMENT"},
+        {PBMPM_ERROR_INVALID_ID, "PBMPM_ERROR_INVALID_ID"},
+        {PBMPM_ERROR_OUT_OF_MEMORY, "PBMPM_ERROR_OUT_OF_MEMORY"},
+        {PBMPM_ERROR_CAPACITY, "PBMPM_ERROR_CAPACITY"},
+        {PBMPM_ERROR_BUSY, "PBMPM_ERROR_BUSY"},
+        {PBMPM_ERROR_UNSUPPORTED_CPU, "PBMPM_ERROR_UNSUPPORTED_CPU"},
+        {PBMPM_ERROR_UNSUPPORTED, "PBMPM_ERROR_UNSUPPORTED"},
+        {PBMPM_ERROR_THREAD, "PBMPM_ERROR_THREAD"},
+        {PBMPM_ERROR_IN_USE, "PBMPM_ERROR_IN_USE"},
+        {PBMPM_ERROR_FORKED, "PBMPM_ERROR_FORKED"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
+        TEST_ASSERT_EQUAL_STRING(rows[i].name, pbmpm_result_name(rows[i].result));
+    TEST_ASSERT_NOT_NULL(pbmpm_result_name((pbmpm_result)999));
+    TEST_ASSERT_NOT_NULL(pbmpm_result_name((pbmpm_result)-1));
+}
+
+static void test_instruction_sets_have_names(void)
+{
+    const pbmpm_isa active = pbmpm_active_isa();
+    TEST_ASSERT_TRUE(active >= PBMPM_ISA_SSE4 && active <= PBMPM_ISA_AVX512);
+    TEST_ASSERT_EQUAL_STRING("AVX2", pbmpm_isa_name(PBMPM_ISA_AVX2));
+    for (int isa = PBMPM_ISA_NONE; isa < PBMPM_ISA_AVX512; isa++)
+        TEST_ASSERT_TRUE(strcmp(pbmpm_isa_name((pbmpm_isa)isa), pbmpm_isa_name((pbmpm_isa)(isa + 1))) != 0);
+    TEST_ASSERT_NOT_NULL(pbmpm_isa_name((pbmpm_isa)77));
+}
+
+static void *fail_on_another_thread(void *message)
+{
+    pbmpm_world_id none = {0, 0};
+    *(bool *)message = pbmpm_last_error()[0] == '\0'; /* a fresh thread has no message */
+    pbmpm_world_step(none, 1.0f);
+    *(bool *)message = *(bool *)message && pbmpm_last_error()[0] != '\0';
+    return NULL;
+}
+
+static void test_last_error_belongs_to_the_thread(void)
+{
+    char before[256];
+    bool other_is_right = false;
+    pthread_t other;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
+    snprintf(before, sizeof before, "%s", pbmpm_last_error());
+    TEST_ASSERT_TRUE(strlen(before) > 0);
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&other, NULL, fail_on_another_thread, &other_is_right));
+    pthread_join(other, NULL);
+    TEST_ASSERT_TRUE(other_is_right);
+    TEST_ASSERT_EQUAL_STRING(before, pbmpm_last_error());
+    default_settings(); /* a call that succeeds leaves the message alone */
+    TEST_ASSERT_EQUAL_STRING(before, pbmpm_last_error());
+}
+
+static void remember_line(const char *line, void *user)
+{
+    snprintf(seen_line, sizeof seen_line, "%s", line);
+    seen_count += *(int *)user;
+}
+
+static void test_log_callback_gets_refused_calls(void)
+{
+    int step = 1;
+    OK(pbmpm_set_log_callback(remember_line, &step));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
+    TEST_ASSERT_EQUAL_INT(1, seen_count);
+    TEST_ASSERT_TRUE(strlen(seen_line) > 0);
+    TEST_ASSERT_NULL(strchr(seen_line, '\n'));
+    OK(pbmpm_set_log_callback(NULL, NULL));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
+    TEST_ASSERT_EQUAL_INT(1, seen_count);
+}
+
+static void test_shutdown_destroys_worlds_and_allows_a_new_start(void)
+{
+    ledger book = {0};
+    pbmpm_world_def def = default_world(2, 0.1f, 100);
+    def.allocator = ledger_allocator(&book);
+    def.thread_count = 3;
+    const pbmpm_world_id first = create_world(&def);
+    const pbmpm_world_id second = create_world(&def);
+    TEST_ASSERT_TRUE(book.live_blocks > 0);
+    OK(pbmpm_shutdown());
+    ledger_expect_clean(&book, "after shutdown");
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_world_step(first, 0.01f));
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_world_destroy(second));
+    OK(pbmpm_shutdown());
+    const pbmpm_world_id again = create_world(&def);
+    OK(pbmpm_world_step(again, 0.01f));
+    OK(pbmpm_world_destroy(again));
+    ledger_expect_clean(&book, "after the new start");
+}
+
+/* ---- world.h: definitions ---- */
+
+static void test_world_def_has_the_documented_defaults(void)
+{
+    pbmpm_world_def def;
+    memset(&def, 0xA5, sizeof def);
+    OK(pbmpm_world_def_init(&def, sizeof def));
+    TEST_ASSERT_EQUAL_UINT32(sizeof def, def.size);
+    TEST_ASSERT_EQUAL_INT32(3, def.dimension);
+    TEST_ASSERT_EQUAL_FLOAT(0.1f, def.cell_size);
+    TEST_ASSERT_EQUAL_UINT32(65536, def.particle_capacity);
+    for (int a = 0; a < 3; a++) {
+        TEST_ASSERT_TRUE(def.origin[a] == 0.0);
+        TEST_ASSERT_TRUE(def.domain_min[a] == 0.0f);
+        TEST_ASSERT_TRUE(def.domain_max[a] == 1.0f);
+    }
+    TEST_ASSERT_EQUAL_UINT64(0, def.memory_budget);
+    TEST_ASSERT_EQUAL_INT32(0, def.thread_count);
+    TEST_ASSERT_EQUAL_INT32(0, def.domain_enabled);
+    TEST_ASSERT_TRUE(def.domain_friction == 0.0f);
+    TEST_ASSERT_TRUE(!def.allocator.allocate && !def.allocator.release);
+    TEST_ASSERT_TRUE(!def.tasks.enqueue && !def.tasks.finish);
+}
+
+static void test_settings_have_the_documented_defaults(void)
+{
+    pbmpm_settings settings;
+    memset(&settings, 0xA5, sizeof settings);
+    OK(pbmpm_settings_init(&settings, sizeof settings));
+    TEST_ASSERT_EQUAL_UINT32(sizeof settings, settings.size);
+    TEST_ASSERT_EQUAL_INT32(1, settings.substeps);
+    TEST_ASSERT_EQUAL_INT32(5, settings.iterations);
+    for (int a = 0; a < 3; a++)
+        TEST_ASSERT_TRUE(settings.gravity[a] == 0.0f);
+    TEST_ASSERT_EQUAL_FLOAT(32.0f, settings.max_displacement);
+}
+
+static void test_world_returns_its_definition(void)
+{
+    pbmpm_world_def def = default_world(2, 0.25f, 77), read;
+    def.origin[0] = 1e7;
+    def.origin[2] = -3.5;
+    def.memory_budget = 1u << 28;
+    def.thread_count = 2;
+    def.domain_enabled = 1;
+    def.domain_max[0] = 9;
+    def.domain_max[1] = 5;
+    def.domain_friction = 0.25f;
+    const pbmpm_world_id world = create_world(&def);
+    OK(pbmpm_world_def_init(&read, sizeof read));
+    OK(pbmpm_world_get_def(world, &read));
+    TEST_ASSERT_EQUAL_MEMORY(&def, &read, sizeof def);
+}
+
+static void test_world_identifiers_are_never_reused(void)
+{
+    enum { ROUNDS = 300 };
+    static pbmpm_world_id ids[ROUNDS];
+    const pbmpm_world_def def = default_world(2, 0.1f, 1);
+    for (int i = 0; i < ROUNDS; i++) {
+        ids[i] = create_world(&def);
+        TEST_ASSERT_TRUE(ids[i].generation != 0 || ids[i].index != 0);
+        OK(pbmpm_world_destroy(ids[i]));
+        EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_world_destroy(ids[i]));
+    }
+    for (int i = 0; i < ROUNDS; i++)
+        for (int j = i + 1; j < ROUNDS; j++)
+            TEST_ASSERT_TRUE(ids[i].generation != ids[j].generation);
+}
+
+static void test_failed_creation_gives_the_null_identifier(void)
+{
+    pbmpm_world_def def = default_world(2, -1.0f, 10);
+    pbmpm_world_id world = {123, 456};
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
+    TEST_ASSERT_EQUAL_UINT32(0, world.index);
+    TEST_ASSERT_EQUAL_UINT32(0, world.generation);
+}
+
+/* ---- world.h: settings and the step ---- */
+
+static void test_settings_are_read_back(void)
+{
+    const pbmpm_world_def def = default_world(3, 0.1f, 10);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_settings written = default_settings(), read = default_settings();
+    OK(pbmpm_world_get_settings(world, &read));
+    TEST_ASSERT_EQUAL_MEMORY(&written, &read, sizeof read);
+    written.substeps = PBMPM_MAX_SUBSTEPS;
+    written.iterations = PBMPM_MAX_ITERATIONS;
+    written.gravity[0] = 1;
+    written.gravity[1] = -2;
+    written.gravity[2] = 3;
+    written.max_displacement = 0.1f;
+    OK(pbmpm_world_set_settings(world, &written));
+    OK(pbmpm_world_get_settings(world, &read));
+    TEST_ASSERT_EQUAL_MEMORY(&written, &read, sizeof read);
+}
+
+static void test_steps_are_counted_and_cut_into_substeps(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    set_rate(world, 4, 3);
+    OK(pbmpm_world_step(world, 0.02f));
+    OK(pbmpm_world_step(world, 0.01f));
+    const pbmpm_stats stats = world_stats(world);
+    TEST_ASSERT_EQUAL_UINT64(2, stats.step_count);
+    TEST_ASSERT_EQUAL_UINT32(4, stats.substeps);
+    TEST_ASSERT_EQUAL_UINT32(3, stats.iterations);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-8, 0.03, stats.simulated_seconds);
+}
+
+/* One step of four substeps is the same as four steps of a quarter. */
+static void test_substeps_equal_shorter_steps(void)
+{
+    const pbmpm_world_id whole = tank_2d(NULL, NULL);
+    const pbmpm_world_id parts = tank_2d(NULL, NULL);
+    set_rate(whole, 4, 2);
+    set_rate(parts, 1, 2);
+    for (int i = 0; i < 5; i++) {
+        OK(pbmpm_world_step(whole, 0.03125f));
+        for (int part = 0; part < 4; part++)
+            OK(pbmpm_world_step(parts, 0.0078125f));
+    }
+    TEST_ASSERT_EQUAL_HEX64(world_hash(parts), world_hash(whole));
+}
+
+static void test_an_empty_world_steps(void)
+{
+    const pbmpm_world_def def = default_world(3, 0.1f, 10);
+    const pbmpm_world_id world = create_world(&def);
+    OK(pbmpm_world_step(world, 0.01f));
+    TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+    const pbmpm_view view = view_of(world, PBMPM_POSITION);
+    TEST_ASSERT_EQUAL_UINT32(0, view.count);
+    TEST_ASSERT_NULL(view.data);
+}
+
+static void test_generation_changes_with_the_particles_only(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    uint64_t first = 0, second = 0;
+    OK(pbmpm_world_generation(world, &first));
+    world_stats(world);
+    world_hash(world);
+    view_of(world, PBMPM_VELOCITY);
+    OK(pbmpm_world_generation(world, &second));
+    TEST_ASSERT_EQUAL_UINT64(first, second);
+    TEST_ASSERT_EQUAL_UINT64(first, view_of(world, PBMPM_POSITION).generation);
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_world_generation(world, &second));
+    TEST_ASSERT_TRUE(first != second);
+}
+
+/* The hash sees every particle and each of its quantities. */
+static void test_hash_sees_the_state(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    const pbmpm_view view = view_of(world, PBMPM_PARTICLE);
+    const pbmpm_particle_id last = {view_uint(&view, view.count - 1, 0), view_uint(&view, view.count - 1, 1)};
+    static const pbmpm_field fields[] = {PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_AFFINE_VELOCITY, PBMPM_DEFORMATION};
+    for (size_t f = 0; f < sizeof fields / sizeof *fields; f++) {
+        const float values[4] = {0.0625f, 0.03125f, 0.015625f, 0.875f};
+        const uint64_t before = world_hash(world);
+        OK(pbmpm_particles_set(world, fields[f], &last, 1, values));
+        TEST_ASSERT_TRUE(before != world_hash(world));
+    }
+    TEST_ASSERT_EQUAL_HEX64(world_hash(world), world_hash(world));
+}
+
+static void test_equal_calls_give_equal_hashes_and_unequal_ones_do_not(void)
+{
+    const pbmpm_world_id one = tank_2d(NULL, NULL), two = tank_2d(NULL, NULL), three = tank_2d(NULL, NULL);
+    for (int i = 0; i < 10; i++) {
+        OK(pbmpm_world_step(one, 0.01f));
+        OK(pbmpm_world_step(two, 0.01f));
+        OK(pbmpm_world_step(three, 0.011f));
+    }
+    TEST_ASSERT_EQUAL_HEX64(world_hash(one), world_hash(two));
+    TEST_ASSERT_TRUE(world_hash(one) != world_hash(three));
+}
+
+/* In 2D the third component of every vector is ignored, whatever it is. */
+static void test_third_component_is_ignored_in_2d(void)
+{
+    const pbmpm_world_id plain = tank_2d(NULL, NULL), odd = tank_2d(NULL, NULL);
+    set_gravity(odd, 0, -9.81f, 1e6f);
+    create_collider(plain, box_shape(0.75f, 0.25f, 0, 0.1f, 0.1f, 0.5f), false);
+    create_collider(odd, box_shape(0.75f, 0.25f, 9, 0.1f, 0.1f, 0.001f), false);
+    for (int i = 0; i < 10; i++) {
+        OK(pbmpm_world_step(plain, 0.01f));
+        OK(pbmpm_world_step(odd, 0.01f));
+    }
+    TEST_ASSERT_EQUAL_HEX64(world_hash(plain), world_hash(odd));
+}
+
+/* Origin is for the caller's own conversion: it changes nothing inside. */
+static void shift_origin(pbmpm_world_def *def, void *user)
+{
+    (void)user;
+    def->origin[0] = 4e9;
+    def->origin[1] = -1e12;
+}
+
+static void test_origin_changes_no_result(void)
+{
+    const pbmpm_world_id near = tank_2d(NULL, NULL), far = tank_2d(shift_origin, NULL);
+    for (int i = 0; i < 10; i++) {
+        OK(pbmpm_world_step(near, 0.01f));
+        OK(pbmpm_world_step(far, 0.01f));
+    }
+    TEST_ASSERT_EQUAL_HEX64(world_hash(near), world_hash(far));
+}
+
+static void test_every_length_of_step_in_the_range_is_taken(void)
+{
+    static const float lengths[] = {1e-38f, 1e-20f, 1e-6f, 0.1f, 1.0f, 10.0f};
+    for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
+        const pbmpm_world_id world = tank_2d(NULL, NULL);
+        const uint32_t before = world_count(world);
+        for (int step = 0; step < 3; step++)
+            OK(pbmpm_world_step(world, lengths[i]));
+        world_expect_finite(world, "after steps of an odd length");
+        TEST_ASSERT_EQUAL_UINT64(before, world_count(world) + world_stats(world).deleted_total);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_versions_agree_with_the_headers);
+    RUN_TEST(test_every_result_has_its_name);
+    RUN_TEST(test_instruction_sets_have_names);
+    RUN_TEST(test_last_error_belongs_to_the_thread);
+    RUN_TEST(test_log_callback_gets_refused_calls);
+    RUN_TEST(test_shutdown_destroys_worlds_and_allows_a_new_start);
+    RUN_TEST(test_world_def_has_the_documented_defaults);
+    RUN_TEST(test_settings_have_the_documented_defaults);
+    RUN_TEST(test_world_returns_its_definition);
+    RUN_TEST(test_world_identifiers_are_never_reused);
+    RUN_TEST(test_failed_creation_gives_the_null_identifier);
+    RUN_TEST(test_settings_are_read_back);
+    RUN_TEST(test_steps_are_counted_and_cut_into_substeps);
+    RUN_TEST(test_substeps_equal_shorter_steps);
+    RUN_TEST(test_an_empty_world_steps);
+    RUN_TEST(test_generation_changes_with_the_particles_only);
+    RUN_TEST(test_hash_sees_the_state);
+    RUN_TEST(test_equal_calls_give_equal_hashes_and_unequal_ones_do_not);
+    RUN_TEST(test_third_component_is_ignored_in_2d);
+    RUN_TEST(test_origin_changes_no_result);
+    RUN_TEST(test_every_length_of_step_in_the_range_is_taken);
+    return UNITY_END();
+}

@@ -1,0 +1,163 @@
+/* Bit-identical results for any number of threads and any floating-point mode of the caller. */
+#include <stdio.h>
+#include <xmmintrin.h>
+
+#include "scenes.h"
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    pbmpm_shutdown();
+}
+
+/* ---- number of threads ---- */
+
+enum { STEPS = 500, CHECK_EVERY = 100, CHECKS = STEPS / CHECK_EVERY };
+
+static void use_threads(pbmpm_world_def *def, void *user)
+{
+    def->thread_count = *(const int32_t *)user;
+}
+
+/* Runs a scene and notes the hash every so often; returns the largest number of shares it was cut into. */
+static uint32_t run_hashed(const scene *plan, int32_t thread_count, uint64_t hashes[CHECKS])
+{
+    uint32_t shares = 0;
+    const stage made = plan->build(use_threads, &thread_count);
+    for (int check = 0; check < CHECKS; check++) {
+        scene_run(plan, &made, check * CHECK_EVERY, (check + 1) * CHECK_EVERY);
+        hashes[check] = world_hash(made.world);
+        const pbmpm_stats stats = world_stats(made.world);
+        shares = stats.thread_count > shares ? stats.thread_count : shares;
+    }
+    world_expect_finite(made.world, plan->name);
+    OK(pbmpm_world_destroy(made.world));
+    return shares;
+}
+
+static void test_any_number_of_threads_gives_the_same_hash(void)
+{
+    static const int32_t thread_counts[] = {2, 3, 4, 8};
+    for (int s = 0; s < scene_count; s++) {
+        uint64_t right[CHECKS], hashes[CHECKS];
+        run_hashed(&scenes[s], 1, right);
+        TEST_ASSERT_TRUE(right[0] != right[CHECKS - 1]);
+        for (size_t t = 0; t < sizeof thread_counts / sizeof *thread_counts; t++) {
+            const uint32_t shares = run_hashed(&scenes[s], thread_counts[t], hashes);
+            char label[96];
+            snprintf(label, sizeof label, "%s, %d threads (%u shares)", scenes[s].name, (int)thread_counts[t], (unsigned)shares);
+            TEST_ASSERT_EQUAL_HEX64_ARRAY_MESSAGE(right, hashes, CHECKS, label);
+            TEST_ASSERT_TRUE_MESSAGE(shares > 1, label);
+        }
+    }
+}
+
+/* ---- floating-point mode of the caller ---- */
+
+enum { FLUSH = 0x8040, ROUND_DOWN = 0x2000, ROUND_UP = 0x4000, ROUND_TO_ZERO = 0x6000, MASK_ALL = 0x1F80, ALL_FLAGS = 0x3F };
+
+static const unsigned modes[] = {
+    MASK_ALL, MASK_ALL | FLUSH, MASK_ALL | ROUND_DOWN, MASK_ALL | ROUND_UP | FLUSH, MASK_ALL | ROUND_TO_ZERO, MASK_ALL | ALL_FLAGS, 0, /* nothing masked */
+};
+enum { MODES = sizeof modes / sizeof *modes };
+
+/* Makes a call in the given mode; fails if the register is not the same afterwards. */
+#define IN_MODE(mode, call)                                                                                                                  \
+    do {                                                                                                                                     \
+        const unsigned own_mode = _mm_getcsr();                                                                                              \
+        _mm_setcsr(mode);                                                                                                                    \
+        const pbmpm_result mode_result = (call);                                                                                             \
+        const unsigned mode_after = _mm_getcsr();                                                                                            \
+        _mm_setcsr(own_mode);                                                                                                                \
+        support_expect(PBMPM_OK, mode_result, #call, __LINE__);                                                                              \
+        TEST_ASSERT_EQUAL_HEX32_MESSAGE((mode), mode_after, #call);                                                                          \
+    } while (0)
+
+/* A life of a world in which each call that computes is made in the given mode. */
+static uint64_t hash_in_mode(unsigned mode, int32_t thread_count)
+{
+    pbmpm_world_def def = default_world(3, 0.1f, 8192);
+    pbmpm_settings settings = default_settings();
+    pbmpm_material_def liquid = default_material(PBMPM_LIQUID), elastic = default_material(PBMPM_ELASTIC);
+    pbmpm_collider_def obstacle;
+    pbmpm_collider_id collider;
+    pbmpm_fill_def fill;
+    pbmpm_world_id world;
+    pbmpm_stats stats = {.size = sizeof stats};
+    pbmpm_view view = {.size = sizeof view};
+    const float position[3] = {0.31f, -0.77f, 0.1f}, rotation[4] = {0.1f, 0.2f, 0.3f, 1.0f};
+    pbmpm_shape region = sphere_shape(0.3f, 0.3f, 0.3f, 0.21f);
+    uint32_t count;
+    uint64_t hash = 0;
+    def.thread_count = thread_count;
+    settings.gravity[1] = -9.81f;
+    OK(pbmpm_collider_def_init(&obstacle, sizeof obstacle));
+    OK(pbmpm_fill_def_init(&fill, sizeof fill));
+    obstacle.shape = box_shape(0.1f, -0.8f, 0, 0.7f, 0.1f, 0.7f);
+    obstacle.shape.rotation[0] = 0.3f;
+    obstacle.kinematic = 1;
+    IN_MODE(mode, pbmpm_world_create(&def, &world));
+    IN_MODE(mode, pbmpm_world_set_settings(world, &settings));
+    IN_MODE(mode, pbmpm_collider_create(world, &obstacle, &collider));
+    IN_MODE(mode, pbmpm_material_create(world, &liquid, &fill.material));
+    fill.shape.radius = 0.37f;
+    fill.shape.kind = PBMPM_SPHERE;
+    IN_MODE(mode, pbmpm_particles_fill(world, &fill, NULL));
+    IN_MODE(mode, pbmpm_material_create(world, &elastic, &fill.material));
+    fill.shape.position[1] = 1.0f;
+    IN_MODE(mode, pbmpm_particles_fill(world, &fill, NULL));
+    for (int i = 0; i < 30; i++) {
+        IN_MODE(mode, pbmpm_collider_move(world, collider, position, rotation));
+        IN_MODE(mode, pbmpm_world_step(world, 1.0f / 90));
+    }
+    IN_MODE(mode, pbmpm_particles_remove_in(world, &region, &count));
+    IN_MODE(mode, pbmpm_query_shape(world, &region, NULL, 0, &count));
+    IN_MODE(mode, pbmpm_query_collider(world, collider, NULL, 0, &count));
+    IN_MODE(mode, pbmpm_world_get_stats(world, &stats));
+    IN_MODE(mode, pbmpm_particles_view(world, PBMPM_POSITION, &view));
+    IN_MODE(mode, pbmpm_world_step(world, 1e-20f));
+    IN_MODE(mode, pbmpm_world_hash(world, &hash));
+    IN_MODE(mode, pbmpm_world_destroy(world));
+    return hash;
+}
+
+static void test_any_mode_of_the_caller_gives_the_same_hash(void)
+{
+    const uint64_t right = hash_in_mode(modes[0], 1);
+    for (int32_t thread_count = 1; thread_count <= 3; thread_count += 2)
+        for (int i = 0; i < MODES; i++) {
+            char label[64];
+            snprintf(label, sizeof label, "mode %04x, %d threads", modes[i], (int)thread_count);
+            TEST_ASSERT_EQUAL_HEX64_MESSAGE(right, hash_in_mode(modes[i], thread_count), label);
+        }
+}
+
+/* Refused calls leave the register alone as well. */
+static void test_refusals_restore_the_mode(void)
+{
+    const pbmpm_world_id none = {0, 0};
+    for (int i = 0; i < MODES; i++) {
+        const unsigned own = _mm_getcsr();
+        _mm_setcsr(modes[i]);
+        const pbmpm_result one = pbmpm_world_step(none, 0.01f);
+        const pbmpm_result two = pbmpm_world_create(NULL, NULL);
+        const unsigned after = _mm_getcsr();
+        _mm_setcsr(own);
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ID, one);
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ARGUMENT, two);
+        TEST_ASSERT_EQUAL_HEX32(modes[i], after);
+    }
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_any_number_of_threads_gives_the_same_hash);
+    RUN_TEST(test_any_mode_of_the_caller_gives_the_same_hash);
+    RUN_TEST(test_refusals_restore_the_mode);
+    return UNITY_END();
+}

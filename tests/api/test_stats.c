@@ -1,0 +1,259 @@
+/* Statistics and events: each public call of stats.h keeps its word. */
+#include <math.h>
+#include <string.h>
+
+#include "scenes.h"
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    pbmpm_shutdown();
+}
+
+/* ---- statistics ---- */
+
+static void test_before_the_first_step_only_counts_are_set(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    const pbmpm_stats stats = world_stats(world);
+    TEST_ASSERT_EQUAL_UINT32(world_count(world), stats.particle_count);
+    TEST_ASSERT_EQUAL_UINT64(0, stats.step_count);
+    TEST_ASSERT_TRUE(stats.simulated_seconds == 0.0);
+    TEST_ASSERT_TRUE(stats.memory_bytes > 0);
+    TEST_ASSERT_TRUE(stats.ms_total == 0.0f && stats.ms_sort == 0.0f && stats.ms_iterate == 0.0f);
+    TEST_ASSERT_TRUE(stats.volume_error_rms == 0.0f && stats.max_speed == 0.0f && stats.mass == 0.0);
+    TEST_ASSERT_EQUAL_UINT64(0, stats.deleted_total);
+    TEST_ASSERT_EQUAL_UINT64(0, stats.clamped_total);
+}
+
+/* The sums in the statistics are those over the views; the affine part of the angular momentum is that of quadratic
+ * B-splines, m dx^2/4 times the spin. */
+static void check_sums(const scene *plan)
+{
+    const stage made = plan->build(NULL, NULL);
+    pbmpm_settings settings = {.size = sizeof settings};
+    scene_run(plan, &made, 0, 20);
+    OK(pbmpm_world_get_settings(made.world, &settings));
+    pbmpm_world_def def = {.size = sizeof def};
+    OK(pbmpm_world_get_def(made.world, &def));
+    const pbmpm_stats stats = world_stats(made.world);
+    const pbmpm_view x = view_of(made.world, PBMPM_POSITION), v = view_of(made.world, PBMPM_VELOCITY);
+    const pbmpm_view c = view_of(made.world, PBMPM_AFFINE_VELOCITY), m = view_of(made.world, PBMPM_MASS);
+    const pbmpm_view ratio = view_of(made.world, PBMPM_VOLUME_RATIO);
+    const uint32_t d = x.components;
+    const double inertia = (double)def.cell_size * (double)def.cell_size / 4;
+    double mass = 0, momentum[3] = {0}, spin[3] = {0}, kinetic = 0, potential = 0, square = 0, worst = 0, fastest = 0;
+    for (uint32_t i = 0; i < x.count; i++) {
+        const double w = (double)view_float(&m, i, 0), error = fabs((double)view_float(&ratio, i, 0) - 1);
+        double p[3] = {0}, u[3] = {0}, speed = 0;
+        for (uint32_t a = 0; a < d; a++) {
+            p[a] = (double)view_float(&x, i, a);
+            u[a] = (double)view_float(&v, i, a);
+            speed += u[a] * u[a];
+            momentum[a] += w * u[a];
+            potential -= w * (double)settings.gravity[a] * p[a];
+        }
+        for (uint32_t a = 0; a < 3; a++) {
+            const uint32_t one = (a + 1) % 3, two = (a + 2) % 3;
+            spin[a] += w * (p[one] * u[two] - p[two] * u[one]);
+            if (one < d && two < d)
+                spin[a] += w * inertia * ((double)view_float(&c, i, two * d + one) - (double)view_float(&c, i, one * d + two));
+        }
+        mass += w;
+        kinetic += w * speed / 2;
+        square += error * error;
+        worst = fmax(worst, error);
+        fastest = fmax(fastest, sqrt(speed));
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6 * mass, mass, stats.mass);
+    for (uint32_t a = 0; a < d; a++)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5 * (fabs(momentum[a]) + mass * 0.01), momentum[a], stats.momentum[a]);
+    for (uint32_t a = d == 2 ? 2 : 0; a < 3; a++)
+        TEST_ASSERT_DOUBLE_WITHIN(1e-4 * (fabs(spin[a]) + mass * 0.01), spin[a], stats.angular_momentum[a]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5 * kinetic, kinetic, stats.kinetic_energy);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5 * (fabs(potential) + mass * 0.01), potential, stats.potential_energy);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f + 1e-3f * (float)worst, (float)worst, stats.volume_error_max);
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f + 1e-3f * (float)worst, (float)sqrt(square / x.count), stats.volume_error_rms);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * (float)fastest, (float)fastest, stats.max_speed);
+    OK(pbmpm_world_destroy(made.world));
+}
+
+static void test_sums_agree_with_the_views(void)
+{
+    for (int i = 0; i < scene_count; i++)
+        check_sums(&scenes[i]);
+}
+
+static void test_counts_and_shares_are_in_range(void)
+{
+    for (int i = 0; i < scene_count; i++) {
+        const stage made = scenes[i].build(NULL, NULL);
+        scene_run(&scenes[i], &made, 0, 10);
+        const pbmpm_stats stats = world_stats(made.world);
+        const uint32_t blocks_touched = scenes[i].dimension == 2 ? 9 : 27;
+        TEST_ASSERT_EQUAL_UINT32(world_count(made.world), stats.particle_count);
+        TEST_ASSERT_EQUAL_UINT64(10, stats.step_count);
+        TEST_ASSERT_TRUE(stats.particle_blocks > 0 && stats.particle_blocks <= stats.particle_count);
+        TEST_ASSERT_TRUE(stats.node_blocks >= stats.particle_blocks);
+        TEST_ASSERT_TRUE(stats.node_blocks <= blocks_touched * stats.particle_blocks);
+        TEST_ASSERT_TRUE(stats.thread_count >= 1);
+        TEST_ASSERT_TRUE(stats.cell_changes >= 0.0f && stats.cell_changes <= 1.0f);
+        TEST_ASSERT_TRUE(stats.lane_occupancy > 0.0f && stats.lane_occupancy <= 1.0f);
+        TEST_ASSERT_TRUE(stats.max_displacement >= 0.0f && stats.max_displacement <= 32.01f);
+        TEST_ASSERT_TRUE(stats.ms_sort >= 0 && stats.ms_scatter >= 0 && stats.ms_contacts >= 0 && stats.ms_iterate >= 0);
+        TEST_ASSERT_TRUE(stats.ms_integrate >= 0 && stats.ms_total > 0);
+        const float parts = stats.ms_sort + stats.ms_scatter + stats.ms_contacts + stats.ms_iterate + stats.ms_integrate;
+        TEST_ASSERT_TRUE(parts <= stats.ms_total * 1.001f + 0.001f);
+        OK(pbmpm_world_destroy(made.world));
+    }
+}
+
+static void use_ledger(pbmpm_world_def *def, void *user)
+{
+    def->allocator = ledger_allocator(user);
+}
+
+static void test_memory_is_what_the_allocator_gave(void)
+{
+    ledger book = {0};
+    const pbmpm_world_id world = tank_2d(use_ledger, &book);
+    TEST_ASSERT_EQUAL_UINT64(book.live_bytes, world_stats(world).memory_bytes);
+    OK(pbmpm_world_step(world, 0.01f));
+    TEST_ASSERT_EQUAL_UINT64(book.live_bytes, world_stats(world).memory_bytes);
+    OK(pbmpm_world_destroy(world));
+    ledger_expect_clean(&book, "tank");
+}
+
+/* ---- events ---- */
+
+static pbmpm_world_id lone_particle(pbmpm_material_def material, float cell_size, float x, float speed, pbmpm_particle_id *id)
+{
+    const pbmpm_world_def def = default_world(2, cell_size, 16);
+    const pbmpm_world_id world = create_world(&def);
+    const float position[2] = {x, 0.5f}, velocity[2] = {speed, 0};
+    pbmpm_particles_def particles;
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    OK(pbmpm_material_create(world, &material, &particles.material));
+    particles.count = 1;
+    particles.positions = position;
+    particles.velocities = velocity;
+    OK(pbmpm_particles_add(world, &particles, id));
+    return world;
+}
+
+static void test_slowed_particles_are_told(void)
+{
+    pbmpm_particle_id id;
+    pbmpm_event event = {0};
+    const pbmpm_world_id world = lone_particle(default_material(PBMPM_LIQUID), 0.1f, 0, 1000, &id);
+    OK(pbmpm_world_step(world, 0.01f)); /* 100 cells, 32 are allowed */
+    TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_SPEED_CLAMPED, &event));
+    TEST_ASSERT_EQUAL_UINT32(1, event.count);
+    TEST_ASSERT_EQUAL_MEMORY(&id, &event.particle, sizeof id);
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).clamped_total);
+    const pbmpm_view position = view_of(world, PBMPM_POSITION), velocity = view_of(world, PBMPM_VELOCITY);
+    TEST_ASSERT_FLOAT_WITHIN(0.01f, 3.2f, view_float(&position, 0, 0));
+    TEST_ASSERT_FLOAT_WITHIN(1.0f, 320.0f, view_float(&velocity, 0, 0));
+    pbmpm_settings settings = default_settings();
+    settings.max_displacement = PBMPM_MAX_CELLS_PER_SUBSTEP;
+    OK(pbmpm_world_set_settings(world, &settings));
+    OK(pbmpm_world_step(world, 0.01f));
+    TEST_ASSERT_EQUAL_UINT32(0, world_events_of(world, PBMPM_EVENT_SPEED_CLAMPED, NULL)); /* only the last step's */
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).clamped_total);
+}
+
+static void test_particles_out_of_range_are_deleted_and_told(void)
+{
+    pbmpm_particle_id id;
+    pbmpm_event event = {0};
+    uint32_t row;
+    const pbmpm_world_id world = lone_particle(default_material(PBMPM_LIQUID), 1, (float)(PBMPM_MAX_CELL - 8), 10, &id);
+    int steps = 0;
+    while (world_count(world) == 1 && steps < 20) {
+        OK(pbmpm_world_step(world, 1.0f));
+        steps++;
+    }
+    TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+    TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_DELETED_OUT_OF_RANGE, &event));
+    TEST_ASSERT_EQUAL_UINT32(1, event.count);
+    TEST_ASSERT_EQUAL_MEMORY(&id, &event.particle, sizeof id);
+    TEST_ASSERT_TRUE(event.position[0] >= (float)(PBMPM_MAX_CELL - 8));
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).deleted_total);
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_particles_find(world, &id, 1, &row));
+    OK(pbmpm_world_step(world, 1.0f));
+    TEST_ASSERT_EQUAL_UINT32(0, world_events_of(world, PBMPM_EVENT_DELETED_OUT_OF_RANGE, NULL));
+}
+
+static void test_overstrained_particles_are_deleted_and_told(void)
+{
+    pbmpm_material_def material = default_material(PBMPM_ELASTIC);
+    pbmpm_particle_id id;
+    pbmpm_event event = {0};
+    material.strain_policy = PBMPM_STRAIN_DELETE;
+    material.condition_max = 100;
+    const float strained[4] = {1000, 0, 0, 0.001f};
+    const pbmpm_world_id world = lone_particle(material, 0.1f, 0, 0, &id);
+    OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, &id, 1, strained));
+    OK(pbmpm_world_step(world, 0.001f));
+    TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+    TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_DELETED_CONDITION, &event));
+    TEST_ASSERT_EQUAL_MEMORY(&id, &event.particle, sizeof id);
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).deleted_total);
+}
+
+/* A velocity gradient so large that sums overflow may cost particles, but each loss is told and the rest stays sound. */
+static void test_overflowing_gradients_do_not_spread(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    const uint32_t before = world_count(world);
+    const float wild[4] = {3e38f, -3e38f, 3e38f, 3e38f};
+    const pbmpm_view identity = view_of(world, PBMPM_PARTICLE);
+    const pbmpm_particle_id id = {view_uint(&identity, 0, 0), view_uint(&identity, 0, 1)};
+    const pbmpm_result result = pbmpm_particles_set(world, PBMPM_AFFINE_VELOCITY, &id, 1, wild);
+    TEST_ASSERT_TRUE(result == PBMPM_OK || result == PBMPM_ERROR_INVALID_ARGUMENT);
+    for (int i = 0; i < 10; i++)
+        OK(pbmpm_world_step(world, 0.01f));
+    world_expect_finite(world, "after a wild gradient");
+    const pbmpm_stats stats = world_stats(world);
+    TEST_ASSERT_EQUAL_UINT64(before, world_count(world) + stats.deleted_total);
+    TEST_ASSERT_TRUE(stats.deleted_total <= 64);
+}
+
+/* More events than the array holds: the rest is counted. */
+static void test_events_that_did_not_fit_are_counted(void)
+{
+    const pbmpm_world_def def = default_world(2, 0.1f, 60000);
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    const uint32_t added = fill_shape(world, water, box_shape(0, 0, 0, 5, 5, 5), (const float[3]){1000, 0, 0});
+    const pbmpm_event *events = NULL;
+    uint32_t count = 0, missed = 0, told = 0;
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_world_events(world, &events, &count, &missed));
+    for (uint32_t i = 0; i < count; i++) {
+        TEST_ASSERT_EQUAL_INT(PBMPM_EVENT_SPEED_CLAMPED, events[i].kind);
+        told += events[i].count;
+    }
+    TEST_ASSERT_TRUE(added > 30000);
+    TEST_ASSERT_EQUAL_UINT64(added, world_stats(world).clamped_total);
+    TEST_ASSERT_EQUAL_UINT32(added, told + missed);
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_before_the_first_step_only_counts_are_set);
+    RUN_TEST(test_sums_agree_with_the_views);
+    RUN_TEST(test_counts_and_shares_are_in_range);
+    RUN_TEST(test_memory_is_what_the_allocator_gave);
+    RUN_TEST(test_slowed_particles_are_told);
+    RUN_TEST(test_particles_out_of_range_are_deleted_and_told);
+    RUN_TEST(test_overstrained_particles_are_deleted_and_told);
+    RUN_TEST(test_overflowing_gradients_do_not_spread);
+    RUN_TEST(test_events_that_did_not_fit_are_counted);
+    return UNITY_END();
+}
