@@ -1,4 +1,5 @@
 /* Bit-identical results for any number of threads and any floating-point mode of the caller. */
+#include <math.h>
 #include <stdio.h>
 #include <xmmintrin.h>
 
@@ -135,19 +136,33 @@ static void test_any_mode_of_the_caller_gives_the_same_hash(void)
         }
 }
 
-/* Refused calls leave the register alone as well. */
+/* Refused calls leave the register alone as well, and a NaN raises no trap in a caller that has not masked it. */
 static void test_refusals_restore_the_mode(void)
 {
-    const pbmpm_world_id none = {0, 0};
+    const pbmpm_world_id world = tank_2d(NULL, NULL), none = {0, 0};
+    const float nowhere[3] = {NAN, INFINITY, -1e38f};
+    pbmpm_settings bad = default_settings();
+    pbmpm_shape shape = sphere_shape(0.5f, 0.5f, 0, 0.1f);
+    bad.gravity[0] = NAN;
+    shape.radius = NAN;
+    const pbmpm_view identity = view_of(world, PBMPM_PARTICLE);
+    const pbmpm_particle_id id = {view_uint(&identity, 0, 0), view_uint(&identity, 0, 1)};
     for (int i = 0; i < MODES; i++) {
         const unsigned own = _mm_getcsr();
         _mm_setcsr(modes[i]);
-        const pbmpm_result one = pbmpm_world_step(none, 0.01f);
-        const pbmpm_result two = pbmpm_world_create(NULL, NULL);
+        const pbmpm_result results[] = {
+            pbmpm_world_step(none, 0.01f),
+            pbmpm_world_create(NULL, NULL),
+            pbmpm_world_step(world, nowhere[0]),
+            pbmpm_world_set_settings(world, &bad),
+            pbmpm_particles_remove_in(world, &shape, NULL),
+            pbmpm_particles_set(world, PBMPM_POSITION, &id, 1, nowhere),
+        };
         const unsigned after = _mm_getcsr();
         _mm_setcsr(own);
-        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ID, one);
-        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ARGUMENT, two);
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ID, results[0]);
+        for (int k = 1; k < 6; k++)
+            TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ARGUMENT, results[k]);
         TEST_ASSERT_EQUAL_HEX32(modes[i], after);
     }
 }

@@ -190,7 +190,7 @@ static void test_worlds_step_at_the_same_time(void)
         TEST_ASSERT_EQUAL_HEX64(right[i % 2], world_hash(worlds[i]));
 }
 
-static void *make_and_break_worlds(void *user)
+static void *make_and_break_worlds(void *failed)
 {
     for (int i = 0; i < 50; i++) {
         pbmpm_world_def def;
@@ -201,16 +201,17 @@ static void *make_and_break_worlds(void *user)
         def.thread_count = 1 + i % 3;
         if (pbmpm_world_create(&def, &world) != PBMPM_OK || pbmpm_world_step(world, 0.01f) != PBMPM_OK ||
             pbmpm_world_destroy(world) != PBMPM_OK || pbmpm_world_destroy(world) != PBMPM_ERROR_INVALID_ID)
-            return user;
+            return failed;
     }
     return NULL;
 }
 
 static void test_worlds_are_made_and_destroyed_at_the_same_time(void)
 {
+    static char failure_mark;
     pthread_t threads[4];
     for (int i = 0; i < 4; i++)
-        TEST_ASSERT_EQUAL_INT(0, pthread_create(&threads[i], NULL, make_and_break_worlds, &threads[i]));
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&threads[i], NULL, make_and_break_worlds, &failure_mark));
     for (int i = 0; i < 4; i++) {
         void *failed = NULL;
         pthread_join(threads[i], &failed);

@@ -1,0 +1,134 @@
+/* The library's table of layouts against the compiler's view of the public headers, field by field. The rows are
+ * stated here once more, so that a mistake in the generator of the library's table shows. */
+#include <stdio.h>
+#include <string.h>
+
+#include "support.h"
+
+#define WHOLE(structure) {#structure, "", 0, (uint32_t)sizeof(structure)}
+#define FIELD(structure, field) {#structure, #field, (uint32_t)offsetof(structure, field), (uint32_t)sizeof(((structure *)0)->field)}
+
+static const pbmpm_layout_entry expected[] = {
+    WHOLE(pbmpm_world_id),
+    FIELD(pbmpm_world_id, index), FIELD(pbmpm_world_id, generation),
+    WHOLE(pbmpm_material_id),
+    FIELD(pbmpm_material_id, index), FIELD(pbmpm_material_id, generation),
+    WHOLE(pbmpm_collider_id),
+    FIELD(pbmpm_collider_id, index), FIELD(pbmpm_collider_id, generation),
+    WHOLE(pbmpm_particle_id),
+    FIELD(pbmpm_particle_id, index), FIELD(pbmpm_particle_id, generation),
+    WHOLE(pbmpm_allocator),
+    FIELD(pbmpm_allocator, allocate), FIELD(pbmpm_allocator, release), FIELD(pbmpm_allocator, user),
+    WHOLE(pbmpm_task_hooks),
+    FIELD(pbmpm_task_hooks, enqueue), FIELD(pbmpm_task_hooks, finish), FIELD(pbmpm_task_hooks, user),
+    WHOLE(pbmpm_layout_entry),
+    FIELD(pbmpm_layout_entry, structure), FIELD(pbmpm_layout_entry, field), FIELD(pbmpm_layout_entry, offset),
+    FIELD(pbmpm_layout_entry, size),
+    WHOLE(pbmpm_shape),
+    FIELD(pbmpm_shape, size), FIELD(pbmpm_shape, kind), FIELD(pbmpm_shape, position), FIELD(pbmpm_shape, rotation),
+    FIELD(pbmpm_shape, half_extents), FIELD(pbmpm_shape, radius), FIELD(pbmpm_shape, normal),
+    WHOLE(pbmpm_world_def),
+    FIELD(pbmpm_world_def, size), FIELD(pbmpm_world_def, dimension), FIELD(pbmpm_world_def, cell_size),
+    FIELD(pbmpm_world_def, particle_capacity), FIELD(pbmpm_world_def, origin), FIELD(pbmpm_world_def, memory_budget),
+    FIELD(pbmpm_world_def, thread_count), FIELD(pbmpm_world_def, domain_enabled), FIELD(pbmpm_world_def, domain_min),
+    FIELD(pbmpm_world_def, domain_max), FIELD(pbmpm_world_def, domain_friction), FIELD(pbmpm_world_def, allocator),
+    FIELD(pbmpm_world_def, tasks),
+    WHOLE(pbmpm_settings),
+    FIELD(pbmpm_settings, size), FIELD(pbmpm_settings, substeps), FIELD(pbmpm_settings, iterations), FIELD(pbmpm_settings, gravity),
+    FIELD(pbmpm_settings, max_displacement),
+    WHOLE(pbmpm_material_def),
+    FIELD(pbmpm_material_def, size), FIELD(pbmpm_material_def, kind), FIELD(pbmpm_material_def, density),
+    FIELD(pbmpm_material_def, relaxation), FIELD(pbmpm_material_def, viscosity), FIELD(pbmpm_material_def, volume_feedback),
+    FIELD(pbmpm_material_def, elasticity_ratio), FIELD(pbmpm_material_def, strain_policy), FIELD(pbmpm_material_def, strain_min),
+    FIELD(pbmpm_material_def, strain_max), FIELD(pbmpm_material_def, condition_max), FIELD(pbmpm_material_def, rebound_max),
+    WHOLE(pbmpm_particles_def),
+    FIELD(pbmpm_particles_def, size), FIELD(pbmpm_particles_def, count), FIELD(pbmpm_particles_def, material),
+    FIELD(pbmpm_particles_def, positions), FIELD(pbmpm_particles_def, velocities), FIELD(pbmpm_particles_def, volumes),
+    FIELD(pbmpm_particles_def, volume),
+    WHOLE(pbmpm_fill_def),
+    FIELD(pbmpm_fill_def, size), FIELD(pbmpm_fill_def, seed), FIELD(pbmpm_fill_def, material), FIELD(pbmpm_fill_def, shape),
+    FIELD(pbmpm_fill_def, particles_per_axis), FIELD(pbmpm_fill_def, jitter), FIELD(pbmpm_fill_def, velocity),
+    WHOLE(pbmpm_view),
+    FIELD(pbmpm_view, size), FIELD(pbmpm_view, count), FIELD(pbmpm_view, components), FIELD(pbmpm_view, component_stride),
+    FIELD(pbmpm_view, stride), FIELD(pbmpm_view, data), FIELD(pbmpm_view, generation),
+    WHOLE(pbmpm_collider_def),
+    FIELD(pbmpm_collider_def, size), FIELD(pbmpm_collider_def, friction), FIELD(pbmpm_collider_def, friction_coefficient),
+    FIELD(pbmpm_collider_def, kinematic), FIELD(pbmpm_collider_def, shape),
+    WHOLE(pbmpm_stats),
+    FIELD(pbmpm_stats, size), FIELD(pbmpm_stats, particle_count), FIELD(pbmpm_stats, step_count), FIELD(pbmpm_stats, simulated_seconds),
+    FIELD(pbmpm_stats, memory_bytes), FIELD(pbmpm_stats, particle_blocks), FIELD(pbmpm_stats, node_blocks), FIELD(pbmpm_stats, contacts),
+    FIELD(pbmpm_stats, substeps), FIELD(pbmpm_stats, iterations), FIELD(pbmpm_stats, thread_count), FIELD(pbmpm_stats, ms_total),
+    FIELD(pbmpm_stats, ms_sort), FIELD(pbmpm_stats, ms_scatter), FIELD(pbmpm_stats, ms_contacts), FIELD(pbmpm_stats, ms_iterate),
+    FIELD(pbmpm_stats, ms_integrate), FIELD(pbmpm_stats, volume_error_rms), FIELD(pbmpm_stats, volume_error_max),
+    FIELD(pbmpm_stats, max_speed), FIELD(pbmpm_stats, max_displacement), FIELD(pbmpm_stats, mass), FIELD(pbmpm_stats, momentum),
+    FIELD(pbmpm_stats, angular_momentum), FIELD(pbmpm_stats, kinetic_energy), FIELD(pbmpm_stats, potential_energy),
+    FIELD(pbmpm_stats, cell_changes), FIELD(pbmpm_stats, lane_occupancy), FIELD(pbmpm_stats, deleted_total),
+    FIELD(pbmpm_stats, clamped_total),
+    WHOLE(pbmpm_event),
+    FIELD(pbmpm_event, kind), FIELD(pbmpm_event, count), FIELD(pbmpm_event, particle), FIELD(pbmpm_event, position),
+    FIELD(pbmpm_event, substep), FIELD(pbmpm_event, step),
+};
+enum { EXPECTED = sizeof expected / sizeof *expected };
+
+static const pbmpm_layout_entry *table;
+static uint32_t table_count;
+
+void setUp(void)
+{
+    OK(pbmpm_layout_table(&table, &table_count));
+}
+
+void tearDown(void)
+{
+}
+
+static const pbmpm_layout_entry *find(const pbmpm_layout_entry *rows, uint32_t count, const pbmpm_layout_entry *wanted)
+{
+    for (uint32_t i = 0; i < count; i++)
+        if (strcmp(rows[i].structure, wanted->structure) == 0 && strcmp(rows[i].field, wanted->field) == 0)
+            return &rows[i];
+    return NULL;
+}
+
+static void test_every_field_is_where_the_header_says(void)
+{
+    for (uint32_t i = 0; i < EXPECTED; i++) {
+        char label[128];
+        const pbmpm_layout_entry *row = find(table, table_count, &expected[i]);
+        snprintf(label, sizeof label, "%s.%s", expected[i].structure, expected[i].field);
+        TEST_ASSERT_NOT_NULL_MESSAGE(row, label);
+        TEST_ASSERT_EQUAL_UINT32_MESSAGE(expected[i].offset, row->offset, label);
+        TEST_ASSERT_EQUAL_UINT32_MESSAGE(expected[i].size, row->size, label);
+    }
+}
+
+static void test_the_table_has_nothing_else(void)
+{
+    for (uint32_t i = 0; i < table_count; i++) {
+        char label[128];
+        snprintf(label, sizeof label, "%s.%s", table[i].structure, table[i].field);
+        TEST_ASSERT_NOT_NULL_MESSAGE(find(expected, EXPECTED, &table[i]), label);
+    }
+    TEST_ASSERT_EQUAL_UINT32(EXPECTED, table_count); /* no row twice */
+}
+
+/* Bindings pass identifiers by value and rely on these sizes. */
+static void test_sizes_that_bindings_rely_on(void)
+{
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_world_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_material_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_collider_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_particle_id));
+    TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_result));
+    TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_field));
+    TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_shape_kind));
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_field_is_where_the_header_says);
+    RUN_TEST(test_the_table_has_nothing_else);
+    RUN_TEST(test_sizes_that_bindings_rely_on);
+    return UNITY_END();
+}
