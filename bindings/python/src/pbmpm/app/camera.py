@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from dataclasses import dataclass
 
@@ -12,7 +13,7 @@ from .scene import Scene
 ASPECT = 16 / 9
 _DEFAULT_VIEW = (0.42, 0.40, 1.0)  # share of right, up and front in the direction towards the default eye
 _DEFAULT_FIELD_OF_VIEW = 0.6
-_ROOM_AROUND = 0.92  # share of the half picture that the scene's bounding sphere may fill
+_FILLED = 0.96  # share of the half picture that the corners of the scene may reach
 
 
 @dataclass(frozen=True)
@@ -57,11 +58,14 @@ def scene_camera(scene: Scene, low: np.ndarray, high: np.ndarray, width: int) ->
     up = scene_up(scene)
     own = scene.pictures.camera
     if own is not None:
-        eye, target, field = np.array(own.eye), np.array(own.target), own.field_of_view
-    else:
-        target, field = 0.5 * (low + high), _DEFAULT_FIELD_OF_VIEW
-        eye = target + _default_distance(low, high, field) * _default_direction(up, high - low)
-    return _look_at(eye, target, up, field, width)
+        return _look_at(np.array(own.eye), np.array(own.target), up, own.field_of_view, width)
+    target, direction = 0.5 * (low + high), _default_direction(up, high - low)
+    distance = float(np.linalg.norm(high - low))
+    while True:
+        camera = _look_at(target + distance * direction, target, up, _DEFAULT_FIELD_OF_VIEW, width)
+        if _shows(camera, low, high):
+            return camera
+        distance *= 1.03
 
 
 def _default_direction(up: np.ndarray, extent: np.ndarray) -> np.ndarray:
@@ -72,9 +76,13 @@ def _default_direction(up: np.ndarray, extent: np.ndarray) -> np.ndarray:
     return direction / np.linalg.norm(direction)
 
 
-def _default_distance(low: np.ndarray, high: np.ndarray, field: float) -> float:
-    radius = 0.5 * float(np.linalg.norm(high - low))
-    return radius / (_ROOM_AROUND * math.tan(0.5 * field) * ASPECT) + 0.5 * radius
+def _shows(camera: Camera, low: np.ndarray, high: np.ndarray) -> bool:
+    """Whether all corners of a box are well inside the picture."""
+    corners = np.array(list(itertools.product(*zip(low, high))))
+    column, row, depth = camera.project(corners)
+    across = np.abs(column / (0.5 * camera.width) - 1.0)
+    down = np.abs(row / (0.5 * camera.height) - 1.0)
+    return bool((depth > 0).all() and max(across.max(), down.max()) <= _FILLED)
 
 
 def _look_at(eye: np.ndarray, target: np.ndarray, up: np.ndarray, field: float, width: int) -> Camera:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -17,11 +18,10 @@ INK = (40, 44, 52)
 OBSTACLE = (128, 133, 142)
 
 _SPEED_RAMP = np.array(
-    [[18, 52, 120], [28, 96, 180], [44, 146, 214], [110, 200, 226], [196, 234, 238], [255, 255, 255]], dtype=np.float32
+    [[26, 74, 150], [34, 110, 190], [48, 152, 216], [112, 202, 228], [196, 234, 238], [255, 255, 255]], dtype=np.float32
 )
-_MATERIAL_COLOURS = np.array(
-    [[36, 98, 190], [232, 119, 46], [60, 160, 92], [178, 74, 160], [214, 178, 40], [90, 90, 100]], dtype=np.float32
-)
+_LIQUID_COLOURS = ((36, 98, 190), (20, 150, 160), (90, 80, 170))
+_SOLID_COLOURS = ((232, 119, 46), (60, 160, 92), (178, 74, 160), (214, 178, 40), (170, 60, 60))
 
 
 @dataclass(frozen=True)
@@ -51,15 +51,21 @@ def _typical_speed(scene: Scene) -> float:
     return max(falling, thrown, 0.1 * scene.cell_size)
 
 
+def material_colours(scene: Scene) -> np.ndarray:
+    """(m, 3) float32: a colour per material of the scene, cold for liquids and warm for solids."""
+    liquids, solids = itertools.cycle(_LIQUID_COLOURS), itertools.cycle(_SOLID_COLOURS)
+    colours = [next(liquids if material.kind == "liquid" else solids) for material in scene.materials.values()]
+    return np.array(colours, dtype=np.float32)
+
+
 def particle_colours(frame: Frame, look: Look) -> np.ndarray:
     """(n, 3) float32 in 0..255. Liquids by speed unless the scene asks for materials; solids always by material."""
-    material_colours = _MATERIAL_COLOURS[frame.materials % len(_MATERIAL_COLOURS)]
-    names = list(look.scene.materials.values())
-    liquid = np.array([material.kind == "liquid" for material in names])[frame.materials]
+    own = material_colours(look.scene)[frame.materials]
+    liquid = np.array([material.kind == "liquid" for material in look.scene.materials.values()])[frame.materials]
     share = np.clip(frame.speeds / look.top_speed, 0.0, 1.0)
     if look.scene.pictures.colour == "material":
-        return material_colours + (255 - material_colours) * (0.45 * share)[:, None]
-    shaded = material_colours * (0.85 + 0.15 * share)[:, None]
+        return own + (255 - own) * (0.45 * share)[:, None]
+    shaded = own * (0.85 + 0.15 * share)[:, None]
     return np.where(liquid[:, None], speed_colours(share), shaded).astype(np.float32)
 
 
@@ -92,9 +98,8 @@ def _draw_legend(image: Image.Image, draw: ImageDraw.ImageDraw, look: Look, font
     if look.scene.pictures.colour == "material":
         text = "   ".join(look.scene.materials)
         x = image.width - size - draw.textlength(text, font=font) - 1.2 * size * len(look.scene.materials)
-        for index, name in enumerate(look.scene.materials):
-            colour = tuple(int(c) for c in _MATERIAL_COLOURS[index % len(_MATERIAL_COLOURS)])
-            draw.rectangle((x, top, x + 0.7 * size, top + 0.7 * size), fill=colour)
+        for name, colour in zip(look.scene.materials, material_colours(look.scene)):
+            draw.rectangle((x, top, x + 0.7 * size, top + 0.7 * size), fill=tuple(colour.astype(int)))
             draw.text((x + size, top - 0.2 * size), name, fill=INK, font=font)
             x += 1.2 * size + draw.textlength(name + "   ", font=font)
         return

@@ -1,0 +1,5 @@
+"""``python -m pbmpm.app`` is the ``pbmpm`` command."""
+
+from .cli import main
+
+main()

@@ -1,0 +1,136 @@
+"""Import of scenes in the format of the EA demo."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pbmpm.app.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
+from pbmpm.app.errors import InputError
+from pbmpm.app.scene import load_scene
+
+SMALL: dict[str, Any] = {
+    "version": 2,
+    "resolution": [800, 400],
+    "settings": [],
+    "shapes": [
+        {
+            "id": "a",
+            "position": {"x": 400, "y": 100},
+            "halfSize": {"x": "80", "y": "40"},
+            "rotation": 30,
+            "shape": "0",
+            "function": "3",
+            "emitMaterial": "0",
+        }
+    ],
+}
+
+
+def small(**shape: Any) -> dict[str, Any]:
+    """The small scene with fields of its shape replaced."""
+    data = copy.deepcopy(SMALL)
+    data["shapes"][0].update(shape)
+    return data
+
+
+def test_told_apart_by_contents(root: Path) -> None:
+    assert looks_like_ea_scene(SMALL)
+    assert not looks_like_ea_scene(json.loads((root / "samples/scenes/column_2d.json").read_text()))
+    assert not looks_like_ea_scene([1])
+
+
+def test_pixels_become_cells_and_cells_metres(tmp_path: Path) -> None:
+    data = small(position={"x": 240.5, "y": 250.25}, halfSize={"x": "200", "y": "140"}, rotation=0)
+    data["resolution"] = [1203, 645]  # 150 x 80 cells and a rest
+    data["settings"] = [{"name": "iterationCount", "value": 7, "type": "range"}]
+    data["shapes"].append({**SMALL["shapes"][0], "emitMaterial": "1"})
+    path = tmp_path / "some scene.json"
+    path.write_text(json.dumps(data))
+    scene = load_scene(path)
+    cell = scene.cell_size
+    assert scene.name == "some_scene"
+    assert (scene.dimension, scene.rate_hz, scene.iterations, scene.seconds) == (2, 240.0, 7, 10.0)
+    assert [fill.material for fill in scene.fills] == ["liquid", "elastic"]
+    assert [size / cell for size in scene.fills[0].shape.half_extents] == pytest.approx([25, 17.5])
+    assert scene.fills[0].shape.position[0] / cell == pytest.approx(240.5 / 8)
+    assert scene.fills[0].shape.position[1] / cell == pytest.approx(80 - 250.25 / 8)
+    assert scene.gravity[1] / cell == pytest.approx(-2.5 * 80)
+    assert scene.domain.min == pytest.approx([3 * cell, 3 * cell])
+    assert scene.domain.max == pytest.approx([147 * cell, 77 * cell])
+    assert scene.domain.friction == 0.5
+    assert scene.materials["liquid"].viscosity == 0.01
+    assert scene.materials["liquid"].volume_feedback == 0.1
+
+
+def test_default_gravity_is_that_of_the_earth() -> None:
+    scene = import_ea_scene(SMALL, "small.json")
+    assert scene.gravity == pytest.approx([0, -STANDARD_GRAVITY])
+
+
+def test_y_and_rotation_are_mirrored() -> None:
+    shape = import_ea_scene(SMALL, "small.json").fills[0].shape
+    scene_height = 50 * import_ea_scene(SMALL, "small.json").cell_size
+    assert shape.position[1] == pytest.approx(scene_height * 0.75)
+    assert shape.rotation == pytest.approx(-math.pi / 6)
+
+
+def test_settings_override_and_may_be_strings() -> None:
+    data = small()
+    data["settings"] = [
+        {"name": "simResDivisor", "value": "16"},
+        {"name": "gravityStrength", "value": "0"},
+        {"name": "useGridVolumeForLiquid", "value": False},
+        {"name": "liquidRelaxation", "value": 5},
+        {"name": "renderMode", "value": "0"},
+        {"name": "particlesPerCellAxis", "value": "3"},
+    ]
+    scene = import_ea_scene(data, "small.json")
+    assert scene.domain.max[0] / scene.cell_size == pytest.approx(50 - 3)
+    assert scene.gravity == pytest.approx([0, 0])
+    assert scene.materials["liquid"].volume_feedback == 0.0
+    assert scene.materials["liquid"].relaxation < 2
+    assert scene.fills[0].particles_per_axis == 3.0
+    assert any("renderMode" in note for note in scene.notes)
+    assert any("liquidRelaxation" in note for note in scene.notes)
+
+
+def test_circles_and_colliders() -> None:
+    data = small(shape="1", radius=40)
+    data["shapes"].append({**SMALL["shapes"][0], "function": "1"})
+    scene = import_ea_scene(data, "small.json")
+    assert scene.fills[0].shape.kind == "sphere"
+    assert scene.fills[0].shape.radius == pytest.approx(5 * scene.cell_size)
+    assert scene.colliders[0].shape.kind == "box"
+
+
+@pytest.mark.parametrize(
+    ("fields", "said"),
+    [
+        ({"emitMaterial": "2"}, r"shapes\[0\].emitMaterial: the material 'sand' is not supported"),
+        ({"emitMaterial": "3"}, r"shapes\[0\].emitMaterial: the material 'visco' is not supported"),
+        ({"function": "0"}, r"shapes\[0\].function: 'emitter' is not supported"),
+        ({"function": "2"}, r"shapes\[0\].function: 'drain' is not supported"),
+        ({"function": "7"}, r"shapes\[0\].function: 7 is not known"),
+        ({"position": 3}, r"shapes\[0\].position: an object with x and y"),
+        ({"halfSize": {"x": "wide", "y": 1}}, r"shapes\[0\].halfSize.x: 'wide' is not a number"),
+        ({"function": "1"}, "nothing fills this scene"),
+    ],
+)
+def test_refused_by_name(fields: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        import_ea_scene(small(**fields), "small.json")
+
+
+def test_all_reasons_are_told_at_once() -> None:
+    data = small(function="0", emitMaterial="3")
+    data["shapes"].append({**SMALL["shapes"][0], "function": "2"})
+    with pytest.raises(InputError) as caught:
+        import_ea_scene(data, "small.json")
+    for name in ("emitter", "visco", "drain"):
+        assert f"'{name}'" in str(caught.value)

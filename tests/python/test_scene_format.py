@@ -1,0 +1,170 @@
+"""Scene files: what is accepted, and that each error names its field."""
+
+from __future__ import annotations
+
+import copy
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from pbmpm.app.errors import InputError
+from pbmpm.app.motion import pose_at, quaternion, rotation_matrix
+from pbmpm.app.scene import MotionPart, load_scene, parse_scene
+
+VALID: dict[str, Any] = {
+    "format": "pbmpm-scene",
+    "version": 1,
+    "name": "test",
+    "dimension": 2,
+    "cell_size": 0.1,
+    "gravity": [0, -9.81],
+    "seconds": 1,
+    "domain": {"min": [0, 0], "max": [1, 1]},
+    "materials": {"water": {"kind": "liquid"}},
+    "fills": [{"shape": {"kind": "box", "position": [0.5, 0.5], "half_extents": [0.2, 0.2]}, "material": "water"}],
+}
+
+
+def changed(path: str, value: Any) -> dict[str, Any]:
+    """The valid scene with one field set; the path is written with dots."""
+    data = copy.deepcopy(VALID)
+    *way, last = path.split(".")
+    place: Any = data
+    for step in way:
+        place = place[int(step)] if isinstance(place, list) else place[step]
+    place[last] = value
+    return data
+
+
+def test_defaults() -> None:
+    scene = parse_scene(VALID)
+    assert (scene.rate_hz, scene.substeps, scene.iterations) == (60.0, 1, 5)
+    assert scene.materials["water"].volume_feedback == 0.1
+    assert scene.fills[0].particles_per_axis == 2.0
+    assert scene.picture_times(4.0) == [0.0, 1.0, 2.0, 3.0, 4.0]
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "named", "said"),
+    [
+        ("foo", 1, "foo", "unknown field"),
+        ("materials.water.densty", 3, "materials.water.densty", "unknown field"),
+        ("materials.water.density", -3, "materials.water.density", "greater than"),
+        ("materials.water.relaxation", 2.0, "materials.water.relaxation", "less than 2"),
+        ("materials.water.kind", "sand", "materials.water", "'sand'"),
+        ("gravity", [0, 0, 1], "gravity", "needs 2 numbers"),
+        ("gravity", [0, math.nan], "gravity[1]", "finite"),
+        ("rate_hz", "60", "rate_hz", "valid number"),
+        ("iterations", True, "iterations", "valid integer"),
+        ("seconds", 0, "seconds", "greater than 0"),
+        ("fills.0.material", "oil", "fills[0].material", "'oil'"),
+        ("fills.0.shape.radius", 1, "fills[0].shape.radius", "unknown field"),
+        ("fills.0.shape.half_extents", [0, 1], "fills[0].shape.half_extents[0]", "greater than 0"),
+        ("fills.0.shape.rotation", [0, 0, 0, 1], "fills[0].shape.rotation", "angle"),
+        ("domain.max", [0.2, 1], "domain.max[0]", "4 cells"),
+        ("colliders", [{"shape": {"kind": "plane", "position": [0, 0], "normal": [0, 0]}}], "colliders[0].shape.normal", "zero"),
+        ("pictures", {"times": [-1]}, "pictures.times[0]", "greater than or equal to 0"),
+        ("name", "../evil", "name", "pattern"),
+    ],
+)
+def test_error_names_the_field(path: str, value: Any, named: str, said: str) -> None:
+    with pytest.raises(InputError) as caught:
+        parse_scene(changed(path, value), "file.json")
+    message = str(caught.value)
+    assert f"file.json: {named}: " in message
+    assert said in message
+
+
+@pytest.mark.parametrize("field", ["dimension", "cell_size", "gravity", "seconds", "materials", "fills", "name"])
+def test_required_fields(field: str) -> None:
+    data = {key: value for key, value in VALID.items() if key != field}
+    with pytest.raises(InputError, match=rf"{field}: this field is required"):
+        parse_scene(data)
+
+
+def test_all_errors_are_told_at_once() -> None:
+    data = changed("foo", 1)
+    data["seconds"] = -1
+    with pytest.raises(InputError) as caught:
+        parse_scene(data)
+    assert "foo: unknown" in str(caught.value) and "seconds: " in str(caught.value)
+
+
+def test_3d_wants_quaternions() -> None:
+    data = changed("dimension", 3)
+    data["gravity"], data["domain"] = [0, -9.81, 0], {"min": [0, 0, 0], "max": [1, 1, 1]}
+    data["fills"][0]["shape"] = {"kind": "box", "position": [0.5] * 3, "half_extents": [0.2] * 3, "rotation": 0.3}
+    with pytest.raises(InputError, match=r"fills\[0\].shape.rotation: in 3D this is a quaternion"):
+        parse_scene(data)
+    data["fills"][0]["shape"]["rotation"] = [0, 0, 0, 1]
+    assert parse_scene(data).fills[0].shape.rotation == [0, 0, 0, 1]
+
+
+@pytest.mark.parametrize(("text", "said"), [("{", "not JSON"), ("[1]", "'format'"), ('{"format": "x"}', "'format'")])
+def test_not_a_scene(tmp_path: Path, text: str, said: str) -> None:
+    path = tmp_path / "scene.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=said) as caught:
+        load_scene(path)
+    assert "scene.json" in str(caught.value)
+
+
+def test_missing_file(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="cannot be read"):
+        load_scene(tmp_path / "none.json")
+
+
+def test_sample_scenes_are_valid_and_named_like_their_files(root: Path) -> None:
+    files = sorted((root / "samples" / "scenes").glob("*.json"))
+    assert len(files) >= 7
+    for path in files:
+        assert load_scene(path).name == path.stem
+
+
+def test_every_sample_is_in_the_readme(root: Path) -> None:
+    text = (root / "samples" / "scenes" / "README.md").read_text()
+    for path in (root / "samples" / "scenes").glob("*.json"):
+        assert f"`{path.name}`" in text
+
+
+def motion(**fields: Any) -> MotionPart:
+    frames = [{"time": 1.0, "position": [0, 0]}, {"time": 2.0, "position": [2, 0], "rotation": 1.0}]
+    return MotionPart.model_validate({"keyframes": frames, **fields})
+
+
+@pytest.mark.parametrize(
+    ("time", "repeat", "x"), [(0.0, False, 0), (1.25, False, 0.5), (9.0, False, 2), (2.25, True, 0.5), (3.75, True, 1.5)]
+)
+def test_motion_is_linear_held_or_repeated(time: float, repeat: bool, x: float) -> None:
+    position, rotation = pose_at(motion(repeat=repeat), time)
+    assert position == pytest.approx([x, 0, 0])
+    assert rotation == pytest.approx(quaternion(x / 2))
+
+
+def test_rotation_between_quaternions_takes_the_short_way() -> None:
+    half = math.sqrt(0.5)
+    frames = [
+        {"time": 0.0, "position": [0, 0, 0], "rotation": [0.0, 0, 0, 1]},
+        {"time": 1.0, "position": [0, 0, 0], "rotation": [0, 0, -half, -half]},
+    ]
+    _, rotation = pose_at(MotionPart.model_validate({"keyframes": frames}), 0.5)
+    turned = rotation_matrix(rotation) @ np.array([1.0, 0, 0])
+    assert turned == pytest.approx([math.cos(math.pi / 4), math.sin(math.pi / 4), 0])
+
+
+def test_keyframes_must_rise() -> None:
+    collider = {
+        "shape": {"kind": "box", "position": [0, 0], "half_extents": [1, 1]},
+        "motion": {"keyframes": [{"time": 1, "position": [0, 0]}, {"time": 1, "position": [0, 0]}]},
+    }
+    with pytest.raises(InputError, match=r"colliders\[0\].motion: the times of the keyframes must rise"):
+        parse_scene(changed("colliders", [collider]))
+
+
+def test_a_scene_survives_its_own_dump() -> None:
+    scene = parse_scene(changed("materials", {"water": {"kind": "liquid"}, "jelly": {"kind": "elastic"}}))
+    assert parse_scene(json.loads(scene.model_dump_json(exclude_none=True))) == scene
