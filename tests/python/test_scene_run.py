@@ -143,7 +143,7 @@ def test_bad_input_is_exit_code_2(scene_file: Path, tmp_path: Path, arguments: t
 
 def test_ctrl_c_leaves_complete_files(scene_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "pbmpm.app", "run", str(scene_file), "--seconds", "1000", "--ply", "--output", str(out)]
+    command = [sys.executable, "-m", "pbmpm.app", "run", str(scene_file), "--seconds", "1000", "--ply", "--pictures", "", "--output", str(out)]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         deadline = time.monotonic() + 60

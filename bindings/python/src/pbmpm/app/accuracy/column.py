@@ -1,8 +1,8 @@
 """A column of water at rest in a box: how much it sinks together, beside what the solver's compressibility predicts.
 
-The column starts at its rest density, is let go, bounces and settles. Its height is twice the height of the centre of
-mass, averaged over the last second and taken relative to the start: that does not depend on how single particles lie
-at the surface.
+The column starts at its rest density, is let go, bounces and settles. Its height is taken from the uppermost
+TOP_SHARE of its particles, averaged over them and over the last second: that does not depend on how single particles
+lie at the surface.
 """
 
 from __future__ import annotations
@@ -20,8 +20,6 @@ from . import laws
 from .common import (
     GRAVITY,
     PARTICLES_PER_AXIS,
-    centre_height,
-    centre_height_of,
     modulus_over_density,
     start_energy,
     timed_step,
@@ -34,6 +32,7 @@ DEFAULT_CELLS = 32
 WIDTH_RATIO = 0.5
 BOX_HEIGHT = 1.5
 DEFAULT_SECONDS = 5.0
+TOP_SHARE = 0.05
 
 
 @dataclass(frozen=True)
@@ -75,31 +74,37 @@ class Column:
         steps = max(1, math.ceil(self.seconds * settings.rate_hz))
         last_second = steps - min(steps, math.ceil(settings.rate_hz))
         whole, settled, judge = Meter(), Meter(), StabilityJudge()
-        centres: list[float] = []
+        heights: list[float] = []
         with Simulation(self.scene(), settings) as simulation:
-            centre = centre_height(simulation)
+            start = self._top(simulation)
             judge.begin(start_energy(simulation))
             for step in range(steps):
-                stats = timed_step(simulation, whole if step < last_second else settled, judge)
+                timed_step(simulation, whole if step < last_second else settled, judge)
                 if judge.broken:
                     break
                 if step >= last_second:
-                    centres.append(centre_height_of(stats))
-        ratio = float(np.mean(centres)) / centre if centres and not judge.broken else None
+                    heights.append(self._top(simulation))
+        sinking = (start - float(np.mean(heights))) / self.height if heights and not judge.broken else None
         seconds = (whole.seconds + settled.seconds) / ((whole.steps + settled.steps) * settings.dt)
-        return self._row(settings, 1e3 * seconds, ratio, settled if settled.steps else whole, judge)
+        return self._row(settings, 1e3 * seconds, sinking, settled if settled.steps else whole, judge)
 
-    def _row(self, settings: RunSettings, cost: float, ratio: float | None, meter: Meter, judge: StabilityJudge) -> dict[str, Any]:
+    def _top(self, simulation: Simulation) -> float:
+        """Mean height of the uppermost particles [m]."""
+        heights = np.array(simulation.world.positions.array()[:, 1])
+        count = max(1, round(TOP_SHARE * len(heights)))
+        return float(np.partition(heights, -count)[-count:].mean())
+
+    def _row(self, settings: RunSettings, cost: float, sinking: float | None, meter: Meter, judge: StabilityJudge) -> dict[str, Any]:
         modulus = modulus_over_density(self.scene(), settings)
-        predicted = laws.settled_height_ratio(self.height, GRAVITY, modulus)
-        if ratio is not None:
-            judge.settle(ratio, predicted)
+        predicted = laws.mean_compression(self.height, GRAVITY, modulus)
+        if sinking is not None:
+            judge.settle(1.0 - sinking, 1.0 - predicted)
         return {
             "rate_hz": settings.rate_hz,
             "iterations": settings.iterations,
             "ms_per_simulated_second": cost,
-            "height_error": None if ratio is None else ratio - 1.0,
-            "height_error_law": predicted - 1.0,
+            "height_error": None if sinking is None else -sinking,
+            "height_error_law": -predicted,
             "volume_error_rms": meter.volume_error_rms,
             "volume_error_law": laws.settled_volume_error(self.height, GRAVITY, modulus),
             "energy_peak": judge.energy_peak,

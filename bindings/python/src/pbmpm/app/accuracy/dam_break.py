@@ -126,7 +126,10 @@ class DamBreak:
         return body_extent(x, self.cell_size, spacing), body_extent(at_wall, self.cell_size, spacing)
 
     def _settle(self, settings: RunSettings, judge: StabilityJudge) -> float | None:
-        """Runs until the water rests and tells the judge. Gives the settled volume over the rest volume."""
+        """Runs until the water rests and tells the judge.
+
+        Gives the settled volume over the rest volume, from the height of the centre of mass in the last second.
+        """
         steps = max(1, math.ceil(self.stability_seconds * settings.rate_hz))
         last_second = steps - min(steps, math.ceil(settings.rate_hz))
         scene = self.scene(SHORT_TANK, self.stability_seconds)
@@ -141,5 +144,6 @@ class DamBreak:
                 if step >= last_second:
                     centres.append(centre_height_of(stats))
         ratio = 2.0 * float(np.mean(centres)) / depth
-        judge.settle(ratio, laws.settled_height_ratio(depth, GRAVITY, modulus_over_density(scene, settings)))
+        profile = laws.column_profile(depth, GRAVITY, modulus_over_density(scene, settings))
+        judge.settle(ratio, laws.apparent_height_ratio(profile))
         return ratio

@@ -24,16 +24,16 @@ def column_profile(height: float, gravity: float, modulus: float) -> np.ndarray:
     return 1.0 / (1.0 + gravity * (height - rest_heights) / modulus)
 
 
+def mean_compression(height: float, gravity: float, modulus: float) -> float:
+    """How much of its rest height a column at rest has lost."""
+    return 1.0 - float(column_profile(height, gravity, modulus).mean())
+
+
 def apparent_height_ratio(volume_ratios: np.ndarray) -> float:
     """Twice the height of the centre of mass over the rest height, for layers with these J."""
     tops = np.cumsum(volume_ratios)
     middles = tops - 0.5 * volume_ratios
     return 2.0 * float(middles.mean()) / len(volume_ratios)
-
-
-def settled_height_ratio(height: float, gravity: float, modulus: float) -> float:
-    """Apparent height of a settled column over its rest height."""
-    return apparent_height_ratio(column_profile(height, gravity, modulus))
 
 
 def settled_volume_error(height: float, gravity: float, modulus: float) -> float:

@@ -11,8 +11,12 @@ from ..progress import progress_bar
 from ..simulation import RunSettings, versions
 from .stability import DEFINITION
 
-DEFAULT_RATES = [30.0, 60.0, 120.0, 240.0, 480.0]
-DEFAULT_ITERATIONS = [1, 2, 5, 10]
+
+def default_sweep(quick: bool) -> tuple[list[float], list[int]]:
+    """Rates and iterations that are measured unless others are asked for."""
+    if quick:
+        return [30.0, 60.0, 240.0], [1, 5, 10]
+    return [30.0, 60.0, 120.0, 240.0, 480.0], [1, 2, 5, 10]
 
 
 class Case(Protocol):
