@@ -1,0 +1,100 @@
+/* Structures that C and the ISPC kernels share. Plain C and ISPC both read this file; tests compare the layouts.
+ *
+ * Inside the kernels lengths are in cells: a displacement of 1 is one cell per substep, and the displacement gradient D
+ * has no unit. Masses are densities times volumes in cells [kg/m^d], so their size does not depend on dx. */
+#ifndef PBMPM_KERNEL_TYPES_H
+#define PBMPM_KERNEL_TYPES_H
+
+#ifdef ISPC
+#define K_UNIFORM uniform
+typedef unsigned int32 uint32_t;
+typedef int32 int32_t;
+#else
+#include <stdint.h>
+#define K_UNIFORM
+#endif
+
+/* One pointer type for both languages: a uniform pointer to uniform data. */
+#define K_PTR(type) K_UNIFORM type *K_UNIFORM
+#define K_CONST_PTR(type) const K_UNIFORM type *K_UNIFORM
+
+#define K_BLOCK_AXIS 4  /* cells (and nodes) per block and axis */
+#define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
+#define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass or its inverse */
+#define K_MAX_GANG 16   /* particle arrays are padded by this many valid elements */
+#define K_TILE_PAD 8    /* floats behind each tile that a full-width add may touch */
+
+/* A run is a stretch of sorted particles of one material in one cell: uniform stencil, uniform parameters. */
+#define K_RUN_CELL_BITS 6
+#define K_RUN_CELL_MASK 63
+
+#define K_LIQUID 0
+#define K_ELASTIC 1
+
+#define K_ALIVE 0
+#define K_NOT_FINITE 1
+#define K_OUT_OF_RANGE 2
+#define K_CONDITION 3
+#define K_REMOVED 4 /* by a call */
+
+#ifndef __ISPC_STRUCT_KernelMaterial__
+#define __ISPC_STRUCT_KernelMaterial__
+struct KernelMaterial {
+    int32_t kind;
+    float relaxation;
+    float viscosity;
+    float volume_feedback;
+    float elasticity_ratio;
+    float strain_min;
+    float strain_max;
+    float condition_max; /* 0: clamp the strain instead of deleting */
+    float rebound_max;
+    float inverse_density;
+};
+#endif
+
+#ifndef __ISPC_STRUCT_KernelArgs__
+#define __ISPC_STRUCT_KernelArgs__
+struct KernelArgs {
+    /* Particles, sorted by block, cell and material; structure of arrays. */
+    K_PTR(float) fraction[3]; /* position relative to the nearest node, in [-1/2, 1/2) */
+    K_PTR(int32_t) cell[3];   /* that node */
+    K_PTR(float) velocity[3];
+    K_PTR(float) affine[9]; /* row-major, stride 3 in 2D too */
+    K_PTR(float) volume_ratio;
+    K_PTR(float) mass;
+    K_PTR(float) deformation[9]; /* null without elastic materials */
+    K_PTR(int32_t) status;       /* K_ALIVE, or why the particle has to go */
+
+    /* Runs and blocks. */
+    K_CONST_PTR(uint32_t) run_begin; /* first particle of each run, and the end */
+    K_CONST_PTR(uint32_t) run_key;   /* cell in the block | material << K_RUN_CELL_BITS */
+    K_CONST_PTR(uint32_t) block_run; /* first run of each particle block, and the end */
+    K_CONST_PTR(int32_t) neighbour;  /* 3^d indices per node block, x fastest; -1: not there */
+    int32_t particle_blocks;         /* blocks [0, particle_blocks) have particles; the rest are only touched */
+
+    /* Grid. */
+    K_PTR(float) tile;        /* per particle block: what its particles add to the nodes they touch */
+    K_PTR(float) tile_volume; /* the same for rest volume, one float per node; null when no material asks for it */
+    K_PTR(float) node;        /* per node block: displacement and inverse mass */
+    K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
+    K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
+    K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */
+    K_PTR(uint32_t) moved;    /* out, per particle block: particles that left their cell */
+    K_PTR(uint32_t) lost;     /* out, per particle block: particles whose status is not K_ALIVE */
+
+    K_CONST_PTR(struct KernelMaterial) material;
+    float dt;               /* [s] */
+    float cells_per_metre;  /* 1/dx */
+    float gravity[3];       /* g dt^2 / dx: added to the predictor */
+    float max_displacement; /* [cells] */
+    int32_t max_cell;
+    int32_t check_strain; /* bring F into range before its first use */
+};
+#endif
+
+#ifndef ISPC
+typedef struct KernelMaterial KernelMaterial;
+typedef struct KernelArgs KernelArgs;
+#endif
+#endif

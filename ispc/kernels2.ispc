@@ -1,0 +1,19 @@
+// The 2D kernels. Bodies: kernels.isph.
+#define DIM 2
+#include "kernels.isph"
+
+export void scatter2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    scatter_blocks(*args, begin, end);
+}
+export void predict_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    predict_node_blocks(*args, begin, end);
+}
+export void iterate2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    iterate_blocks(*args, begin, end);
+}
+export void update_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    update_node_blocks(*args, begin, end);
+}
+export void integrate2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    integrate_blocks(*args, begin, end);
+}

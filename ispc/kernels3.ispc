@@ -1,0 +1,19 @@
+// The 3D kernels. Bodies: kernels.isph.
+#define DIM 3
+#include "kernels.isph"
+
+export void scatter3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    scatter_blocks(*args, begin, end);
+}
+export void predict_nodes3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    predict_node_blocks(*args, begin, end);
+}
+export void iterate3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    iterate_blocks(*args, begin, end);
+}
+export void update_nodes3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    update_node_blocks(*args, begin, end);
+}
+export void integrate3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    integrate_blocks(*args, begin, end);
+}

@@ -1,0 +1,452 @@
+/* The exported functions, and nothing else: check the arguments, hold the world, forward, let go. */
+#include "pbmpm/pbmpm.h"
+
+#include <string.h>
+#include <unistd.h>
+
+#include "colliders.h"
+#include "cpu.h"
+#include "edit.h"
+#include "inspect.h"
+#include "layout.h"
+#include "numbers.h"
+#include "registry.h"
+#include "result.h"
+#include "step.h"
+#include "world.h"
+
+#define REQUIRE(pointer)                                                                                                \
+    if (!(pointer)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s: " #pointer " is null", __func__)
+
+#define REQUIRE_SIZE(structure)                                                                                         \
+    REQUIRE(structure);                                                                                                 \
+    if ((structure)->size != sizeof *(structure))                                                                       \
+        return fail(PBMPM_ERROR_UNSUPPORTED, "%s: the size in " #structure " is not known to this version", __func__)
+
+/* A world that a call holds, in the floating-point mode of the kernels. */
+typedef struct Hold {
+    pbmpm_world_id id;
+    World *world;
+    uint32_t float_mode;
+} Hold;
+
+static pbmpm_result hold(pbmpm_world_id id, Hold *held)
+{
+    held->id = id;
+    const pbmpm_result result = registry_enter(id, &held->world);
+    if (result != PBMPM_OK) return result;
+    if (held->world->owner != getpid()) {
+        registry_leave(id);
+        return fail(PBMPM_ERROR_FORKED, "this world belongs to the parent process");
+    }
+    held->float_mode = float_mode_enter();
+    return PBMPM_OK;
+}
+
+static pbmpm_result let_go(const Hold *held, pbmpm_result result)
+{
+    float_mode_leave(held->float_mode);
+    registry_leave(held->id);
+    return result;
+}
+
+#define HOLD(id)                                                                                                        \
+    Hold held;                                                                                                          \
+    const pbmpm_result hold_result = hold(id, &held);                                                                   \
+    if (hold_result != PBMPM_OK) return hold_result;                                                                    \
+    World *w = held.world
+
+#define LET_GO(result) return let_go(&held, result)
+
+/* Writes the defaults of a structure whose first member is its size. */
+static pbmpm_result init_structure(void *structure, size_t size, const void *defaults, size_t known)
+{
+    if (!structure) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "the structure to fill is null");
+    if (size != known) return fail(PBMPM_ERROR_UNSUPPORTED, "a structure of %zu bytes is not known; this version has %zu", size, known);
+    memcpy(structure, defaults, known);
+    return PBMPM_OK;
+}
+
+#define INIT(structure, size, defaults)                                                                                 \
+    return init_structure(structure, size, &(defaults), sizeof(defaults))
+
+static pbmpm_result invalid(const char *problem) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem); }
+
+/* ---- base.h ---- */
+
+const char *pbmpm_result_name(pbmpm_result result) { return result_name(result); }
+
+const char *pbmpm_last_error(void) { return result_message(); }
+
+pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user)
+{
+    result_set_log(callback, user);
+    return PBMPM_OK;
+}
+
+uint32_t pbmpm_version(void)
+{
+    return PBMPM_VERSION_MAJOR * 1000000u + PBMPM_VERSION_MINOR * 1000u + PBMPM_VERSION_PATCH;
+}
+
+uint32_t pbmpm_abi_version(void) { return PBMPM_ABI_VERSION; }
+
+pbmpm_isa pbmpm_active_isa(void) { return cpu_isa(); }
+
+const char *pbmpm_isa_name(pbmpm_isa isa) { return cpu_isa_name(isa); }
+
+pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count)
+{
+    REQUIRE(entries);
+    REQUIRE(count);
+    *entries = layout_table(count);
+    return PBMPM_OK;
+}
+
+pbmpm_result pbmpm_shutdown(void)
+{
+    registry_clear();
+    return PBMPM_OK;
+}
+
+/* A library that is unloaded must not leave threads in its code. */
+__attribute__((destructor)) static void shut_down_at_unload(void) { registry_clear(); }
+
+/* ---- world.h ---- */
+
+pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size)
+{
+    const pbmpm_world_def defaults = world_def_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size)
+{
+    const pbmpm_settings defaults = settings_defaults();
+    INIT(settings, size, defaults);
+}
+
+pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *world)
+{
+    REQUIRE(world);
+    *world = (pbmpm_world_id){0, 0};
+    REQUIRE_SIZE(def);
+    const char *problem = world_def_problem(def);
+    if (problem) return invalid(problem);
+    World *created;
+    pbmpm_result result = world_create(def, &created);
+    if (result != PBMPM_OK) return result;
+    result = registry_add(created, world);
+    if (result != PBMPM_OK) world_destroy(created);
+    return result;
+}
+
+pbmpm_result pbmpm_world_destroy(pbmpm_world_id world)
+{
+    World *removed;
+    const pbmpm_result result = registry_remove(world, &removed);
+    if (result == PBMPM_OK) world_destroy(removed);
+    return result;
+}
+
+pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def)
+{
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    *def = w->def;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings)
+{
+    REQUIRE_SIZE(settings);
+    HOLD(world);
+    *settings = w->settings;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings)
+{
+    REQUIRE_SIZE(settings);
+    const char *problem = settings_problem(settings);
+    if (problem) return invalid(problem);
+    HOLD(world);
+    w->settings = *settings;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
+{
+    if (!(dt > 0.0f && dt <= 10.0f)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "dt must be in (0, 10] seconds");
+    HOLD(world);
+    LET_GO(world_step(w, dt));
+}
+
+pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation)
+{
+    REQUIRE(generation);
+    HOLD(world);
+    *generation = w->generation;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash)
+{
+    REQUIRE(hash);
+    HOLD(world);
+    *hash = inspect_hash(w);
+    LET_GO(PBMPM_OK);
+}
+
+/* ---- material.h ---- */
+
+pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size)
+{
+    const pbmpm_material_def defaults = material_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material)
+{
+    REQUIRE(material);
+    *material = (pbmpm_material_id){0, 0};
+    REQUIRE_SIZE(def);
+    const char *problem = material_problem(def);
+    if (problem) return invalid(problem);
+    HOLD(world);
+    pbmpm_result result = PBMPM_OK;
+    if (def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
+    if (result == PBMPM_OK) result = materials_add(&w->materials, def, registry_next_generation(), material);
+    LET_GO(result);
+}
+
+static pbmpm_result no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
+
+pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def)
+{
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    *def = w->materials.def[material.index];
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
+{
+    REQUIRE_SIZE(def);
+    const char *problem = material_problem(def);
+    if (problem) return invalid(problem);
+    HOLD(world);
+    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    const pbmpm_material_def *old = &w->materials.def[material.index];
+    if (old->kind != def->kind || old->density != def->density)
+        LET_GO(invalid("the kind and the density of a material cannot be changed"));
+    materials_set(&w->materials, material.index, def);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material)
+{
+    HOLD(world);
+    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    for (uint32_t row = 0; row < w->particles.count; row++)
+        if (w->particles.material[row] == material.index) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
+    w->materials.generation[material.index] = 0;
+    LET_GO(PBMPM_OK);
+}
+
+/* ---- shape.h, collider.h ---- */
+
+pbmpm_result pbmpm_shape_init(pbmpm_shape *shape, size_t size)
+{
+    const pbmpm_shape defaults = shape_defaults();
+    INIT(shape, size, defaults);
+}
+
+pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size)
+{
+    const pbmpm_collider_def defaults = collider_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider)
+{
+    REQUIRE(collider);
+    *collider = (pbmpm_collider_id){0, 0};
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    const char *problem = collider_problem(def, w->def.dimension);
+    if (problem) LET_GO(invalid(problem));
+    LET_GO(colliders_add(&w->colliders, def, registry_next_generation(), collider));
+}
+
+static pbmpm_result no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
+
+pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider)
+{
+    HOLD(world);
+    Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) LET_GO(no_collider());
+    found->generation = 0;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def)
+{
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    const Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) LET_GO(no_collider());
+    *def = found->def;
+    LET_GO(PBMPM_OK);
+}
+
+static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const float *position, const float *rotation, bool at_once)
+{
+    Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) return no_collider();
+    if (!at_once && !found->def.kinematic) return invalid("only kinematic colliders move");
+    pbmpm_shape shape = found->def.shape;
+    memcpy(shape.position, position, sizeof shape.position);
+    if (rotation) memcpy(shape.rotation, rotation, sizeof shape.rotation);
+    const char *problem = shape_problem(&shape, w->def.dimension);
+    if (problem) return invalid(problem);
+    collider_place(found, position, rotation, at_once);
+    return PBMPM_OK;
+}
+
+pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3], const float rotation[4])
+{
+    REQUIRE(position);
+    HOLD(world);
+    LET_GO(place_collider(w, collider, position, rotation, false));
+}
+
+pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3], const float rotation[4])
+{
+    REQUIRE(position);
+    HOLD(world);
+    LET_GO(place_collider(w, collider, position, rotation, true));
+}
+
+pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE(count);
+    if (capacity) REQUIRE(ids);
+    HOLD(world);
+    const Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) LET_GO(no_collider());
+    const Solid solid = solid_of(&found->def.shape, w->def.dimension);
+    inspect_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE_SIZE(shape);
+    REQUIRE(count);
+    if (capacity) REQUIRE(ids);
+    HOLD(world);
+    const char *problem = shape_problem(shape, w->def.dimension);
+    if (problem) LET_GO(invalid(problem));
+    const Solid solid = solid_of(shape, w->def.dimension);
+    inspect_inside(w, &solid, 0.0, ids, capacity, count);
+    LET_GO(PBMPM_OK);
+}
+
+/* ---- particles.h ---- */
+
+pbmpm_result pbmpm_particles_def_init(pbmpm_particles_def *def, size_t size)
+{
+    const pbmpm_particles_def defaults = particles_def_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size)
+{
+    const pbmpm_fill_def defaults = fill_def_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids)
+{
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    LET_GO(edit_add(w, def, registry_next_generation(), ids));
+}
+
+pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added)
+{
+    REQUIRE_SIZE(def);
+    HOLD(world);
+    LET_GO(edit_fill(w, def, registry_next_generation(), added));
+}
+
+pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count)
+{
+    if (count) REQUIRE(ids);
+    HOLD(world);
+    LET_GO(edit_remove(w, ids, count));
+}
+
+pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *shape, uint32_t *removed)
+{
+    REQUIRE_SIZE(shape);
+    HOLD(world);
+    LET_GO(edit_remove_in(w, shape, removed));
+}
+
+pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
+{
+    REQUIRE(count);
+    HOLD(world);
+    *count = w->particles.count;
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view)
+{
+    REQUIRE_SIZE(view);
+    HOLD(world);
+    LET_GO(inspect_view(w, field, view));
+}
+
+pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
+{
+    if (count) REQUIRE(values);
+    HOLD(world);
+    LET_GO(edit_set(w, field, ids, count, values));
+}
+
+pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows)
+{
+    if (count) REQUIRE(ids);
+    if (count) REQUIRE(rows);
+    HOLD(world);
+    uint32_t row;
+    for (uint32_t i = 0; i < count; i++)
+        if (!particles_row(&w->particles, ids[i], &row))
+            LET_GO(fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i));
+    for (uint32_t i = 0; i < count; i++) particles_row(&w->particles, ids[i], &rows[i]);
+    LET_GO(PBMPM_OK);
+}
+
+/* ---- stats.h ---- */
+
+pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats)
+{
+    REQUIRE_SIZE(stats);
+    HOLD(world);
+    LET_GO(inspect_stats(w, stats));
+}
+
+pbmpm_result pbmpm_world_events(pbmpm_world_id world, const pbmpm_event **events, uint32_t *count, uint32_t *missed)
+{
+    REQUIRE(events);
+    REQUIRE(count);
+    HOLD(world);
+    *events = w->events.list;
+    *count = w->events.count;
+    if (missed) *missed = w->events.missed;
+    LET_GO(PBMPM_OK);
+}

@@ -1,0 +1,348 @@
+#include "colliders.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "numbers.h"
+#include "result.h"
+
+enum { DOMAIN_WALLS = 6 };
+
+pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
+{
+    *colliders = (Colliders){.slot = memory_take(memory, PBMPM_MAX_COLLIDERS * sizeof(Collider)),
+                             .obstacle = memory_take(memory, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle))};
+    if (colliders->slot && colliders->obstacle) return PBMPM_OK;
+    colliders_free(colliders, memory);
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for colliders");
+}
+
+void colliders_free(Colliders *colliders, Memory *memory)
+{
+    memory_give(memory, colliders->slot, PBMPM_MAX_COLLIDERS * sizeof(Collider));
+    memory_give(memory, colliders->obstacle, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle));
+    array_free(memory, &colliders->contact);
+    array_free(memory, &colliders->contact_begin);
+    array_free(memory, &colliders->near);
+    array_free(memory, &colliders->near_begin);
+    *colliders = (Colliders){0};
+}
+
+pbmpm_collider_def collider_defaults(void)
+{
+    return (pbmpm_collider_def){.size = sizeof(pbmpm_collider_def),
+                                .friction = PBMPM_FRICTION_COULOMB,
+                                .friction_coefficient = 0.2f,
+                                .shape = shape_defaults()};
+}
+
+const char *collider_problem(const pbmpm_collider_def *def, int dimension)
+{
+    if (def->size != sizeof *def) return "collider.size is unknown: fill the definition with pbmpm_collider_def_init()";
+    if (def->friction != PBMPM_FRICTION_COULOMB && def->friction != PBMPM_FRICTION_STICK && def->friction != PBMPM_FRICTION_SLIP)
+        return "collider.friction is unknown";
+    if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
+    if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
+    return shape_problem(&def->shape, dimension);
+}
+
+pbmpm_result colliders_add(Colliders *colliders, const pbmpm_collider_def *def, uint32_t generation, pbmpm_collider_id *id)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_COLLIDERS; slot++) {
+        Collider *collider = &colliders->slot[slot];
+        if (collider->generation != 0) continue;
+        *collider = (Collider){.generation = generation, .def = *def};
+        collider_place(collider, def->shape.position, def->shape.rotation, true);
+        if (slot >= colliders->used) colliders->used = slot + 1;
+        *id = (pbmpm_collider_id){slot, generation};
+        return PBMPM_OK;
+    }
+    return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d colliders", PBMPM_MAX_COLLIDERS);
+}
+
+Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id)
+{
+    if (id.index >= PBMPM_MAX_COLLIDERS || id.generation == 0) return NULL;
+    Collider *collider = &colliders->slot[id.index];
+    return collider->generation == id.generation ? collider : NULL;
+}
+
+void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once)
+{
+    pbmpm_shape *shape = &collider->def.shape;
+    memmove(collider->target_position, position, sizeof collider->target_position);
+    memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
+    collider->moving = !at_once;
+    if (!at_once) return;
+    memcpy(shape->position, collider->target_position, sizeof shape->position);
+    memcpy(shape->rotation, collider->target_rotation, sizeof shape->rotation);
+}
+
+/* ---- Obstacles of a substep ---- */
+
+/* The pose at the share `t` of the way; quaternions along the shorter arc, normalised by solid_of(). */
+static pbmpm_shape pose_between(const Collider *collider, float t)
+{
+    pbmpm_shape shape = collider->def.shape;
+    float dot = 0.0f;
+    for (int a = 0; a < 4; a++) dot += shape.rotation[a] * collider->target_rotation[a];
+    for (int a = 0; a < 3; a++) shape.position[a] += t * (collider->target_position[a] - shape.position[a]);
+    const float sign = dot < 0.0f ? -1.0f : 1.0f;
+    for (int a = 0; a < 4; a++) shape.rotation[a] += t * (sign * collider->target_rotation[a] - shape.rotation[a]);
+    if (t == 1.0f) { /* exactly, whatever rounding says */
+        memcpy(shape.position, collider->target_position, sizeof shape.position);
+        memcpy(shape.rotation, collider->target_rotation, sizeof shape.rotation);
+    }
+    return shape;
+}
+
+static Obstacle obstacle_of(const Collider *collider, int dimension, int part, int parts)
+{
+    Obstacle o = {.moves = collider->moving, .friction = collider->def.friction, .coefficient = collider->def.friction_coefficient};
+    if (!collider->moving) {
+        o.start = o.end = solid_of(&collider->def.shape, dimension);
+        return o;
+    }
+    const pbmpm_shape start = pose_between(collider, (float)part / (float)parts);
+    const pbmpm_shape end = pose_between(collider, (float)(part + 1) / (float)parts);
+    o.start = solid_of(&start, dimension);
+    o.end = solid_of(&end, dimension);
+    for (int r = 0; r < 3; r++)
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++) o.turn[r * 3 + c] += o.end.rotation[r * 3 + k] * o.start.rotation[c * 3 + k];
+    return o;
+}
+
+static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool upper)
+{
+    Obstacle o = {.wall = true, .friction = PBMPM_FRICTION_COULOMB, .coefficient = domain->friction};
+    o.start = (Solid){.kind = PBMPM_PLANE, .dimension = dimension};
+    o.start.position[axis] = upper ? domain->high[axis] : domain->low[axis];
+    o.start.normal[axis] = upper ? -1.0 : 1.0;
+    o.end = o.start;
+    return o;
+}
+
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts)
+{
+    int count = 0;
+    for (uint32_t slot = 0; slot < colliders->used; slot++)
+        if (colliders->slot[slot].generation != 0)
+            colliders->obstacle[count++] = obstacle_of(&colliders->slot[slot], dimension, part, parts);
+    for (int axis = 0; domain->enabled && axis < dimension; axis++) {
+        colliders->obstacle[count++] = domain_wall(domain, dimension, axis, false);
+        colliders->obstacle[count++] = domain_wall(domain, dimension, axis, true);
+    }
+    colliders->obstacle_count = count;
+}
+
+void colliders_end_step(Colliders *colliders)
+{
+    for (uint32_t slot = 0; slot < colliders->used; slot++) {
+        Collider *collider = &colliders->slot[slot];
+        if (collider->generation != 0 && collider->moving)
+            collider_place(collider, collider->target_position, collider->target_rotation, true);
+    }
+}
+
+/* Where the obstacle carries a point of its own, in cells, at most `limit`: x -> end + turn (x - start). */
+static void surface_displacement(const Obstacle *o, const double point[3], double cell_size, float limit, float out[3])
+{
+    memset(out, 0, 3 * sizeof *out);
+    if (!o->moves) return;
+    double moved[3], length = 0.0;
+    for (int r = 0; r < 3; r++) {
+        moved[r] = o->end.position[r] - point[r];
+        for (int c = 0; c < 3; c++) moved[r] += o->turn[r * 3 + c] * (point[c] - o->start.position[c]);
+        moved[r] /= cell_size;
+        length += moved[r] * moved[r];
+    }
+    const double scale = length > (double)limit * limit ? limit / sqrt(length) : 1.0;
+    for (int r = 0; r < o->start.dimension; r++) out[r] = (float)(moved[r] * scale);
+}
+
+/* ---- Finding contacts ---- */
+
+typedef struct FindJob {
+    const ContactFrame *frame;
+    bool write; /* first pass counts, second writes */
+} FindJob;
+
+static void node_position(const ContactFrame *frame, int32_t block, int node, double point[3])
+{
+    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    const int local[3] = {node & 3, node >> 2 & 3, node >> 4};
+    for (int a = 0; a < 3; a++)
+        point[a] = a < frame->grid->dimension ? (double)(corner[a] * K_BLOCK_AXIS + local[a]) * frame->cell_size : 0.0;
+}
+
+/* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and a
+ * cell for what the iterations add. */
+static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t block, const double centre[3])
+{
+    float surface[3];
+    surface_displacement(o, centre, frame->cell_size, frame->max_displacement, surface);
+    double motion = 0.0;
+    for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
+    const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
+    return fmin(node, frame->max_displacement) + motion + 1.0;
+}
+
+static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
+                          const double normal[3])
+{
+    Contact contact = {.node = (uint32_t)node, .friction = o->friction, .coefficient = o->coefficient};
+    contact.gap = distance > 0.0 ? (float)distance : 0.0f;
+    for (int a = 0; a < 3; a++) contact.normal[a] = (float)normal[a];
+    surface_displacement(o, point, frame->cell_size, frame->max_displacement, contact.surface);
+    return contact;
+}
+
+/* Contacts of one obstacle with one block's nodes; writes them if `out` is not null, and returns their number. */
+static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int32_t block, double reach, Contact *out)
+{
+    const Grid *grid = frame->grid;
+    const float *node = (const float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
+    uint32_t count = 0;
+    for (int i = 0; i < grid->block_cells; i++) {
+        if (node[i * K_NODE_WIDTH + 3] == 0.0f) continue; /* no mass, nobody listens */
+        double point[3], normal[3];
+        node_position(frame, block, i, point);
+        const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
+        if (distance > reach) continue;
+        if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
+        count++;
+    }
+    return count;
+}
+
+static void find_in_blocks(void *context, int32_t begin, int32_t end)
+{
+    const FindJob *job = context;
+    const ContactFrame *frame = job->frame;
+    Colliders *colliders = frame->colliders;
+    uint32_t *contact_begin = colliders->contact_begin.data, *near_begin = colliders->near_begin.data;
+    const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
+    for (int32_t block = begin; block < end; block++) {
+        uint32_t contacts = 0, near = 0;
+        double centre[3], normal[3];
+        node_position(frame, block, 0, centre);
+        for (int a = 0; a < frame->grid->dimension; a++) centre[a] += 1.5 * frame->cell_size;
+        for (int i = 0; i < colliders->obstacle_count; i++) {
+            const Obstacle *o = &colliders->obstacle[i];
+            const double reach = reach_of(frame, o, block, centre);
+            if (solid_distance(&o->start, centre, normal) / frame->cell_size > reach + half_diagonal) continue;
+            Contact *out = job->write ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
+            if (job->write) ((uint16_t *)colliders->near.data)[near_begin[block] + near] = (uint16_t)i;
+            contacts += contacts_with(frame, o, block, reach, out);
+            near++;
+        }
+        if (job->write) continue;
+        contact_begin[block + 1] = contacts;
+        near_begin[block + 1] = near;
+    }
+}
+
+pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool)
+{
+    Colliders *colliders = frame->colliders;
+    const int32_t blocks = frame->grid->node_blocks;
+    colliders->contacts = 0;
+    if (colliders->obstacle_count == 0) return PBMPM_OK;
+    const size_t ends = (size_t)blocks + 1;
+    if (!array_reserve(memory, &colliders->contact_begin, ends, sizeof(uint32_t)) ||
+        !array_reserve(memory, &colliders->near_begin, ends, sizeof(uint32_t)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the contacts of %d blocks", blocks);
+    uint32_t *contact_begin = colliders->contact_begin.data, *near_begin = colliders->near_begin.data;
+    FindJob job = {frame, false};
+    pool_for(pool, blocks, 16, find_in_blocks, &job);
+    contact_begin[0] = near_begin[0] = 0;
+    for (int32_t b = 0; b < blocks; b++) {
+        contact_begin[b + 1] += contact_begin[b];
+        near_begin[b + 1] += near_begin[b];
+    }
+    if (!array_reserve(memory, &colliders->contact, contact_begin[blocks], sizeof(Contact)) ||
+        !array_reserve(memory, &colliders->near, near_begin[blocks], sizeof(uint16_t)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u contacts", contact_begin[blocks]);
+    job.write = true;
+    pool_for(pool, blocks, 16, find_in_blocks, &job);
+    colliders->contacts = contact_begin[blocks];
+    return PBMPM_OK;
+}
+
+/* ---- Obeying contacts ---- */
+
+/* Relative to the surface the node may approach by the gap and no further: u.n >= -gap. The impulse that this takes limits
+ * the friction: the tangential part loses at most coefficient times as much (Coulomb's cone). */
+static void obey(const Contact *contact, float *u)
+{
+    const float *n = contact->normal, *s = contact->surface;
+    float v[3], normal_part = 0.0f, tangent2 = 0.0f;
+    for (int a = 0; a < 3; a++) {
+        v[a] = u[a] - s[a];
+        normal_part += v[a] * n[a];
+    }
+    const bool held = contact->friction == PBMPM_FRICTION_STICK;
+    const float impulse = -contact->gap - normal_part;
+    if (impulse <= 0.0f && !(held && contact->gap == 0.0f)) return;
+    for (int a = 0; a < 3; a++) {
+        v[a] -= normal_part * n[a];
+        tangent2 += v[a] * v[a];
+    }
+    float keep = contact->friction == PBMPM_FRICTION_SLIP ? 1.0f : 0.0f;
+    if (contact->friction == PBMPM_FRICTION_COULOMB) {
+        const float lost = contact->coefficient * impulse;
+        keep = tangent2 > lost * lost ? 1.0f - lost / sqrtf(tangent2) : 0.0f;
+    }
+    for (int a = 0; a < 3; a++) u[a] = s[a] - contact->gap * n[a] + keep * v[a];
+}
+
+void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    if (colliders->contacts == 0) return;
+    const Grid *grid = frame->grid;
+    const uint32_t *contact_begin = colliders->contact_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        float *node = (float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
+        for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
+            const Contact *contact = (const Contact *)colliders->contact.data + i;
+            obey(contact, node + contact->node * K_NODE_WIDTH);
+        }
+    }
+}
+
+/* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
+ * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
+static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt)
+{
+    double point[3] = {0}, normal[3];
+    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
+    double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
+    if (depth <= 0.0) return;
+    if (!o->wall) depth = fmin(depth, 1.0);
+    float surface[3];
+    double place[3], inward = 0.0;
+    surface_displacement(o, point, frame->cell_size, frame->max_displacement, surface);
+    const double to_velocity = frame->cell_size / (double)dt;
+    for (int a = 0; a < p->dimension; a++) {
+        place[a] = particles_coordinate(p, row, a) + depth * normal[a];
+        inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
+    }
+    particles_set_position(p, row, place);
+    for (int a = 0; a < p->dimension && inward < 0.0; a++) p->velocity[a][row] -= (float)(inward * normal[a]);
+}
+
+void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    const uint32_t *near_begin = colliders->near_begin.data, *block_begin = frame->grid->block_begin.data;
+    if (colliders->obstacle_count == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        for (uint32_t i = near_begin[block]; i < near_begin[block + 1]; i++) {
+            const Obstacle *o = &colliders->obstacle[((const uint16_t *)colliders->near.data)[i]];
+            for (uint32_t row = block_begin[block]; row < block_begin[block + 1]; row++)
+                push_particle(frame, o, particles, row, dt);
+        }
+    }
+}

@@ -1,0 +1,84 @@
+/* Obstacles: their motion, the nodes and particles near them, and what they do to both. */
+#ifndef PBMPM_SRC_COLLIDERS_H
+#define PBMPM_SRC_COLLIDERS_H
+
+#include "grid.h"
+#include "pbmpm/collider.h"
+#include "shapes.h"
+
+typedef struct Collider {
+    uint32_t generation; /* 0: free slot */
+    pbmpm_collider_def def;
+    float target_position[3]; /* where the next step takes it */
+    float target_rotation[4];
+    bool moving;
+} Collider;
+
+/* An obstacle during one substep: a collider, or a wall of the domain. */
+typedef struct Obstacle {
+    Solid start, end;
+    double turn[9]; /* rotation from start to end */
+    bool moves;
+    bool wall; /* of the domain: particles are always put back inside at once */
+    pbmpm_friction friction;
+    float coefficient;
+} Obstacle;
+
+/* A node that an obstacle may meet in this substep. Displacements and lengths in cells. */
+typedef struct Contact {
+    uint32_t node; /* in its block */
+    pbmpm_friction friction;
+    float coefficient;
+    float gap; /* how far the node may approach; 0 inside */
+    float normal[3];
+    float surface[3]; /* displacement of the obstacle's surface */
+} Contact;
+
+typedef struct Colliders {
+    Collider *slot; /* PBMPM_MAX_COLLIDERS */
+    uint32_t used;  /* slots [used, PBMPM_MAX_COLLIDERS) were never taken */
+    Obstacle *obstacle;
+    int obstacle_count;
+
+    Array contact;       /* Contact */
+    Array contact_begin; /* uint32_t per node block, and the end */
+    Array near;          /* uint16_t obstacle indices, by block */
+    Array near_begin;    /* uint32_t per node block, and the end */
+    uint32_t contacts;
+} Colliders;
+
+pbmpm_result colliders_init(Colliders *colliders, Memory *memory);
+void colliders_free(Colliders *colliders, Memory *memory);
+
+pbmpm_collider_def collider_defaults(void);
+const char *collider_problem(const pbmpm_collider_def *def, int dimension);
+pbmpm_result colliders_add(Colliders *colliders, const pbmpm_collider_def *def, uint32_t generation, pbmpm_collider_id *id);
+Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
+void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
+
+/* The obstacles of part `part` of `parts` of a step. */
+typedef struct Domain {
+    bool enabled;
+    double low[3], high[3]; /* [m] */
+    float friction;
+} Domain;
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts);
+/* After the last part: the targets are reached. */
+void colliders_end_step(Colliders *colliders);
+
+/* Lists the contacts of all blocks; needs node_reach of the predictor. */
+typedef struct ContactFrame {
+    Colliders *colliders;
+    const Grid *grid;
+    double cell_size;
+    float max_displacement; /* cells */
+} ContactFrame;
+pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
+
+/* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. */
+void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);
+
+/* Last resort: puts particles of the particle blocks [begin, end) that ended inside an obstacle back to its surface. */
+void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);
+
+#endif

@@ -1,0 +1,17 @@
+/* What the CPU can do, and the floating-point mode the kernels run in. */
+#ifndef PBMPM_SRC_CPU_H
+#define PBMPM_SRC_CPU_H
+
+#include "pbmpm/base.h"
+
+/* The best supported instruction set, lowered by PBMPM_ISA in the environment; asked once. Runs on any x86-64. */
+pbmpm_isa cpu_isa(void);
+const char *cpu_isa_name(pbmpm_isa isa);
+int cpu_core_count(void);
+
+/* Sets round-to-nearest, flush-to-zero, denormals-are-zero and masked exceptions; returns the old mode. Results depend
+ * on the mode, and denormals cost dearly, so every entry that computes and every worker uses this. */
+uint32_t float_mode_enter(void);
+void float_mode_leave(uint32_t old);
+
+#endif

@@ -1,0 +1,320 @@
+#include "edit.h"
+
+#include <string.h>
+
+#include "numbers.h"
+#include "result.h"
+
+static const double VALUE_LIMIT = 1e9; /* of velocities and their gradients: far above any use, far below float overflow */
+
+pbmpm_particles_def particles_def_defaults(void) { return (pbmpm_particles_def){.size = sizeof(pbmpm_particles_def)}; }
+
+pbmpm_fill_def fill_def_defaults(void)
+{
+    return (pbmpm_fill_def){.size = sizeof(pbmpm_fill_def),
+                            .seed = 1,
+                            .shape = shape_defaults(),
+                            .particles_per_axis = 2.0f,
+                            .jitter = 0.5f};
+}
+
+static bool position_is_valid(const World *world, const float *position)
+{
+    const double limit = (double)CELL_LIMIT * (double)world->def.cell_size;
+    for (int a = 0; a < world->def.dimension; a++) {
+        if (!in_range(position[a], -limit, limit)) return false;
+        if (world->domain.enabled && !in_range(position[a], world->domain.low[a], world->domain.high[a])) return false;
+    }
+    return true;
+}
+
+static pbmpm_result no_room(World *world, uint64_t wanted)
+{
+    const Particles *p = &world->particles;
+    const uint32_t count = wanted > UINT32_MAX ? UINT32_MAX : (uint32_t)wanted;
+    const pbmpm_event event = {.kind = PBMPM_EVENT_CAPACITY, .count = count, .step = world->step_count};
+    events_add(&world->events, &event);
+    return fail(PBMPM_ERROR_CAPACITY, "no room for %llu more particles: %u of %u in use", (unsigned long long)wanted, p->count,
+                p->capacity);
+}
+
+/* ---- Adding ---- */
+
+static pbmpm_result check_particles(const World *world, const pbmpm_particles_def *def)
+{
+    const int d = world->def.dimension;
+    if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "particles.size is unknown: use pbmpm_particles_def_init()");
+    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "particles.material is not of this world");
+    if (def->count && !def->positions) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.positions is null");
+    if (!def->volumes && !in_range(def->volume, 0.0, 1e27)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be in [0, 1e27]");
+    const double cell = world_cell_volume(world);
+    if (!def->volumes && def->volume > 0.0f && !in_range(def->volume / cell, 1e-6, 1e6))
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be between 1e-6 and 1e6 cells");
+    for (uint32_t i = 0; i < def->count; i++) {
+        if (!position_is_valid(world, def->positions + (size_t)i * d))
+            return fail(PBMPM_ERROR_INVALID_ARGUMENT, "position of particle %u is not finite or outside the domain", i);
+        if (def->velocities && !all_in_range(def->velocities + (size_t)i * d, d, -VALUE_LIMIT, VALUE_LIMIT))
+            return fail(PBMPM_ERROR_INVALID_ARGUMENT, "velocity of particle %u is not finite or above 1e9 m/s", i);
+        if (def->volumes && !in_range(def->volumes[i] / cell, 1e-6, 1e6))
+            return fail(PBMPM_ERROR_INVALID_ARGUMENT, "volume of particle %u must be between 1e-6 and 1e6 cells", i);
+    }
+    return PBMPM_OK;
+}
+
+pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t generation, pbmpm_particle_id *ids)
+{
+    const pbmpm_result checked = check_particles(world, def);
+    if (checked != PBMPM_OK) return checked;
+    Particles *p = &world->particles;
+    if (def->count > p->capacity - p->count) return no_room(world, def->count);
+    const int d = world->def.dimension;
+    const double dx = (double)world->def.cell_size, cell = world_cell_volume(world);
+    const double usual = def->volume > 0.0f ? def->volume / cell : d == 3 ? 0.125 : 0.25; /* [cells] */
+    const double density = (double)world->materials.def[def->material.index].density;
+    for (uint32_t i = 0; i < def->count; i++) {
+        const double volume = def->volumes ? def->volumes[i] / cell : usual;
+        NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
+        for (int a = 0; a < d; a++) {
+            particle.position[a] = (double)def->positions[(size_t)i * d + a] / dx;
+            if (def->velocities) particle.velocity[a] = def->velocities[(size_t)i * d + a];
+        }
+        const pbmpm_particle_id id = particles_append(p, &particle, generation);
+        if (ids) ids[i] = id;
+    }
+    world_touch(world);
+    return PBMPM_OK;
+}
+
+/* ---- Filling shapes ---- */
+
+/* A lattice centred on the shape, so that a symmetric shape gets a symmetric filling. Lengths in metres. */
+typedef struct Lattice {
+    Solid solid;
+    double first[3];
+    double spacing;
+    uint32_t size[3];
+} Lattice;
+
+static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice *lattice)
+{
+    double low[3], high[3], points = 1.0;
+    *lattice = (Lattice){.solid = solid_of(&def->shape, world->def.dimension),
+                         .spacing = (double)world->def.cell_size / (double)def->particles_per_axis,
+                         .size = {1, 1, 1}};
+    solid_bounds(&lattice->solid, low, high);
+    for (int a = 0; a < world->def.dimension; a++) {
+        const double size = fmax(1.0, floor((high[a] - low[a]) / lattice->spacing + 0.5));
+        points *= size;
+        if (points > 1e10) return false;
+        lattice->size[a] = (uint32_t)size;
+        lattice->first[a] = 0.5 * (low[a] + high[a]) - 0.5 * (size - 1.0) * lattice->spacing;
+    }
+    return true;
+}
+
+/* A number in [-1/2, 1/2) from a counter: the finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014). */
+static double scatter_number(uint64_t seed, uint64_t counter)
+{
+    uint64_t x = (seed << 32 ^ counter) + 0x9e3779b97f4a7c15u;
+    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+    return (double)((x ^ x >> 31) >> 11) * 0x1p-53 - 0.5;
+}
+
+/* The jittered lattice point, or false if it is not in the shape or not in the domain. Jitter never leaves the domain. */
+static bool lattice_point(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, const uint32_t index[3], double point[3])
+{
+    double normal[3];
+    const Domain *domain = &world->domain;
+    for (int a = 0; a < 3; a++) point[a] = lattice->first[a] + index[a] * lattice->spacing;
+    if (solid_distance(&lattice->solid, point, normal) > 1e-6 * lattice->spacing) return false;
+    const uint64_t number = ((uint64_t)index[2] * lattice->size[1] + index[1]) * lattice->size[0] + index[0];
+    for (int a = 0; a < world->def.dimension; a++) {
+        if (domain->enabled && !in_range(point[a], domain->low[a], domain->high[a])) return false;
+        point[a] += (double)def->jitter * lattice->spacing * scatter_number(def->seed, number * 3 + (uint64_t)a);
+        if (domain->enabled) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
+    }
+    const float place[3] = {(float)point[0], (float)point[1], (float)point[2]};
+    return domain->enabled || position_is_valid(world, place);
+}
+
+/* Visits the lattice; appends if `generation` is not 0; returns how many points count. */
+static uint64_t walk_lattice(World *world, const Lattice *lattice, const pbmpm_fill_def *def, uint32_t generation)
+{
+    const double dx = (double)world->def.cell_size, per_cell = lattice->spacing / dx;
+    const double volume = world->def.dimension == 3 ? per_cell * per_cell * per_cell : per_cell * per_cell;
+    const double density = (double)world->materials.def[def->material.index].density;
+    uint64_t count = 0;
+    for (uint32_t k = 0; k < lattice->size[2]; k++) {
+        for (uint32_t j = 0; j < lattice->size[1]; j++) {
+            for (uint32_t i = 0; i < lattice->size[0]; i++) {
+                double point[3];
+                if (!lattice_point(world, lattice, def, (uint32_t[3]){i, j, k}, point)) continue;
+                count++;
+                if (generation == 0) continue;
+                NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
+                for (int a = 0; a < world->def.dimension; a++) {
+                    particle.position[a] = point[a] / dx;
+                    particle.velocity[a] = def->velocity[a];
+                }
+                particles_append(&world->particles, &particle, generation);
+            }
+        }
+    }
+    return count;
+}
+
+static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
+{
+    if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "fill.size is unknown: use pbmpm_fill_def_init()");
+    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "fill.material is not of this world");
+    const char *problem = shape_problem(&def->shape, world->def.dimension);
+    if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill: %s", problem);
+    if (def->shape.kind == PBMPM_PLANE) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: a plane has no end");
+    if (!in_range(def->particles_per_axis, 0.25, 16.0))
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.particles_per_axis must be in [0.25, 16]");
+    if (!in_range(def->jitter, 0.0, 1.0)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.jitter must be in [0, 1]");
+    if (!all_in_range(def->velocity, (size_t)world->def.dimension, -VALUE_LIMIT, VALUE_LIMIT))
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.velocity must be finite and at most 1e9 m/s");
+    return PBMPM_OK;
+}
+
+pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generation, uint32_t *added)
+{
+    const pbmpm_result checked = check_fill(world, def);
+    if (checked != PBMPM_OK) return checked;
+    Lattice lattice;
+    if (!make_lattice(world, def, &lattice))
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 1e10 lattice points");
+    const uint64_t count = walk_lattice(world, &lattice, def, 0);
+    if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
+    if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
+    walk_lattice(world, &lattice, def, generation);
+    world_touch(world);
+    return PBMPM_OK;
+}
+
+/* ---- Removing ---- */
+
+pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t count)
+{
+    Particles *p = &world->particles;
+    uint32_t row;
+    for (uint32_t i = 0; i < count; i++)
+        if (!particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
+    for (uint32_t i = 0; i < count; i++) {
+        particles_row(p, ids[i], &row);
+        p->status[row] = K_REMOVED;
+    }
+    if (count) {
+        particles_compact(p);
+        world_touch(world);
+    }
+    return PBMPM_OK;
+}
+
+pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed)
+{
+    const char *problem = shape_problem(shape, world->def.dimension);
+    if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem);
+    const Solid solid = solid_of(shape, world->def.dimension);
+    Particles *p = &world->particles;
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < p->count; row++) {
+        double point[3] = {0}, normal[3];
+        for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
+        if (solid_distance(&solid, point, normal) > 0.0) continue;
+        p->status[row] = K_REMOVED;
+        count++;
+    }
+    if (removed) *removed = count;
+    if (count) {
+        particles_compact(p);
+        world_touch(world);
+    }
+    return PBMPM_OK;
+}
+
+/* ---- Changing ---- */
+
+static bool is_elastic(const World *world, uint32_t row)
+{
+    return world->materials.kernel[world->particles.material[row]].kind == K_ELASTIC;
+}
+
+static uint32_t settable_components(const World *world, pbmpm_field field)
+{
+    const uint32_t d = (uint32_t)world->def.dimension;
+    switch (field) {
+    case PBMPM_POSITION:
+    case PBMPM_VELOCITY: return d;
+    case PBMPM_AFFINE_VELOCITY:
+    case PBMPM_DEFORMATION: return d * d;
+    case PBMPM_VOLUME_RATIO: return 1;
+    default: return 0;
+    }
+}
+
+/* Whether row may take these values; fails with a message otherwise. */
+static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t row, const float *values, uint32_t components)
+{
+    switch (field) {
+    case PBMPM_POSITION:
+        if (position_is_valid(world, values)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a position is not finite or outside the domain");
+    case PBMPM_VOLUME_RATIO:
+        if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "the volume ratio of an elastic particle follows from F");
+        if (in_range(*values, 0.01, 100.0)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a volume ratio must be in [0.01, 100]");
+    case PBMPM_DEFORMATION:
+        if (!is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
+        if (all_in_range(values, components, -1e6, 1e6)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a deformation gradient is not finite or has an entry above 1e6");
+    default:
+        if (all_in_range(values, components, -VALUE_LIMIT, VALUE_LIMIT)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a value is not finite or above 1e9");
+    }
+}
+
+static void write_value(World *world, pbmpm_field field, uint32_t row, const float *values)
+{
+    Particles *p = &world->particles;
+    const int d = p->dimension;
+    if (field == PBMPM_POSITION) {
+        double position[3];
+        for (int a = 0; a < d; a++) position[a] = (double)values[a] / (double)world->def.cell_size;
+        particles_set_position(p, row, position);
+    } else if (field == PBMPM_VOLUME_RATIO) {
+        p->volume_ratio[row] = *values;
+    } else if (field == PBMPM_VELOCITY) {
+        for (int a = 0; a < d; a++) p->velocity[a][row] = values[a];
+    } else {
+        float **matrix = field == PBMPM_DEFORMATION ? p->deformation : p->affine;
+        for (int r = 0; r < d; r++)
+            for (int c = 0; c < d; c++) matrix[r * 3 + c][row] = values[r * d + c];
+    }
+}
+
+pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
+{
+    Particles *p = &world->particles;
+    const uint32_t components = settable_components(world, field);
+    if (components == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "this field cannot be set");
+    if (!ids && count != p->count) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%u values for %u particles", count, p->count);
+    uint32_t row;
+    for (uint32_t i = 0; i < count; i++) {
+        row = i;
+        if (ids && !particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
+        const pbmpm_result checked = check_value(world, field, row, values + (size_t)i * components, components);
+        if (checked != PBMPM_OK) return checked;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        row = i;
+        if (ids) particles_row(p, ids[i], &row);
+        write_value(world, field, row, values + (size_t)i * components);
+    }
+    world->strain_unchecked |= field == PBMPM_DEFORMATION;
+    particles_changed(p);
+    world_touch(world);
+    return PBMPM_OK;
+}

@@ -1,0 +1,25 @@
+/* What happened in a step, for the host to poll. */
+#ifndef PBMPM_SRC_EVENTS_H
+#define PBMPM_SRC_EVENTS_H
+
+#include "pbmpm/stats.h"
+
+enum { EVENT_CAPACITY = 1024 };
+
+typedef struct Events {
+    pbmpm_event list[EVENT_CAPACITY];
+    uint32_t count;
+    uint32_t missed; /* happened when the list was full */
+} Events;
+
+static inline void events_clear(Events *events) { events->count = events->missed = 0; }
+
+static inline void events_add(Events *events, const pbmpm_event *event)
+{
+    if (events->count < EVENT_CAPACITY)
+        events->list[events->count++] = *event;
+    else
+        events->missed++;
+}
+
+#endif

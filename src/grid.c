@@ -1,0 +1,396 @@
+#include "grid.h"
+
+#include <string.h>
+
+#include "result.h"
+
+enum { BLOCK_GRAIN = 4, AXIS_BITS = 21, AXIS_BIAS = 1 << 20 };
+
+/* A block in order of discovery. */
+typedef struct FoundBlock {
+    int32_t coordinate[3];
+    uint32_t particles;
+    uint32_t sides; /* bit 2a: a particle in the lowest cell of axis a; bit 2a+1: in the highest */
+    int32_t index;  /* its final place */
+    uint64_t morton;
+} FoundBlock;
+
+pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capacity)
+{
+    const bool deep = dimension == 3;
+    *grid = (Grid){.dimension = dimension,
+                   .neighbours = deep ? 27 : 9,
+                   .block_cells = deep ? K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS : K_BLOCK_AXIS * K_BLOCK_AXIS,
+                   .tile_nodes = deep ? K_TILE_AXIS * K_TILE_AXIS * K_TILE_AXIS : K_TILE_AXIS * K_TILE_AXIS,
+                   .capacity = capacity};
+    const size_t bytes = ((size_t)capacity + 1) * 4;
+    const bool ok = (grid->run_begin = memory_take(memory, bytes)) && (grid->run_key = memory_take(memory, bytes)) &&
+                    (grid->block_of = memory_take(memory, bytes)) && (grid->order = memory_take(memory, bytes)) &&
+                    (grid->order_scratch = memory_take(memory, bytes));
+    if (ok) return PBMPM_OK;
+    grid_free(grid, memory);
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to sort %u particles", capacity);
+}
+
+void grid_free(Grid *grid, Memory *memory)
+{
+    const size_t bytes = ((size_t)grid->capacity + 1) * 4;
+    void *whole[] = {grid->run_begin, grid->run_key, grid->block_of, grid->order, grid->order_scratch};
+    for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) memory_give(memory, whole[i], bytes);
+    Array *arrays[] = {&grid->coordinate, &grid->neighbour, &grid->block_begin, &grid->block_run,  &grid->tile,   &grid->tile_volume,
+                       &grid->node,       &grid->node_volume, &grid->node_reach, &grid->clamped, &grid->moved, &grid->lost, &grid->found, &grid->sorted, &grid->table};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
+    *grid = (Grid){0};
+}
+
+/* ---- Finding blocks: a hash table from block coordinates to the order of discovery. ---- */
+
+static uint64_t pack(const int32_t c[3])
+{
+    return ((uint64_t)(uint32_t)(c[0] + AXIS_BIAS) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(c[1] + AXIS_BIAS) << AXIS_BITS) |
+           (uint64_t)(uint32_t)(c[2] + AXIS_BIAS);
+}
+
+static size_t hash_slot(const Grid *grid, uint64_t key)
+{
+    const size_t slots = grid->table.bytes / sizeof(uint32_t); /* a power of two, see reserve_found() */
+    return (size_t)((key * 0x9e3779b97f4a7c15u) >> 20) & (slots - 1);
+}
+
+/* The slot of a block, or the free slot where it belongs. */
+static uint32_t *find_slot(const Grid *grid, const int32_t c[3])
+{
+    const size_t mask = grid->table.bytes / sizeof(uint32_t) - 1;
+    uint32_t *table = grid->table.data;
+    const FoundBlock *found = grid->found.data;
+    for (size_t slot = hash_slot(grid, pack(c));; slot = (slot + 1) & mask) {
+        if (table[slot] == 0) return &table[slot];
+        const int32_t *other = found[table[slot] - 1].coordinate;
+        if (other[0] == c[0] && other[1] == c[1] && other[2] == c[2]) return &table[slot];
+    }
+}
+
+/* Room for at least one more block, with the table at most half full. Growing keeps what was found. */
+static bool reserve_found(Grid *grid, Memory *memory)
+{
+    if ((size_t)grid->found_count + 1 <= grid->found.bytes / sizeof(FoundBlock)) return true;
+    const size_t room = grid->found.bytes ? 2 * (grid->found.bytes / sizeof(FoundBlock)) : 1024;
+    FoundBlock *found = memory_take(memory, room * sizeof(FoundBlock));
+    uint32_t *table = found ? memory_take(memory, 2 * room * sizeof(uint32_t)) : NULL;
+    if (!table) {
+        memory_give(memory, found, room * sizeof(FoundBlock));
+        return false;
+    }
+    if (grid->found_count) memcpy(found, grid->found.data, grid->found_count * sizeof(FoundBlock));
+    array_free(memory, &grid->found);
+    array_free(memory, &grid->table);
+    grid->found = (Array){found, room * sizeof(FoundBlock)};
+    grid->table = (Array){table, 2 * room * sizeof(uint32_t)};
+    for (uint32_t i = 0; i < grid->found_count; i++) *find_slot(grid, found[i].coordinate) = i + 1;
+    return true;
+}
+
+/* The block in order of discovery, or -1 without memory. */
+static int32_t find_or_add(Grid *grid, Memory *memory, const int32_t c[3])
+{
+    if (!reserve_found(grid, memory)) return -1;
+    uint32_t *slot = find_slot(grid, c);
+    if (*slot == 0) {
+        ((FoundBlock *)grid->found.data)[grid->found_count] = (FoundBlock){.coordinate = {c[0], c[1], c[2]}};
+        *slot = ++grid->found_count;
+    }
+    return (int32_t)*slot - 1;
+}
+
+/* Which sides of its block a cell lies at, as in FoundBlock.sides. */
+static uint32_t sides_of(const int32_t cell[3], int dimension)
+{
+    uint32_t sides = 0;
+    for (int a = 0; a < dimension; a++) {
+        const int32_t local = cell[a] & (K_BLOCK_AXIS - 1);
+        sides |= (uint32_t)(local == 0) << (2 * a) | (uint32_t)(local == K_BLOCK_AXIS - 1) << (2 * a + 1);
+    }
+    return sides;
+}
+
+static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
+{
+    if (!reserve_found(grid, memory)) return false;
+    memset(grid->table.data, 0, grid->table.bytes);
+    grid->found_count = 0;
+    int32_t last[3] = {INT32_MIN, 0, 0}, block = -1;
+    for (uint32_t i = 0; i < p->count; i++) {
+        int32_t cell[3] = {0}, c[3] = {0};
+        for (int a = 0; a < p->dimension; a++) {
+            cell[a] = p->cell[a][i];
+            c[a] = cell[a] >> 2;
+        }
+        if (c[0] != last[0] || c[1] != last[1] || c[2] != last[2]) {
+            block = find_or_add(grid, memory, c);
+            if (block < 0) return false;
+            memcpy(last, c, sizeof last);
+        }
+        FoundBlock *found = (FoundBlock *)grid->found.data + block;
+        found->particles++;
+        found->sides |= sides_of(cell, p->dimension);
+        grid->block_of[i] = block;
+    }
+    return true;
+}
+
+/* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
+static void neighbour_offset(int n, int dimension, int32_t offset[3])
+{
+    offset[0] = n % 3 - 1;
+    offset[1] = n / 3 % 3 - 1;
+    offset[2] = dimension == 3 ? n / 9 - 1 : 0;
+}
+
+static bool touches(uint32_t sides, const int32_t offset[3])
+{
+    for (int a = 0; a < 3; a++) {
+        if (offset[a] < 0 && !(sides & 1u << (2 * a))) return false;
+        if (offset[a] > 0 && !(sides & 2u << (2 * a))) return false;
+    }
+    return true;
+}
+
+static bool find_touched_blocks(Grid *grid, Memory *memory)
+{
+    const uint32_t with_particles = grid->found_count;
+    for (uint32_t b = 0; b < with_particles; b++) {
+        for (int n = 0; n < grid->neighbours; n++) {
+            const FoundBlock *block = (FoundBlock *)grid->found.data + b;
+            int32_t c[3];
+            neighbour_offset(n, grid->dimension, c);
+            if (!touches(block->sides, c)) continue;
+            for (int a = 0; a < 3; a++) c[a] += block->coordinate[a];
+            if (find_or_add(grid, memory, c) < 0) return false;
+        }
+    }
+    return true;
+}
+
+/* ---- Order of blocks: Morton order keeps neighbours close in memory, and does not depend on who came first. ---- */
+
+static uint64_t spread_bits(uint32_t value)
+{
+    uint64_t x = value & 0x1fffff;
+    x = (x | x << 32) & 0x1f00000000ffffu;
+    x = (x | x << 16) & 0x1f0000ff0000ffu;
+    x = (x | x << 8) & 0x100f00f00f00f00fu;
+    x = (x | x << 4) & 0x10c30c30c30c30c3u;
+    return (x | x << 2) & 0x1249249249249249u;
+}
+
+static bool comes_before(const FoundBlock *a, const FoundBlock *b)
+{
+    const bool full_a = a->particles > 0, full_b = b->particles > 0;
+    return full_a != full_b ? full_a : a->morton < b->morton;
+}
+
+/* Bottom-up merge sort of the indices of the found blocks; returns the sorted half of grid->sorted. */
+static const uint32_t *sort_blocks(Grid *grid)
+{
+    FoundBlock *found = grid->found.data;
+    const uint32_t count = grid->found_count;
+    uint32_t *from = grid->sorted.data, *to = from + count;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t *c = found[i].coordinate;
+        found[i].morton = spread_bits((uint32_t)(c[0] + AXIS_BIAS)) | spread_bits((uint32_t)(c[1] + AXIS_BIAS)) << 1 |
+                          spread_bits((uint32_t)(c[2] + AXIS_BIAS)) << 2;
+        from[i] = i;
+    }
+    for (uint32_t width = 1; width < count; width *= 2) {
+        for (uint32_t begin = 0; begin < count; begin += 2 * width) {
+            const uint32_t middle = begin + width < count ? begin + width : count;
+            const uint32_t end = middle + width < count ? middle + width : count;
+            uint32_t left = begin, right = middle;
+            for (uint32_t i = begin; i < end; i++) {
+                const bool take_right = left == middle || (right < end && comes_before(&found[from[right]], &found[from[left]]));
+                to[i] = take_right ? from[right++] : from[left++];
+            }
+        }
+        uint32_t *swap = from;
+        from = to;
+        to = swap;
+    }
+    return from;
+}
+
+static bool reserve_blocks(Grid *grid, Memory *memory, bool with_volume)
+{
+    const size_t nodes = grid->found_count;
+    size_t full = 0;
+    for (uint32_t i = 0; i < grid->found_count; i++) full += ((FoundBlock *)grid->found.data)[i].particles > 0;
+    const size_t tile = (size_t)grid->tile_nodes * K_NODE_WIDTH + K_TILE_PAD, cells = (size_t)grid->block_cells;
+    bool ok = array_reserve(memory, &grid->sorted, 2 * nodes, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->coordinate, 3 * nodes, sizeof(int32_t)) &&
+              array_reserve(memory, &grid->neighbour, nodes * (size_t)grid->neighbours, sizeof(int32_t)) &&
+              array_reserve(memory, &grid->block_begin, full + 1, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->block_run, full + 1, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->tile, full * tile, sizeof(float)) &&
+              array_reserve(memory, &grid->node, nodes * cells * K_NODE_WIDTH, sizeof(float)) &&
+              array_reserve(memory, &grid->node_reach, nodes, sizeof(float)) &&
+              array_reserve(memory, &grid->clamped, full, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->moved, full, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->lost, full, sizeof(uint32_t));
+    if (ok && with_volume)
+        ok = array_reserve(memory, &grid->tile_volume, full * ((size_t)grid->tile_nodes + K_TILE_PAD), sizeof(float)) &&
+             array_reserve(memory, &grid->node_volume, nodes * cells, sizeof(float));
+    return ok;
+}
+
+/* Gives every block its final index and sets where its particles begin. */
+static void place_blocks(Grid *grid)
+{
+    const uint32_t *sorted = sort_blocks(grid);
+    FoundBlock *found = grid->found.data;
+    int32_t *coordinate = grid->coordinate.data;
+    uint32_t *begin = grid->block_begin.data, particles = 0;
+    grid->node_blocks = (int32_t)grid->found_count;
+    grid->particle_blocks = 0;
+    for (uint32_t i = 0; i < grid->found_count; i++) {
+        FoundBlock *block = &found[sorted[i]];
+        block->index = (int32_t)i;
+        memcpy(coordinate + 3 * i, block->coordinate, sizeof block->coordinate);
+        if (block->particles == 0) continue;
+        begin[i] = particles;
+        particles += block->particles;
+        grid->particle_blocks++;
+    }
+    begin[grid->particle_blocks] = particles;
+}
+
+static void link_neighbours(void *context, int32_t begin, int32_t end)
+{
+    Grid *grid = context;
+    const FoundBlock *found = grid->found.data;
+    for (int32_t b = begin; b < end; b++) {
+        const int32_t *own = (int32_t *)grid->coordinate.data + 3 * b;
+        for (int n = 0; n < grid->neighbours; n++) {
+            int32_t c[3];
+            neighbour_offset(n, grid->dimension, c);
+            for (int a = 0; a < 3; a++) c[a] += own[a];
+            const uint32_t slot = *find_slot(grid, c);
+            ((int32_t *)grid->neighbour.data)[b * grid->neighbours + n] = slot ? found[slot - 1].index : -1;
+        }
+    }
+}
+
+/* ---- Order of particles: stable counting sorts, by block, then inside each block by material and cell. ---- */
+
+static void order_by_block(Grid *grid, uint32_t count)
+{
+    const FoundBlock *found = grid->found.data;
+    uint32_t *begin = grid->block_begin.data;
+    for (uint32_t i = 0; i < count; i++) {
+        const int32_t block = found[grid->block_of[i]].index;
+        grid->order[begin[block]++] = i;
+    }
+    for (int32_t b = grid->particle_blocks; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
+    begin[0] = 0;
+}
+
+static uint32_t cell_in_block(const Particles *p, uint32_t i)
+{
+    uint32_t cell = (uint32_t)(p->cell[0][i] & 3) | (uint32_t)(p->cell[1][i] & 3) << 2;
+    return p->dimension == 3 ? cell | (uint32_t)(p->cell[2][i] & 3) << 4 : cell;
+}
+
+static uint32_t run_key_of(const Particles *p, uint32_t i)
+{
+    return cell_in_block(p, i) | p->material[i] << K_RUN_CELL_BITS;
+}
+
+enum { BUCKETS = 256 };
+_Static_assert((int)BUCKETS >= (int)PBMPM_MAX_MATERIALS && BUCKETS > K_RUN_CELL_MASK, "one bucket per material or cell");
+
+/* One stable counting pass over `count` entries of `from`; the key is the material slot or the cell in the block. */
+static void counting_pass(const Particles *p, const uint32_t *from, uint32_t *to, uint32_t count, bool by_material)
+{
+    uint32_t start[BUCKETS + 1] = {0};
+    for (uint32_t i = 0; i < count; i++) start[(by_material ? p->material[from[i]] : cell_in_block(p, from[i])) + 1]++;
+    for (int k = 0; k < BUCKETS; k++) start[k + 1] += start[k];
+    for (uint32_t i = 0; i < count; i++) to[start[by_material ? p->material[from[i]] : cell_in_block(p, from[i])]++] = from[i];
+}
+
+typedef struct SortJob {
+    Grid *grid;
+    Particles *particles;
+} SortJob;
+
+static void sort_inside_blocks(void *context, int32_t begin, int32_t end)
+{
+    const SortJob *job = context;
+    const uint32_t *block_begin = job->grid->block_begin.data;
+    for (int32_t b = begin; b < end; b++) {
+        const uint32_t first = block_begin[b], count = block_begin[b + 1] - first;
+        uint32_t *order = job->grid->order + first, *scratch = job->grid->order_scratch + first;
+        bool mixed = false;
+        for (uint32_t i = 1; i < count; i++) mixed |= job->particles->material[order[i]] != job->particles->material[order[0]];
+        counting_pass(job->particles, order, scratch, count, mixed);
+        if (mixed)
+            counting_pass(job->particles, scratch, order, count, false);
+        else
+            memcpy(order, scratch, count * sizeof *order);
+    }
+}
+
+/* Particles are in order: a run ends where the key changes. */
+static void count_runs(void *context, int32_t begin, int32_t end)
+{
+    const SortJob *job = context;
+    const uint32_t *block_begin = job->grid->block_begin.data;
+    uint32_t *block_run = job->grid->block_run.data;
+    for (int32_t b = begin; b < end; b++) {
+        uint32_t runs = 1;
+        for (uint32_t i = block_begin[b] + 1; i < block_begin[b + 1]; i++)
+            runs += run_key_of(job->particles, i) != run_key_of(job->particles, i - 1);
+        block_run[b + 1] = runs;
+    }
+}
+
+static void write_runs(void *context, int32_t begin, int32_t end)
+{
+    const SortJob *job = context;
+    Grid *grid = job->grid;
+    const uint32_t *block_begin = grid->block_begin.data, *block_run = grid->block_run.data;
+    for (int32_t b = begin; b < end; b++) {
+        uint32_t run = block_run[b];
+        for (uint32_t i = block_begin[b]; i < block_begin[b + 1]; i++) {
+            const uint32_t key = run_key_of(job->particles, i);
+            if (i > block_begin[b] && key == grid->run_key[run - 1]) continue;
+            grid->run_begin[run] = i;
+            grid->run_key[run++] = key;
+        }
+    }
+}
+
+static void build_runs(Grid *grid, Particles *p, Pool *pool)
+{
+    SortJob job = {grid, p};
+    uint32_t *block_run = grid->block_run.data;
+    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, count_runs, &job);
+    block_run[0] = 0;
+    for (int32_t b = 0; b < grid->particle_blocks; b++) block_run[b + 1] += block_run[b];
+    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, write_runs, &job);
+    grid->runs = block_run[grid->particle_blocks];
+    grid->run_begin[grid->runs] = p->count;
+}
+
+pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
+{
+    if (!find_particle_blocks(grid, memory, p) || !find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
+        grid->particle_blocks = grid->node_blocks = 0;
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
+    }
+    SortJob job = {grid, p};
+    place_blocks(grid);
+    order_by_block(grid, p->count);
+    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, sort_inside_blocks, &job);
+    particles_reorder(p, grid->order, pool);
+    build_runs(grid, p, pool);
+    pool_for(pool, grid->node_blocks, BLOCK_GRAIN, link_neighbours, grid);
+    return PBMPM_OK;
+}

@@ -1,0 +1,199 @@
+#include "inspect.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "result.h"
+
+/* ---- Views ---- */
+
+/* A field whose components lie `apart` bytes from each other. */
+static pbmpm_view planes(const void *first, uint32_t components, size_t apart)
+{
+    return (pbmpm_view){.data = first, .components = components, .component_stride = (uint32_t)apart, .stride = 4};
+}
+
+/* A field whose components lie side by side. */
+static pbmpm_view packed(const void *first, uint32_t components)
+{
+    return (pbmpm_view){.data = first, .components = components, .component_stride = 4, .stride = 4 * components};
+}
+
+pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
+{
+    Particles *p = &world->particles;
+    const uint32_t d = (uint32_t)p->dimension;
+    pbmpm_view found;
+    switch (field) {
+    case PBMPM_POSITION: found = packed(particles_positions(p, (double)world->def.cell_size, world->pool), d); break;
+    case PBMPM_VELOCITY: found = planes(p->velocity[0], d, p->array_bytes); break;
+    case PBMPM_AFFINE_VELOCITY: found = planes(p->affine[0], d * d, p->array_bytes); break;
+    case PBMPM_VOLUME_RATIO: found = packed(p->volume_ratio, 1); break;
+    case PBMPM_DEFORMATION:
+        if (!p->deformation[0]) return fail(PBMPM_ERROR_UNSUPPORTED, "a world without elastic materials has no deformation gradients");
+        found = planes(p->deformation[0], d * d, p->array_bytes);
+        break;
+    case PBMPM_MATERIAL: found = packed(p->material, 1); break;
+    case PBMPM_PARTICLE: found = packed(p->id, 2); break;
+    case PBMPM_MASS: found = packed(particles_kilograms(p, world_cell_volume(world)), 1); break;
+    default: return fail(PBMPM_ERROR_INVALID_ARGUMENT, "field %d does not exist", (int)field);
+    }
+    found.size = view->size;
+    found.count = p->count;
+    found.generation = world->generation;
+    if (p->count == 0) found.data = NULL;
+    *view = found;
+    return PBMPM_OK;
+}
+
+/* ---- Queries ---- */
+
+static void position_of(const World *world, uint32_t row, double point[3])
+{
+    for (int a = 0; a < 3; a++)
+        point[a] = a < world->def.dimension ? particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size : 0.0;
+}
+
+void inspect_inside(World *world, const Solid *solid, double margin, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
+{
+    uint32_t found = 0;
+    for (uint32_t row = 0; row < world->particles.count; row++) {
+        double point[3], normal[3];
+        position_of(world, row, point);
+        if (solid_distance(solid, point, normal) > margin) continue;
+        if (found < capacity) ids[found] = world->particles.id[row];
+        found++;
+    }
+    *count = found;
+}
+
+/* ---- Statistics ---- */
+
+/* Sums over all particles, in storage order and double precision. */
+typedef struct Sums {
+    double mass, momentum[3], angular[3], kinetic, potential;
+    double volume_error2, volume_error_max, speed2_max;
+} Sums;
+
+/* L = sum m (x cross v + dx^2/4 axl(C - C^T)): the affine part carries angular momentum of its own (C. Jiang et al., "The
+ * Affine Particle-In-Cell Method", ACM TOG 34(4), 2015, with the quadratic spline's inertia dx^2/4). */
+static void add_angular(const World *world, uint32_t row, double mass, const double x[3], const double v[3], Sums *sums)
+{
+    float *const *C = world->particles.affine;
+    const double inertia = 0.25 * (double)world->def.cell_size * (double)world->def.cell_size;
+    for (int a = world->def.dimension == 3 ? 0 : 2; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        const double spin = (double)C[c * 3 + b][row] - (double)C[b * 3 + c][row];
+        sums->angular[a] += mass * (x[b] * v[c] - x[c] * v[b] + inertia * spin);
+    }
+}
+
+static void add_particle(const World *world, uint32_t row, Sums *sums)
+{
+    const Particles *p = &world->particles;
+    const double mass = (double)p->mass[row] * world_cell_volume(world);
+    const double volume_error = fabs((double)p->volume_ratio[row] - 1.0);
+    double x[3], v[3] = {0}, speed2 = 0.0;
+    position_of(world, row, x);
+    for (int a = 0; a < p->dimension; a++) {
+        v[a] = (double)p->velocity[a][row];
+        speed2 += v[a] * v[a];
+        sums->momentum[a] += mass * v[a];
+        sums->potential -= mass * (double)world->settings.gravity[a] * x[a];
+    }
+    add_angular(world, row, mass, x, v, sums);
+    sums->mass += mass;
+    sums->kinetic += 0.5 * mass * speed2;
+    sums->speed2_max = fmax(sums->speed2_max, speed2);
+    sums->volume_error2 += volume_error * volume_error;
+    sums->volume_error_max = fmax(sums->volume_error_max, volume_error);
+}
+
+/* Sum over runs of the lanes that their gangs take. */
+static float lane_occupancy(const World *world)
+{
+    const Grid *grid = &world->grid;
+    uint64_t lanes = 0, particles = 0;
+    for (uint32_t run = 0; run < grid->runs; run++) {
+        const uint32_t count = grid->run_begin[run + 1] - grid->run_begin[run];
+        const uint32_t gang = (uint32_t)world->kernels->lanes;
+        lanes += (count + gang - 1) / gang * gang;
+        particles += count;
+    }
+    return lanes ? (float)((double)particles / (double)lanes) : 0.0f;
+}
+
+static void fill_record(const World *world, pbmpm_stats *stats)
+{
+    const StepRecord *record = &world->record;
+    stats->step_count = world->step_count;
+    stats->simulated_seconds = world->simulated_seconds;
+    stats->memory_bytes = world->memory.used;
+    stats->particle_blocks = (uint32_t)world->grid.particle_blocks;
+    stats->node_blocks = (uint32_t)world->grid.node_blocks;
+    stats->contacts = world->colliders.contacts;
+    stats->substeps = record->substeps;
+    stats->iterations = record->iterations;
+    stats->thread_count = (uint32_t)pool_thread_count(world->pool);
+    stats->ms_total = (float)record->ms_total;
+    stats->ms_sort = (float)record->ms_sort;
+    stats->ms_scatter = (float)record->ms_scatter;
+    stats->ms_contacts = (float)record->ms_contacts;
+    stats->ms_iterate = (float)record->ms_iterate;
+    stats->ms_integrate = (float)record->ms_integrate;
+    stats->deleted_total = world->deleted_total;
+    stats->clamped_total = world->clamped_total;
+    stats->lane_occupancy = lane_occupancy(world);
+}
+
+pbmpm_result inspect_stats(World *world, pbmpm_stats *stats)
+{
+
+    const uint32_t count = world->particles.count;
+    Sums sums = {0};
+    for (uint32_t row = 0; row < count; row++) add_particle(world, row, &sums);
+    *stats = (pbmpm_stats){.size = sizeof *stats, .particle_count = count};
+    fill_record(world, stats);
+    if (count == 0) return PBMPM_OK;
+    stats->mass = sums.mass;
+    memcpy(stats->momentum, sums.momentum, sizeof stats->momentum);
+    memcpy(stats->angular_momentum, sums.angular, sizeof stats->angular_momentum);
+    stats->kinetic_energy = sums.kinetic;
+    stats->potential_energy = sums.potential;
+    stats->volume_error_rms = (float)sqrt(sums.volume_error2 / count);
+    stats->volume_error_max = (float)sums.volume_error_max;
+    stats->max_speed = (float)sqrt(sums.speed2_max);
+    stats->max_displacement = (float)(sqrt(sums.speed2_max) * (double)world->record.dt / (double)world->def.cell_size);
+    stats->cell_changes = (float)((double)world->record.moved / count);
+    return PBMPM_OK;
+}
+
+/* ---- Hash ---- */
+
+static uint64_t mix(uint64_t hash, const void *array, uint32_t count)
+{
+    const uint32_t *words = array;
+    for (uint32_t i = 0; i < count; i++) {
+        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+uint64_t inspect_hash(const World *world)
+{
+    const Particles *p = &world->particles;
+    uint64_t hash = mix(0x243f6a8885a308d3u, &p->count, 1);
+    for (int a = 0; a < p->dimension; a++) {
+        hash = mix(hash, p->cell[a], p->count);
+        hash = mix(hash, p->fraction[a], p->count);
+        hash = mix(hash, p->velocity[a], p->count);
+        for (int c = 0; c < p->dimension; c++) {
+            hash = mix(hash, p->affine[a * 3 + c], p->count);
+            if (p->deformation[0]) hash = mix(hash, p->deformation[a * 3 + c], p->count);
+        }
+    }
+    hash = mix(hash, p->volume_ratio, p->count);
+    hash = mix(hash, p->material, p->count);
+    return mix(hash, p->mass, p->count);
+}

@@ -1,0 +1,23 @@
+/* The ISPC kernels of one dimension and instruction set. */
+#ifndef PBMPM_SRC_KERNELS_H
+#define PBMPM_SRC_KERNELS_H
+
+#include "kernel_types.h"
+#include "pbmpm/base.h"
+
+/* Works on the blocks [begin, end). */
+typedef void Kernel(KernelArgs *args, int32_t begin, int32_t end);
+
+typedef struct Kernels {
+    Kernel *scatter;       /* particle blocks: first P2G */
+    Kernel *predict_nodes; /* node blocks: predictor */
+    Kernel *iterate;       /* particle blocks: G2P, projection, P2G */
+    Kernel *update_nodes;  /* node blocks: grid update */
+    Kernel *integrate;     /* particle blocks: last G2P and integration */
+    int lanes;             /* particles per gang */
+} Kernels;
+
+/* `isa` is supported; `dimension` is 2 or 3. */
+const Kernels *kernels_for(pbmpm_isa isa, int dimension);
+
+#endif

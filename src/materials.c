@@ -1,0 +1,75 @@
+#include "materials.h"
+
+#include "numbers.h"
+#include "result.h"
+
+pbmpm_material_def material_defaults(void)
+{
+    return (pbmpm_material_def){.size = sizeof(pbmpm_material_def),
+                                .kind = PBMPM_LIQUID,
+                                .density = 1000.0f,
+                                .relaxation = 1.5f,
+                                .viscosity = 0.0f,
+                                .volume_feedback = 0.1f,
+                                .elasticity_ratio = 1.0f,
+                                .strain_policy = PBMPM_STRAIN_CLAMP,
+                                .strain_min = 0.1f,
+                                .strain_max = 20.0f,
+                                .condition_max = 1e6f,
+                                .rebound_max = 0.3f};
+}
+
+const char *material_problem(const pbmpm_material_def *def)
+{
+    if (def->size != sizeof *def) return "material.size is unknown: fill the definition with pbmpm_material_def_init()";
+    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC) return "material.kind is unknown";
+    if (!in_range(def->density, 1e-3, 1e6)) return "material.density must be in [1e-3, 1e6]";
+    if (!(def->relaxation > 0.0f && def->relaxation < 2.0f)) return "material.relaxation must be in (0, 2)";
+    if (!in_range(def->viscosity, 0.0, 1.0)) return "material.viscosity must be in [0, 1]";
+    if (!in_range(def->volume_feedback, 0.0, 1.0)) return "material.volume_feedback must be in [0, 1]";
+    if (!in_range(def->elasticity_ratio, 0.0, 1.0)) return "material.elasticity_ratio must be in [0, 1]";
+    if (def->strain_policy != PBMPM_STRAIN_CLAMP && def->strain_policy != PBMPM_STRAIN_DELETE)
+        return "material.strain_policy is unknown";
+    if (!in_range(def->strain_min, 1e-3, 1.0)) return "material.strain_min must be in [1e-3, 1]";
+    if (!in_range(def->strain_max, 1.0, 1e4)) return "material.strain_max must be in [1, 1e4]";
+    if (!in_range(def->condition_max, 10.0, 1e6)) return "material.condition_max must be in [10, 1e6]";
+    if (!(def->rebound_max > 0.0f && def->rebound_max <= 10.0f)) return "material.rebound_max must be in (0, 10]";
+    return NULL;
+}
+
+void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def *def)
+{
+    const bool liquid = def->kind == PBMPM_LIQUID;
+    materials->def[slot] = *def;
+    materials->kernel[slot] = (KernelMaterial){
+        .kind = liquid ? K_LIQUID : K_ELASTIC,
+        .relaxation = def->relaxation,
+        .viscosity = liquid ? def->viscosity : 0.0f,
+        .volume_feedback = liquid ? def->volume_feedback : 0.0f,
+        .elasticity_ratio = def->elasticity_ratio,
+        .strain_min = def->strain_min,
+        .strain_max = def->strain_max,
+        .condition_max = def->strain_policy == PBMPM_STRAIN_DELETE ? def->condition_max : 0.0f,
+        .rebound_max = def->rebound_max,
+        .inverse_density = 1.0f / def->density,
+    };
+}
+
+pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, uint32_t generation, pbmpm_material_id *id)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (materials->generation[slot] != 0) continue;
+        materials->generation[slot] = generation;
+        materials_set(materials, slot, def);
+        *id = (pbmpm_material_id){slot, generation};
+        return PBMPM_OK;
+    }
+    return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d materials", PBMPM_MAX_MATERIALS);
+}
+
+bool materials_want_volume(const Materials *materials)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (materials->generation[slot] != 0 && materials->kernel[slot].volume_feedback > 0.0f) return true;
+    return false;
+}

@@ -1,0 +1,32 @@
+/* Materials of a world, and their parameters as the kernels want them. */
+#ifndef PBMPM_SRC_MATERIALS_H
+#define PBMPM_SRC_MATERIALS_H
+
+#include <stdbool.h>
+
+#include "kernel_types.h"
+#include "pbmpm/material.h"
+
+typedef struct Materials {
+    pbmpm_material_def def[PBMPM_MAX_MATERIALS];
+    uint32_t generation[PBMPM_MAX_MATERIALS]; /* 0: free slot */
+    KernelMaterial kernel[PBMPM_MAX_MATERIALS];
+} Materials;
+
+pbmpm_material_def material_defaults(void);
+
+/* Null if valid, else what is wrong. */
+const char *material_problem(const pbmpm_material_def *def);
+
+pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, uint32_t generation, pbmpm_material_id *id);
+void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def *def);
+
+/* Whether any material asks for the volume on the grid. */
+bool materials_want_volume(const Materials *materials);
+
+static inline bool material_is_live(const Materials *materials, pbmpm_material_id id)
+{
+    return id.index < PBMPM_MAX_MATERIALS && id.generation != 0 && materials->generation[id.index] == id.generation;
+}
+
+#endif

@@ -1,0 +1,20 @@
+/* Checks of numbers that come from the caller. A NaN is in no range. */
+#ifndef PBMPM_SRC_NUMBERS_H
+#define PBMPM_SRC_NUMBERS_H
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+
+static inline bool in_range(double value, double low, double high) { return value >= low && value <= high; }
+
+static inline bool all_in_range(const float *values, size_t count, double low, double high)
+{
+    for (size_t i = 0; i < count; i++)
+        if (!in_range(values[i], low, high)) return false;
+    return true;
+}
+
+static inline bool all_finite(const float *values, size_t count) { return all_in_range(values, count, -3.4028235e38, 3.4028235e38); }
+
+#endif

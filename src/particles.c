@@ -1,0 +1,258 @@
+#include "particles.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "pool.h"
+#include "result.h"
+
+enum { ROW_GRAIN = 8192 };
+
+static int class_components(const Particles *p, int class)
+{
+    const int d = p->dimension;
+    return class == CLASS_VECTOR ? d : class == CLASS_MATRIX ? d * d : 1;
+}
+
+static size_t element_size(int class) { return class == CLASS_ID ? sizeof(pbmpm_particle_id) : 4; }
+
+static size_t field_bytes(const Particles *p, int class)
+{
+    return (size_t)class_components(p, class) * p->array_bytes * (element_size(class) / 4);
+}
+
+/* Points the components of a field into its memory. */
+static void bind_field(const Particles *p, const Field *field)
+{
+    for (int c = 0; c < class_components(p, field->class); c++) *field->component[c] = field->base + (size_t)c * p->array_bytes;
+}
+
+/* `pointers`: the first of the component pointers; those of a matrix stand in rows of three. */
+static bool add_field(Particles *p, Memory *memory, int class, void **pointers)
+{
+    Field *field = &p->field[p->field_count];
+    *field = (Field){.base = memory_take(memory, field_bytes(p, class)), .class = class};
+    if (!field->base) return false;
+    if (!p->spare[class] && !(p->spare[class] = memory_take(memory, field_bytes(p, class)))) {
+        memory_give(memory, field->base, field_bytes(p, class));
+        return false;
+    }
+    for (int c = 0; c < class_components(p, class); c++)
+        field->component[c] = pointers + (class == CLASS_MATRIX ? c / p->dimension * 3 + c % p->dimension : c);
+    bind_field(p, field);
+    p->field_count++;
+    return true;
+}
+
+static bool add_fields(Particles *p, Memory *memory)
+{
+    return add_field(p, memory, CLASS_VECTOR, (void **)p->cell) && add_field(p, memory, CLASS_VECTOR, (void **)p->fraction) &&
+           add_field(p, memory, CLASS_VECTOR, (void **)p->velocity) && add_field(p, memory, CLASS_MATRIX, (void **)p->affine) &&
+           add_field(p, memory, CLASS_SCALAR, (void **)&p->volume_ratio) && add_field(p, memory, CLASS_SCALAR, (void **)&p->mass) &&
+           add_field(p, memory, CLASS_SCALAR, (void **)&p->material) && add_field(p, memory, CLASS_SCALAR, (void **)&p->status) &&
+           add_field(p, memory, CLASS_ID, (void **)&p->id);
+}
+
+static size_t table_bytes(const Particles *p) { return (size_t)p->capacity * sizeof(uint32_t); }
+
+pbmpm_result particles_init(Particles *p, Memory *memory, int dimension, uint32_t capacity)
+{
+    const size_t padded = ((size_t)capacity + K_MAX_GANG + 15) / 16 * 16; /* whole cache lines */
+    *p = (Particles){.capacity = capacity, .dimension = dimension, .array_bytes = padded * 4};
+    const bool ok = add_fields(p, memory) && (p->slot_row = memory_take(memory, table_bytes(p))) &&
+                    (p->slot_generation = memory_take(memory, table_bytes(p))) &&
+                    (p->free_slot = memory_take(memory, table_bytes(p)));
+    if (!ok) {
+        particles_free(p, memory);
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u particles", capacity);
+    }
+    p->free_count = capacity;
+    for (uint32_t i = 0; i < capacity; i++) p->free_slot[i] = capacity - 1 - i;
+    return PBMPM_OK;
+}
+
+void particles_free(Particles *p, Memory *memory)
+{
+    for (int i = 0; i < p->field_count; i++) memory_give(memory, p->field[i].base, field_bytes(p, p->field[i].class));
+    for (int class = 0; class < CLASS_COUNT; class++) memory_give(memory, p->spare[class], field_bytes(p, class));
+    memory_give(memory, p->slot_row, table_bytes(p));
+    memory_give(memory, p->slot_generation, table_bytes(p));
+    memory_give(memory, p->free_slot, table_bytes(p));
+    *p = (Particles){0};
+}
+
+pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
+{
+    if (p->deformation[0]) return PBMPM_OK;
+    if (!add_field(p, memory, CLASS_MATRIX, (void **)p->deformation))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the deformation of %u particles", p->capacity);
+    for (int r = 0; r < p->dimension; r++)
+        for (uint32_t i = 0; i < p->capacity; i++) p->deformation[r * 4][i] = 1.0f;
+    return PBMPM_OK;
+}
+
+void particles_set_position(Particles *p, uint32_t row, const double position[3])
+{
+    for (int a = 0; a < p->dimension; a++) {
+        double node = floor(position[a] + 0.5);
+        float fraction = (float)(position[a] - node);
+        if (fraction >= 0.5f) { /* rounding can reach the far end of [-1/2, 1/2) */
+            fraction -= 1.0f;
+            node += 1.0;
+        }
+        p->cell[a][row] = (int32_t)node;
+        p->fraction[a][row] = fraction;
+    }
+}
+
+double particles_coordinate(const Particles *p, uint32_t row, int axis)
+{
+    return (double)p->cell[axis][row] + (double)p->fraction[axis][row];
+}
+
+pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, uint32_t generation)
+{
+    const uint32_t row = p->count++;
+    const uint32_t slot = p->free_slot[--p->free_count];
+    particles_set_position(p, row, particle->position);
+    for (int a = 0; a < p->dimension; a++) {
+        p->velocity[a][row] = particle->velocity[a];
+        for (int c = 0; c < p->dimension; c++) {
+            p->affine[a * 3 + c][row] = 0.0f;
+            if (p->deformation[0]) p->deformation[a * 3 + c][row] = a == c ? 1.0f : 0.0f;
+        }
+    }
+    p->volume_ratio[row] = 1.0f;
+    p->mass[row] = particle->mass;
+    p->material[row] = particle->material;
+    p->status[row] = K_ALIVE;
+    p->id[row] = (pbmpm_particle_id){slot, generation};
+    p->slot_row[slot] = row;
+    p->slot_generation[slot] = generation;
+    particles_changed(p);
+    return p->id[row];
+}
+
+/* Moves the kept elements of one array to the front. */
+static void compact_array(const Particles *p, void *array, size_t size)
+{
+    char *data = array;
+    size_t kept = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (p->status[i] != K_ALIVE) continue;
+        if (kept != i) memcpy(data + kept * size, data + i * size, size);
+        kept++;
+    }
+}
+
+void particles_compact(Particles *p)
+{
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        if (p->status[i] == K_ALIVE) {
+            kept++;
+            continue;
+        }
+        p->slot_generation[p->id[i].index] = 0;
+        p->free_slot[p->free_count++] = p->id[i].index;
+    }
+    for (int i = 0; i < p->field_count; i++) {
+        const Field *field = &p->field[i];
+        if (field->base == (char *)p->status) continue;
+        for (int c = 0; c < class_components(p, field->class); c++)
+            compact_array(p, *field->component[c], element_size(field->class));
+    }
+    memset(p->status, 0, (size_t)p->count * sizeof *p->status);
+    p->count = kept;
+    p->rows_valid = false;
+    particles_changed(p);
+}
+
+typedef struct Reorder {
+    const Particles *particles;
+    const uint32_t *order;
+    const Field *field;
+} Reorder;
+
+static void reorder_4(const uint32_t *restrict order, const uint32_t *restrict from, uint32_t *restrict to, int32_t begin, int32_t end)
+{
+    for (int32_t i = begin; i < end; i++) to[i] = from[order[i]];
+}
+
+static void reorder_8(const uint32_t *restrict order, const uint64_t *restrict from, uint64_t *restrict to, int32_t begin, int32_t end)
+{
+    for (int32_t i = begin; i < end; i++) to[i] = from[order[i]];
+}
+
+static void reorder_field(void *context, int32_t begin, int32_t end)
+{
+    const Reorder *job = context;
+    const Particles *p = job->particles;
+    const int class = job->field->class;
+    if (class == CLASS_ID) {
+        reorder_8(job->order, (const uint64_t *)(void *)p->id, (uint64_t *)(void *)p->spare[class], begin, end);
+        return;
+    }
+    for (int c = 0; c < class_components(p, class); c++) {
+        uint32_t *to = (uint32_t *)(void *)(p->spare[class] + (size_t)c * p->array_bytes);
+        reorder_4(job->order, *job->field->component[c], to, begin, end);
+    }
+}
+
+void particles_reorder(Particles *p, const uint32_t *order, Pool *pool)
+{
+    for (int i = 0; i < p->field_count; i++) {
+        Field *field = &p->field[i];
+        Reorder job = {p, order, field};
+        pool_for(pool, (int32_t)p->count, ROW_GRAIN, reorder_field, &job);
+        char *sorted = p->spare[field->class];
+        p->spare[field->class] = field->base;
+        field->base = sorted;
+        bind_field(p, field);
+    }
+    p->rows_valid = false;
+    particles_changed(p);
+}
+
+bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row)
+{
+    if (id.index >= p->capacity || id.generation == 0 || p->slot_generation[id.index] != id.generation) return false;
+    if (!p->rows_valid) {
+        for (uint32_t i = 0; i < p->count; i++) p->slot_row[p->id[i].index] = i;
+        p->rows_valid = true;
+    }
+    *row = p->slot_row[id.index];
+    return true;
+}
+
+typedef struct MakePositions {
+    const Particles *particles;
+    float *positions;
+    double cell_size;
+} MakePositions;
+
+static void make_positions(void *context, int32_t begin, int32_t end)
+{
+    const MakePositions *job = context;
+    const Particles *p = job->particles;
+    const int d = p->dimension;
+    for (int32_t i = begin; i < end; i++)
+        for (int a = 0; a < d; a++)
+            job->positions[(size_t)i * d + a] = (float)(particles_coordinate(p, (uint32_t)i, a) * job->cell_size);
+}
+
+const float *particles_positions(Particles *p, double cell_size, Pool *pool)
+{
+    MakePositions job = {p, (float *)(void *)p->spare[CLASS_VECTOR], cell_size};
+    if (!p->positions_made) pool_for(pool, (int32_t)p->count, ROW_GRAIN, make_positions, &job);
+    p->positions_made = true;
+    return job.positions;
+}
+
+const float *particles_kilograms(Particles *p, double cell_volume)
+{
+    float *kilograms = (float *)(void *)p->spare[CLASS_SCALAR];
+    for (uint32_t i = 0; i < p->count && !p->masses_made; i++) kilograms[i] = (float)((double)p->mass[i] * cell_volume);
+    p->masses_made = true;
+    return kilograms;
+}

@@ -1,0 +1,87 @@
+/* Particle storage: structure of arrays, in sorted order after each substep, with stable identifiers. */
+#ifndef PBMPM_SRC_PARTICLES_H
+#define PBMPM_SRC_PARTICLES_H
+
+#include "kernel_types.h"
+#include "memory.h"
+#include "pbmpm/particles.h"
+#include "pool.h"
+
+/* Sizes of fields, as multiples of one array: each has a spare, into which a field is written in its new order. */
+enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 12, MAX_COMPONENTS = 9 };
+
+/* A quantity of the particles: `components` arrays of equal length in one allocation. */
+typedef struct Field {
+    char *base;
+    int class;
+    void **component[MAX_COMPONENTS]; /* the pointers below that point into it */
+} Field;
+
+typedef struct Particles {
+    uint32_t count;
+    uint32_t capacity;
+    int dimension;
+    /* Position = (cell + fraction) * dx: a scene that is shifted by whole cells moves bit for bit the same. */
+    int32_t *cell[3];
+    float *fraction[3];
+    float *velocity[3];
+    float *affine[9]; /* row-major, stride 3 */
+    float *volume_ratio;
+    float *mass; /* density * rest volume in cells [kg/m^d]; kg = mass * dx^d */
+    float *deformation[9];
+    uint32_t *material; /* slot */
+    int32_t *status;
+    pbmpm_particle_id *id;
+
+    Field field[MAX_FIELDS]; /* all of the above that exist; they move together */
+    int field_count;
+    char *spare[CLASS_COUNT];
+    size_t array_bytes; /* from one component of a field to the next; twice as much for identifiers */
+
+    bool positions_made, masses_made; /* in the spares, for views; until the next change of order */
+    uint32_t *slot_row;        /* per identifier index: the particle's row; valid when rows_valid */
+    uint32_t *slot_generation; /* per identifier index: its live generation, 0 if free */
+    uint32_t *free_slot;       /* stack of free identifier indices */
+    uint32_t free_count;
+    bool rows_valid;
+} Particles;
+
+pbmpm_result particles_init(Particles *p, Memory *memory, int dimension, uint32_t capacity);
+void particles_free(Particles *p, Memory *memory);
+
+/* Makes room for F (identity); does nothing the second time. */
+pbmpm_result particles_enable_deformation(Particles *p, Memory *memory);
+
+/* What one new particle starts as. */
+typedef struct NewParticle {
+    double position[3]; /* in cells */
+    float velocity[3];
+    float mass;
+    uint32_t material;
+} NewParticle;
+
+/* There is room, the values are valid. Returns its identifier. */
+pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, uint32_t generation);
+
+/* Removes the particles whose status is not K_ALIVE; the others keep their order. */
+void particles_compact(Particles *p);
+
+/* Brings all fields into the order new[i] = old[order[i]]. */
+void particles_reorder(Particles *p, const uint32_t *order, Pool *pool);
+
+/* The row of a live particle, or false. */
+bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row);
+
+/* Sets the cell and fraction from a position in cells. */
+void particles_set_position(Particles *p, uint32_t row, const double position[3]);
+double particles_coordinate(const Particles *p, uint32_t row, int axis); /* in cells */
+
+/* d floats [m] per particle, and kilograms, for views; valid until the particles change. They are written into the spares,
+ * which nobody needs between steps. */
+const float *particles_positions(Particles *p, double cell_size, Pool *pool);
+const float *particles_kilograms(Particles *p, double cell_volume);
+
+/* To be called when any particle has changed. */
+static inline void particles_changed(Particles *p) { p->positions_made = p->masses_made = false; }
+
+#endif

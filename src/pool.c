@@ -1,0 +1,172 @@
+#include "pool.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <xmmintrin.h>
+
+#include "cpu.h"
+#include "result.h"
+
+/* How long a thread looks for work or for the end of it before it sleeps: some 20 microseconds. */
+enum { SPIN_ROUNDS = 400 };
+
+typedef struct Loop {
+    RangeTask *task;
+    void *context;
+    int32_t count;
+    int32_t grain;
+    atomic_int next;
+} Loop;
+
+struct Pool {
+    pbmpm_task_hooks hooks;
+    int threads;
+    int spin_rounds;
+    bool serial;
+    Loop loop;
+
+    /* Own threads only. */
+    pthread_mutex_t lock;
+    pthread_cond_t work, done;
+    atomic_uint round;  /* counts loops; a worker runs each once */
+    atomic_int running; /* workers that have not finished the loop */
+    atomic_bool stop;
+    int started;
+    pthread_t worker[];
+};
+
+static size_t pool_bytes(int threads) { return sizeof(Pool) + (size_t)threads * sizeof(pthread_t); }
+
+static void run_share(Loop *loop)
+{
+    const uint32_t mode = float_mode_enter();
+    for (;;) {
+        const int32_t begin = atomic_fetch_add_explicit(&loop->next, loop->grain, memory_order_relaxed);
+        if (begin >= loop->count) break;
+        const int32_t end = loop->count - begin < loop->grain ? loop->count : begin + loop->grain;
+        loop->task(loop->context, begin, end);
+    }
+    float_mode_leave(mode);
+}
+
+static void host_task(int32_t index, void *context)
+{
+    (void)index;
+    run_share(context);
+}
+
+/* Returns the number of the next loop, or the same number when the pool stops. */
+static unsigned wait_for_work(Pool *pool, unsigned seen)
+{
+    for (int i = 0; i < pool->spin_rounds; i++) {
+        if (atomic_load_explicit(&pool->round, memory_order_acquire) != seen) return seen + 1;
+        _mm_pause();
+    }
+    pthread_mutex_lock(&pool->lock);
+    while (atomic_load(&pool->round) == seen && !atomic_load(&pool->stop)) pthread_cond_wait(&pool->work, &pool->lock);
+    pthread_mutex_unlock(&pool->lock);
+    return atomic_load(&pool->round);
+}
+
+static void *worker_main(void *context)
+{
+    Pool *pool = context;
+    unsigned seen = 0;
+    while (!atomic_load(&pool->stop)) {
+        const unsigned round = wait_for_work(pool, seen);
+        if (round == seen) continue;
+        seen = round;
+        run_share(&pool->loop);
+        if (atomic_fetch_sub(&pool->running, 1) == 1) {
+            pthread_mutex_lock(&pool->lock);
+            pthread_cond_signal(&pool->done);
+            pthread_mutex_unlock(&pool->lock);
+        }
+    }
+    return NULL;
+}
+
+static void start_round(Pool *pool)
+{
+    atomic_store(&pool->running, pool->started);
+    pthread_mutex_lock(&pool->lock);
+    atomic_fetch_add(&pool->round, 1);
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+static void finish_round(Pool *pool)
+{
+    for (int i = 0; i < pool->spin_rounds; i++) {
+        if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0) return;
+        _mm_pause();
+    }
+    pthread_mutex_lock(&pool->lock);
+    while (atomic_load(&pool->running) > 0) pthread_cond_wait(&pool->done, &pool->lock);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *hooks, Pool **out)
+{
+    Pool *pool = memory_take(memory, pool_bytes(threads));
+    *out = pool;
+    if (!pool) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the thread pool");
+    pool->threads = threads;
+    pool->hooks = *hooks;
+    pool->spin_rounds = threads <= cpu_core_count() ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
+    pthread_mutex_init(&pool->lock, NULL);
+    pthread_cond_init(&pool->work, NULL);
+    pthread_cond_init(&pool->done, NULL);
+    while (!hooks->enqueue && pool->started < threads - 1) {
+        if (pthread_create(&pool->worker[pool->started], NULL, worker_main, pool) != 0) {
+            pool_destroy(memory, pool, true);
+            *out = NULL;
+            return fail(PBMPM_ERROR_THREAD, "could not start thread %d of %d", pool->started + 2, threads);
+        }
+        pool->started++;
+    }
+    return PBMPM_OK;
+}
+
+void pool_destroy(Memory *memory, Pool *pool, bool joinable)
+{
+    if (!pool) return;
+    if (joinable) {
+        pthread_mutex_lock(&pool->lock);
+        atomic_store(&pool->stop, true);
+        pthread_cond_broadcast(&pool->work);
+        pthread_mutex_unlock(&pool->lock);
+        for (int i = 0; i < pool->started; i++) pthread_join(pool->worker[i], NULL);
+        pthread_cond_destroy(&pool->done);
+        pthread_cond_destroy(&pool->work);
+        pthread_mutex_destroy(&pool->lock);
+    }
+    memory_give(memory, pool, pool_bytes(pool->threads));
+}
+
+int pool_thread_count(const Pool *pool) { return pool->threads; }
+
+void pool_set_serial(Pool *pool, bool serial) { pool->serial = serial; }
+
+void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *context)
+{
+    if (count <= 0) return;
+    if (pool->serial || pool->threads == 1 || count <= grain) {
+        task(context, 0, count);
+        return;
+    }
+    Loop *loop = &pool->loop;
+    loop->task = task;
+    loop->context = context;
+    loop->count = count;
+    loop->grain = grain;
+    atomic_store(&loop->next, 0);
+    if (pool->hooks.enqueue) {
+        void *handle = pool->hooks.enqueue(host_task, pool->threads, loop, pool->hooks.user);
+        pool->hooks.finish(handle, pool->hooks.user);
+        return;
+    }
+    start_round(pool);
+    run_share(loop);
+    finish_round(pool);
+}

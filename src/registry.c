@@ -1,0 +1,72 @@
+#include "registry.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+
+#include "result.h"
+
+/* A slot lives forever, so an identifier can be looked at without a lock whatever became of its world. */
+typedef struct Slot {
+    atomic_uint generation; /* of the world in it; 0: free */
+    atomic_bool held;       /* a thread is inside a call */
+    World *world;
+} Slot;
+
+static Slot slots[PBMPM_MAX_WORLDS];
+static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER;
+static atomic_uint last_generation;
+
+uint32_t registry_next_generation(void)
+{
+    uint32_t generation = atomic_fetch_add(&last_generation, 1) + 1;
+    return generation ? generation : registry_next_generation();
+}
+
+pbmpm_result registry_add(World *world, pbmpm_world_id *id)
+{
+    pbmpm_result result = PBMPM_ERROR_CAPACITY;
+    pthread_mutex_lock(&adding);
+    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS && result != PBMPM_OK; i++) {
+        if (atomic_load(&slots[i].generation) != 0 || atomic_load(&slots[i].held)) continue;
+        *id = (pbmpm_world_id){i, registry_next_generation()};
+        slots[i].world = world;
+        atomic_store(&slots[i].generation, id->generation);
+        result = PBMPM_OK;
+    }
+    pthread_mutex_unlock(&adding);
+    return result == PBMPM_OK ? result : fail(result, "there are already %d worlds", PBMPM_MAX_WORLDS);
+}
+
+pbmpm_result registry_enter(pbmpm_world_id id, World **world)
+{
+    if (id.index >= PBMPM_MAX_WORLDS || id.generation == 0 || atomic_load(&slots[id.index].generation) != id.generation)
+        return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
+    Slot *slot = &slots[id.index];
+    if (atomic_exchange(&slot->held, true)) return fail(PBMPM_ERROR_BUSY, "another thread is using this world");
+    if (atomic_load(&slot->generation) != id.generation) { /* destroyed in the meantime */
+        atomic_store(&slot->held, false);
+        return fail(PBMPM_ERROR_INVALID_ID, "no such world: it has just been destroyed");
+    }
+    *world = slot->world;
+    return PBMPM_OK;
+}
+
+void registry_leave(pbmpm_world_id id) { atomic_store(&slots[id.index].held, false); }
+
+pbmpm_result registry_remove(pbmpm_world_id id, World **world)
+{
+    const pbmpm_result result = registry_enter(id, world);
+    if (result != PBMPM_OK) return result;
+    atomic_store(&slots[id.index].generation, 0);
+    registry_leave(id);
+    return PBMPM_OK;
+}
+
+void registry_clear(void)
+{
+    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
+        World *world;
+        const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
+        if (id.generation != 0 && registry_remove(id, &world) == PBMPM_OK) world_destroy(world);
+    }
+}

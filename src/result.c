@@ -1,0 +1,56 @@
+#include "result.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+static _Thread_local char message[256];
+static pbmpm_log_callback *log_callback;
+static void *log_user;
+
+pbmpm_result fail(pbmpm_result result, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(message, sizeof message, format, arguments);
+    va_end(arguments);
+    if (log_callback) log_callback(message, log_user);
+    return result;
+}
+
+void result_log(const char *format, ...)
+{
+    if (!log_callback) return;
+    char line[256];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(line, sizeof line, format, arguments);
+    va_end(arguments);
+    log_callback(line, log_user);
+}
+
+const char *result_message(void) { return message; }
+
+void result_set_log(pbmpm_log_callback *callback, void *user)
+{
+    log_callback = callback;
+    log_user = user;
+}
+
+const char *result_name(pbmpm_result result)
+{
+    switch (result) {
+    case PBMPM_OK: return "PBMPM_OK";
+    case PBMPM_ERROR_INVALID_ARGUMENT: return "PBMPM_ERROR_INVALID_ARGUMENT";
+    case PBMPM_ERROR_INVALID_ID: return "PBMPM_ERROR_INVALID_ID";
+    case PBMPM_ERROR_OUT_OF_MEMORY: return "PBMPM_ERROR_OUT_OF_MEMORY";
+    case PBMPM_ERROR_CAPACITY: return "PBMPM_ERROR_CAPACITY";
+    case PBMPM_ERROR_BUSY: return "PBMPM_ERROR_BUSY";
+    case PBMPM_ERROR_UNSUPPORTED_CPU: return "PBMPM_ERROR_UNSUPPORTED_CPU";
+    case PBMPM_ERROR_UNSUPPORTED: return "PBMPM_ERROR_UNSUPPORTED";
+    case PBMPM_ERROR_THREAD: return "PBMPM_ERROR_THREAD";
+    case PBMPM_ERROR_IN_USE: return "PBMPM_ERROR_IN_USE";
+    case PBMPM_ERROR_FORKED: return "PBMPM_ERROR_FORKED";
+    case PBMPM_RESULT_FORCE32: break;
+    }
+    return "unknown result";
+}

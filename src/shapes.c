@@ -1,0 +1,161 @@
+#include "shapes.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "numbers.h"
+
+pbmpm_shape shape_defaults(void)
+{
+    return (pbmpm_shape){.size = sizeof(pbmpm_shape),
+                         .kind = PBMPM_BOX,
+                         .rotation = {0.0f, 0.0f, 0.0f, 1.0f},
+                         .half_extents = {0.5f, 0.5f, 0.5f},
+                         .radius = 0.5f,
+                         .normal = {0.0f, 1.0f, 0.0f}};
+}
+
+static double quaternion_length(const float q[4])
+{
+    return sqrt((double)q[0] * q[0] + (double)q[1] * q[1] + (double)q[2] * q[2] + (double)q[3] * q[3]);
+}
+
+static const char *geometry_problem(const pbmpm_shape *shape, int dimension)
+{
+    switch (shape->kind) {
+    case PBMPM_PLANE: {
+        double length = 0.0;
+        for (int a = 0; a < dimension; a++) length += (double)shape->normal[a] * shape->normal[a];
+        return all_finite(shape->normal, dimension) && length > 1e-12 ? NULL : "shape.normal must be finite and longer than 1e-6";
+    }
+    case PBMPM_BOX:
+        for (int a = 0; a < dimension; a++)
+            if (!in_range(shape->half_extents[a], 1e-9, 1e9)) return "shape.half_extents must be in [1e-9, 1e9]";
+        return NULL;
+    case PBMPM_CAPSULE:
+        if (!in_range(shape->half_extents[0], 0.0, 1e9)) return "shape.half_extents[0] must be in [0, 1e9]";
+        return in_range(shape->radius, 1e-9, 1e9) ? NULL : "shape.radius must be in [1e-9, 1e9]";
+    case PBMPM_SPHERE: return in_range(shape->radius, 1e-9, 1e9) ? NULL : "shape.radius must be in [1e-9, 1e9]";
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return "shape.kind is unknown";
+}
+
+const char *shape_problem(const pbmpm_shape *shape, int dimension)
+{
+    if (shape->size != sizeof *shape) return "shape.size is unknown: fill the shape with pbmpm_shape_init()";
+    if (!all_in_range(shape->position, dimension, -1e9, 1e9)) return "shape.position must be in [-1e9, 1e9]";
+    if (!all_finite(shape->rotation, 4) || !in_range(quaternion_length(shape->rotation), 0.5, 2.0))
+        return "shape.rotation must be a quaternion of length 0.5 to 2";
+    if (dimension == 2 && (shape->rotation[0] != 0.0f || shape->rotation[1] != 0.0f))
+        return "shape.rotation in 2D must turn in the plane: x and y of the quaternion are 0";
+    return geometry_problem(shape, dimension);
+}
+
+void rotation_from_quaternion(const float q[4], double r[9])
+{
+    const double n = 1.0 / quaternion_length(q);
+    const double x = q[0] * n, y = q[1] * n, z = q[2] * n, w = q[3] * n;
+    const double matrix[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
+                              2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
+                              2 * (x * z - w * y),     2 * (y * z + w * x),     1 - 2 * (x * x + y * y)};
+    memcpy(r, matrix, sizeof matrix);
+}
+
+Solid solid_of(const pbmpm_shape *shape, int dimension)
+{
+    Solid s = {.kind = shape->kind, .dimension = dimension, .radius = shape->radius};
+    rotation_from_quaternion(shape->rotation, s.rotation);
+    double length = 0.0;
+    for (int a = 0; a < dimension; a++) {
+        s.position[a] = shape->position[a];
+        s.half_extents[a] = shape->half_extents[a];
+        length += (double)shape->normal[a] * shape->normal[a];
+    }
+    for (int r = 0; r < dimension; r++)
+        for (int c = 0; c < dimension; c++) s.normal[r] += s.rotation[r * 3 + c] * shape->normal[c] / sqrt(length);
+    return s;
+}
+
+static double length_of(const double v[3], int d)
+{
+    double sum = 0.0;
+    for (int a = 0; a < d; a++) sum += v[a] * v[a];
+    return sqrt(sum);
+}
+
+/* Distance to a point or segment's `offset` (from its nearest point), minus the radius. */
+static double round_distance(const Solid *s, const double offset[3], double normal[3])
+{
+    const double length = length_of(offset, s->dimension);
+    for (int a = 0; a < 3; a++) normal[a] = length > 0.0 ? offset[a] / length : 0.0;
+    if (length == 0.0) normal[s->dimension == 2 ? 1 : 2] = 1.0; /* on the axis every direction is as good */
+    return length - s->radius;
+}
+
+static double box_distance(const Solid *s, const double local[3], double normal[3])
+{
+    double outside[3] = {0}, deepest = -INFINITY;
+    int nearest_face = 0;
+    for (int a = 0; a < s->dimension; a++) {
+        const double over = fabs(local[a]) - s->half_extents[a];
+        outside[a] = over > 0.0 ? copysign(over, local[a]) : 0.0;
+        if (over > deepest) {
+            deepest = over;
+            nearest_face = a;
+        }
+    }
+    memset(normal, 0, 3 * sizeof *normal);
+    if (deepest <= 0.0) {
+        normal[nearest_face] = local[nearest_face] < 0.0 ? -1.0 : 1.0;
+        return deepest;
+    }
+    const double length = length_of(outside, s->dimension);
+    for (int a = 0; a < s->dimension; a++) normal[a] = outside[a] / length;
+    return length;
+}
+
+static double local_distance(const Solid *s, const double local[3], double normal[3])
+{
+    if (s->kind == PBMPM_BOX) return box_distance(s, local, normal);
+    double offset[3] = {local[0], local[1], local[2]};
+    if (s->kind == PBMPM_CAPSULE) offset[0] -= fmax(-s->half_extents[0], fmin(s->half_extents[0], local[0]));
+    return round_distance(s, offset, normal);
+}
+
+double solid_distance(const Solid *s, const double point[3], double normal[3])
+{
+    double from_centre[3] = {0}, local[3] = {0}, local_normal[3];
+    const int d = s->dimension;
+    for (int a = 0; a < d; a++) from_centre[a] = point[a] - s->position[a];
+    if (s->kind == PBMPM_PLANE) {
+        double distance = 0.0;
+        for (int a = 0; a < 3; a++) {
+            distance += from_centre[a] * s->normal[a];
+            normal[a] = s->normal[a];
+        }
+        return distance;
+    }
+    for (int a = 0; a < d; a++)
+        for (int b = 0; b < d; b++) local[a] += s->rotation[b * 3 + a] * from_centre[b];
+    const double distance = local_distance(s, local, local_normal);
+    for (int a = 0; a < 3; a++) {
+        normal[a] = 0.0;
+        for (int b = 0; b < d && a < d; b++) normal[a] += s->rotation[a * 3 + b] * local_normal[b];
+    }
+    return distance;
+}
+
+void solid_bounds(const Solid *s, double low[3], double high[3])
+{
+    for (int a = 0; a < 3; a++) {
+        double reach = 0.0;
+        for (int b = 0; b < s->dimension && a < s->dimension; b++) {
+            const double extent = s->kind == PBMPM_BOX ? s->half_extents[b] : s->kind == PBMPM_CAPSULE && b == 0 ? s->half_extents[0] : 0.0;
+            reach += fabs(s->rotation[a * 3 + b]) * extent;
+        }
+        if (s->kind != PBMPM_BOX) reach += s->radius;
+        low[a] = s->position[a] - reach;
+        high[a] = s->position[a] + reach;
+    }
+}

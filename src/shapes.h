@@ -1,0 +1,35 @@
+/* Signed distances of the public shapes. */
+#ifndef PBMPM_SRC_SHAPES_H
+#define PBMPM_SRC_SHAPES_H
+
+#include <stdbool.h>
+
+#include "pbmpm/shape.h"
+
+/* A shape at rest, ready for distance queries. Lengths in metres, relative to the world's origin. */
+typedef struct Solid {
+    pbmpm_shape_kind kind;
+    int dimension;
+    double position[3];
+    double rotation[9]; /* row-major; columns are the local axes */
+    double half_extents[3];
+    double radius;
+    double normal[3]; /* plane: outward, in world axes */
+} Solid;
+
+pbmpm_shape shape_defaults(void);
+
+/* Null if valid, else what is wrong. */
+const char *shape_problem(const pbmpm_shape *shape, int dimension);
+
+Solid solid_of(const pbmpm_shape *shape, int dimension);
+void rotation_from_quaternion(const float q[4], double r[9]);
+
+/* Distance of a point from the surface, negative inside, and the outward unit normal of the nearest surface point. In
+ * 2D the third component is neither read nor written to anything but 0. */
+double solid_distance(const Solid *solid, const double point[3], double normal[3]);
+
+/* Corners of the axis-aligned box around a bounded shape. */
+void solid_bounds(const Solid *solid, double low[3], double high[3]);
+
+#endif

@@ -1,0 +1,166 @@
+/* The phases of a step, in order. */
+#define _POSIX_C_SOURCE 200809L
+#include "step.h"
+
+#include <math.h>
+#include <time.h>
+
+#include "result.h"
+#include "solver.h"
+
+/* With fewer particles waking threads costs more than it brings. */
+enum { SERIAL_BELOW = 3000 };
+
+static double now_ms(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
+}
+
+/* Adds the time since *since to *total and starts anew. */
+static void lap(double *total, double *since)
+{
+    const double now = now_ms();
+    *total += now - *since;
+    *since = now;
+}
+
+static pbmpm_event particle_event(const World *world, pbmpm_event_kind kind, uint32_t row, uint32_t substep)
+{
+    const Particles *p = &world->particles;
+    pbmpm_event event = {.kind = kind, .count = 1, .particle = p->id[row], .substep = substep, .step = world->step_count};
+    for (int a = 0; a < p->dimension; a++)
+        event.position[a] = (float)(particles_coordinate(p, row, a) * (double)world->def.cell_size);
+    return event;
+}
+
+/* ---- Events ---- */
+
+static void report_lost(World *world, int32_t block, uint32_t substep)
+{
+    static const pbmpm_event_kind kinds[] = {[K_NOT_FINITE] = PBMPM_EVENT_DELETED_NOT_FINITE,
+                                             [K_OUT_OF_RANGE] = PBMPM_EVENT_DELETED_OUT_OF_RANGE,
+                                             [K_CONDITION] = PBMPM_EVENT_DELETED_CONDITION};
+    const uint32_t *begin = world->grid.block_begin.data;
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
+        const int32_t status = world->particles.status[row];
+        if (status == K_ALIVE) continue;
+        const pbmpm_event event = particle_event(world, kinds[status], row, substep);
+        events_add(&world->events, &event);
+    }
+}
+
+static uint32_t fastest_row(const World *world, int32_t block)
+{
+    const Particles *p = &world->particles;
+    const uint32_t *begin = world->grid.block_begin.data;
+    uint32_t fastest = begin[block];
+    float most = -1.0f;
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
+        float speed2 = 0.0f;
+        for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
+        if (speed2 <= most) continue;
+        most = speed2;
+        fastest = row;
+    }
+    return fastest;
+}
+
+/* Reports what the kernels counted and removes the particles that have to go. */
+static void collect_events(World *world, uint32_t substep)
+{
+    const uint32_t *lost = world->grid.lost.data, *clamped = world->grid.clamped.data, *moved = world->grid.moved.data;
+    uint32_t total_lost = 0, total_clamped = 0;
+    pbmpm_event slowed = {0};
+    world->record.moved = 0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        world->record.moved += moved[block];
+        total_lost += lost[block];
+        if (lost[block]) report_lost(world, block, substep);
+        if (clamped[block] && total_clamped == 0)
+            slowed = particle_event(world, PBMPM_EVENT_SPEED_CLAMPED, fastest_row(world, block), substep);
+        total_clamped += clamped[block];
+    }
+    if (total_clamped) {
+        slowed.count = total_clamped;
+        events_add(&world->events, &slowed);
+    }
+    world->clamped_total += total_clamped;
+    world->deleted_total += total_lost;
+    if (total_lost) {
+        particles_compact(&world->particles);
+        result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
+    }
+}
+
+/* ---- Phases ---- */
+
+typedef struct PushJob {
+    World *world;
+    const ContactFrame *frame;
+    float dt;
+} PushJob;
+
+static void push_out(void *context, int32_t begin, int32_t end)
+{
+    const PushJob *job = context;
+    contacts_push_out(job->frame, &job->world->particles, job->dt, begin, end);
+}
+
+static pbmpm_result substep(World *world, float dt, int part)
+{
+    StepRecord *record = &world->record;
+    double clock = now_ms();
+
+    /* Where the particles are: order, blocks, runs. */
+    const bool with_volume = materials_want_volume(&world->materials);
+    pbmpm_result result = grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
+    if (result != PBMPM_OK) return result;
+    lap(&record->ms_sort, &clock);
+
+    /* Where they would go if nothing held them. */
+    solver_bind(world, dt, with_volume);
+    solver_predict(world);
+    lap(&record->ms_scatter, &clock);
+
+    /* What they may meet on the way. */
+    const ContactFrame contacts = {&world->colliders, &world->grid, (double)world->def.cell_size, world->settings.max_displacement};
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    result = contacts_find(&contacts, &world->memory, world->pool);
+    if (result != PBMPM_OK) return result;
+    lap(&record->ms_contacts, &clock);
+
+    /* Where their materials let them go. */
+    solver_iterate(world, &contacts);
+    lap(&record->ms_iterate, &clock);
+
+    /* Go. */
+    solver_integrate(world);
+    PushJob push = {world, &contacts, dt};
+    pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
+    collect_events(world, (uint32_t)part);
+    lap(&record->ms_integrate, &clock);
+    return PBMPM_OK;
+}
+
+pbmpm_result world_step(World *world, float dt)
+{
+    const double begin = now_ms();
+    const int parts = world->settings.substeps;
+    const float part_dt = (float)((double)dt / parts);
+    world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations, .dt = part_dt};
+    events_clear(&world->events);
+    world_touch(world);
+    pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);
+    for (int part = 0; part < parts; part++) {
+        const pbmpm_result result = world->particles.count ? substep(world, part_dt, part) : PBMPM_OK;
+        if (result != PBMPM_OK) return result;
+        world->simulated_seconds += (double)part_dt;
+        world->record.substeps++;
+    }
+    colliders_end_step(&world->colliders);
+    world->step_count++;
+    world->record.ms_total = now_ms() - begin;
+    return PBMPM_OK;
+}

@@ -1,0 +1,111 @@
+#define _POSIX_C_SOURCE 200809L
+#include "world.h"
+
+#include <unistd.h>
+
+#include "cpu.h"
+#include "numbers.h"
+#include "result.h"
+
+pbmpm_world_def world_def_defaults(void)
+{
+    return (pbmpm_world_def){.size = sizeof(pbmpm_world_def),
+                             .dimension = 3,
+                             .cell_size = 0.1f,
+                             .particle_capacity = 65536,
+                             .domain_max = {1.0f, 1.0f, 1.0f}};
+}
+
+pbmpm_settings settings_defaults(void)
+{
+    return (pbmpm_settings){.size = sizeof(pbmpm_settings), .substeps = 1, .iterations = 5, .max_displacement = 32.0f};
+}
+
+static const char *domain_problem(const pbmpm_world_def *def)
+{
+    const double half_range = 0.5 * PBMPM_MAX_CELL * (double)def->cell_size;
+    for (int a = 0; a < def->dimension; a++) {
+        if (!in_range(def->domain_min[a], -half_range, half_range) || !in_range(def->domain_max[a], -half_range, half_range))
+            return "world.domain_min and domain_max must be within 2^21 cells of the origin";
+        if (!((double)def->domain_max[a] - def->domain_min[a] >= 4.0 * def->cell_size))
+            return "world.domain_max must be at least 4 cells above domain_min on every axis";
+    }
+    return in_range(def->domain_friction, 0.0, 100.0) ? NULL : "world.domain_friction must be in [0, 100]";
+}
+
+const char *world_def_problem(const pbmpm_world_def *def)
+{
+    if (def->size != sizeof *def) return "world.size is unknown: fill the definition with pbmpm_world_def_init()";
+    if (def->dimension != 2 && def->dimension != 3) return "world.dimension must be 2 or 3";
+    if (!in_range(def->cell_size, 1e-6, 1e6)) return "world.cell_size must be in [1e-6, 1e6]";
+    if (def->particle_capacity < 1 || def->particle_capacity > PBMPM_MAX_PARTICLES)
+        return "world.particle_capacity must be in [1, 2^28]";
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(def->origin[a])) return "world.origin must be finite";
+    if (def->thread_count < 0 || def->thread_count > 256) return "world.thread_count must be in [0, 256]";
+    if (def->domain_enabled != 0 && def->domain_enabled != 1) return "world.domain_enabled must be 0 or 1";
+    if (!def->allocator.allocate != !def->allocator.release) return "world.allocator needs both functions or none";
+    if (!def->tasks.enqueue != !def->tasks.finish) return "world.tasks needs both functions or none";
+    return def->domain_enabled ? domain_problem(def) : NULL;
+}
+
+const char *settings_problem(const pbmpm_settings *settings)
+{
+    if (settings->size != sizeof *settings) return "settings.size is unknown: fill the settings with pbmpm_settings_init()";
+    if (settings->substeps < 1 || settings->substeps > PBMPM_MAX_SUBSTEPS) return "settings.substeps must be in [1, 256]";
+    if (settings->iterations < 1 || settings->iterations > PBMPM_MAX_ITERATIONS)
+        return "settings.iterations must be in [1, 1000]";
+    if (!all_in_range(settings->gravity, 3, -1e9, 1e9)) return "settings.gravity must be in [-1e9, 1e9]";
+    if (!in_range(settings->max_displacement, 0.1, PBMPM_MAX_CELLS_PER_SUBSTEP))
+        return "settings.max_displacement must be in [0.1, 64]";
+    return NULL;
+}
+
+static void set_domain(World *world)
+{
+    const pbmpm_world_def *def = &world->def;
+    world->domain = (Domain){.enabled = def->domain_enabled, .friction = def->domain_friction};
+    for (int a = 0; a < def->dimension; a++) {
+        world->domain.low[a] = def->domain_min[a];
+        world->domain.high[a] = def->domain_max[a];
+    }
+}
+
+pbmpm_result world_create(const pbmpm_world_def *def, World **out)
+{
+    const pbmpm_isa isa = cpu_isa();
+    *out = NULL;
+    if (isa == PBMPM_ISA_NONE) return fail(PBMPM_ERROR_UNSUPPORTED_CPU, "this CPU has no SSE4.2");
+    Memory memory;
+    memory_init(&memory, &def->allocator, def->memory_budget);
+    World *world = memory_take(&memory, sizeof *world);
+    if (!world) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a world");
+    world->def = *def;
+    world->settings = settings_defaults();
+    world->memory = memory;
+    world->owner = getpid();
+    world->kernels = kernels_for(isa, def->dimension);
+    world->generation = 1;
+    set_domain(world);
+    const int threads = def->thread_count ? def->thread_count : cpu_core_count();
+    pbmpm_result result = particles_init(&world->particles, &world->memory, def->dimension, def->particle_capacity);
+    if (result == PBMPM_OK) result = grid_init(&world->grid, &world->memory, def->dimension, def->particle_capacity);
+    if (result == PBMPM_OK) result = colliders_init(&world->colliders, &world->memory);
+    if (result == PBMPM_OK) result = pool_create(&world->memory, threads, &def->tasks, &world->pool);
+    if (result != PBMPM_OK) {
+        world_destroy(world);
+        return result;
+    }
+    *out = world;
+    return PBMPM_OK;
+}
+
+void world_destroy(World *world)
+{
+    pool_destroy(&world->memory, world->pool, world->owner == getpid());
+    colliders_free(&world->colliders, &world->memory);
+    grid_free(&world->grid, &world->memory);
+    particles_free(&world->particles, &world->memory);
+    Memory memory = world->memory;
+    memory_give(&memory, world, sizeof *world);
+}

@@ -1,0 +1,73 @@
+/* A world: all that one simulation owns. */
+#ifndef PBMPM_SRC_WORLD_H
+#define PBMPM_SRC_WORLD_H
+
+#include <sys/types.h>
+
+#include "colliders.h"
+#include "events.h"
+#include "grid.h"
+#include "kernels.h"
+#include "materials.h"
+#include "memory.h"
+#include "particles.h"
+#include "pbmpm/pbmpm.h"
+#include "pool.h"
+
+/* Costs and counts of the last step, summed over its substeps. */
+typedef struct StepRecord {
+    double ms_total, ms_sort, ms_scatter, ms_contacts, ms_iterate, ms_integrate;
+    uint32_t substeps, iterations;
+    uint32_t moved; /* particles that left their cell in the last substep */
+    float dt;       /* of a substep [s] */
+} StepRecord;
+
+typedef struct World {
+    pbmpm_world_def def;
+    pbmpm_settings settings;
+    Domain domain;
+    Memory memory;
+    pid_t owner; /* process that created it; threads do not survive a fork */
+    Pool *pool;
+    const Kernels *kernels;
+
+    Particles particles;
+    Materials materials;
+    Colliders colliders;
+    Grid grid;
+    KernelArgs args;
+    bool strain_unchecked; /* F was set from outside and not looked at since */
+
+    Events events;
+    StepRecord record;
+    uint64_t step_count;
+    double simulated_seconds;
+    uint64_t deleted_total, clamped_total;
+    uint64_t generation; /* of views */
+} World;
+
+pbmpm_world_def world_def_defaults(void);
+pbmpm_settings settings_defaults(void);
+
+/* Null if valid, else what is wrong. */
+const char *world_def_problem(const pbmpm_world_def *def);
+const char *settings_problem(const pbmpm_settings *settings);
+
+/* The definition is valid. */
+pbmpm_result world_create(const pbmpm_world_def *def, World **world);
+void world_destroy(World *world);
+
+/* The cells that particles may be in; the neighbours of the last block are in range too. */
+enum { CELL_LIMIT = PBMPM_MAX_CELL - 2 * K_BLOCK_AXIS };
+
+/* Kilograms per unit of Particles.mass [m^d]. */
+static inline double world_cell_volume(const World *world)
+{
+    const double dx = (double)world->def.cell_size;
+    return world->def.dimension == 3 ? dx * dx * dx : dx * dx;
+}
+
+/* Expires all views: the particles are not what they were. */
+static inline void world_touch(World *world) { world->generation++; }
+
+#endif
