@@ -7,7 +7,6 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-
 from pbmpm.app.accuracy import laws
 from pbmpm.app.accuracy.measures import Curve, absolute_rms, best_shift, body_extent, dam_break_experiment, relative_rms
 from pbmpm.app.accuracy.stability import ENERGY_TOLERANCE, StabilityJudge

@@ -10,8 +10,6 @@ import meshio
 import numpy as np
 import plyfile
 import pytest
-from PIL import Image
-
 from pbmpm.app.files import json_text, replace_when_complete, write_json
 from pbmpm.app.frame import Frame
 from pbmpm.app.output import Sequence
@@ -19,9 +17,12 @@ from pbmpm.app.picture import annotate, draw_picture, look_of, particle_colours
 from pbmpm.app.picture2d import draw_2d
 from pbmpm.app.picture3d import draw_3d
 from pbmpm.app.scene import Scene, parse_scene
+from PIL import Image
 
 
-def make_frame(dimension: int, positions: np.ndarray | None = None, materials: np.ndarray | None = None, time: float = 0.5) -> Frame:
+def make_frame(
+    dimension: int, positions: np.ndarray | None = None, materials: np.ndarray | None = None, time: float = 0.5
+) -> Frame:
     random = np.random.default_rng(3)
     if positions is None:
         positions = random.uniform(0.2, 0.8, (50, dimension))
@@ -84,15 +85,18 @@ def test_vtk_round_trip_and_index(tmp_path: Path, dimension: int) -> None:
     assert np.array_equal(mesh.point_data["id"], frames[1].ids[:, 0])
     assert mesh.cells_dict["vertex"].shape == (50, 1)
     entries = ElementTree.parse(tmp_path / "run.pvd").getroot().findall("Collection/DataSet")
-    assert [(float(e.get("timestep")), e.get("file")) for e in entries] == [(0.0, "run_00000.vtu"), (0.25, "run_00001.vtu")]
+    assert [(float(e.get("timestep")), e.get("file")) for e in entries] == [
+        (0.0, "run_00000.vtu"),
+        (0.25, "run_00001.vtu"),
+    ]
 
 
 def test_sidecar_lists_what_is_there_and_how_it_ended(tmp_path: Path) -> None:
     sequence = Sequence(tmp_path, "run", {"seeds": [5]}, ply=True, vtk=True)
-    assert json.loads((tmp_path / "run.json").read_text())["status"] == "running"
+    assert json.loads((tmp_path / "run_run.json").read_text())["status"] == "running"
     sequence.add_frame(make_frame(2))
     sequence.finish("interrupted", {"steps": 3})
-    sidecar = json.loads((tmp_path / "run.json").read_text())
+    sidecar = json.loads((tmp_path / "run_run.json").read_text())
     assert sidecar["status"] == "interrupted"
     assert sidecar["seeds"] == [5] and sidecar["report"] == {"steps": 3}
     assert sidecar["units"]["position"] == "m"
@@ -122,16 +126,22 @@ def is_orange(pixel: tuple[int, ...]) -> bool:
     return pixel[0] > pixel[2] + 40
 
 
+def pixel_at(image: Image.Image, x: float, y: float) -> tuple[int, ...]:
+    """The pixel of a 2D picture that shows a place in the unit square: 2 % of margin, y up."""
+    width, height = image.size
+    margin = 0.02 / 1.04
+    return image.getpixel((round(width * (margin + x / 1.04)), round(height * (1 - margin - y / 1.04))))
+
+
 def test_2d_picture_shows_particles_at_their_place_with_y_up() -> None:
     scene = make_scene(2)
     still = make_frame(2, np.array([[0.25, 0.75], [0.75, 0.25]]), np.array([0, 1]))
     still.velocities[:] = 0
     image = draw_2d(still, look_of(scene, ""))
-    width, height = image.size
-    share = lambda x, y: image.getpixel((round(width * (0.02 + 0.96 * x)), round(height * (0.98 - 0.96 * y))))  # noqa: E731
-    assert is_bluish(share(0.25, 0.75))
-    assert is_orange(share(0.75, 0.25))
-    assert not is_bluish(share(0.25, 0.25)) and not is_orange(share(0.25, 0.25))
+    assert is_bluish(pixel_at(image, 0.25, 0.75))
+    assert is_orange(pixel_at(image, 0.75, 0.25))
+    empty = pixel_at(image, 0.25, 0.25)
+    assert not is_bluish(empty) and not is_orange(empty)
 
 
 def test_2d_picture_shows_obstacles() -> None:
@@ -143,9 +153,8 @@ def test_2d_picture_shows_obstacles() -> None:
     ]
     scene = make_scene(2, colliders=[{"shape": kind} for kind in kinds])
     image = draw_2d(make_frame(2, np.array([[0.5, 0.9]])), look_of(scene, ""))
-    width, height = image.size
     for x, y in [(0.2, 0.2), (0.5, 0.2), (0.8, 0.2), (0.5, 0.02)]:
-        pixel = image.getpixel((round(width * (0.02 + 0.96 * x)), round(height * (0.98 - 0.96 * y))))
+        pixel = pixel_at(image, x, y)
         assert max(pixel) < 160, (x, y, pixel)
 
 
@@ -164,7 +173,9 @@ def test_3d_picture_nearer_body_hides_the_farther_one() -> None:
     water, jelly = block([0.5, 0.5, 0.8], 0.1), block([0.5, 0.5, 0.2], 0.1)
     materials = np.repeat([0, 1], [len(water), len(jelly)])
     front = draw_3d(make_frame(3, np.concatenate([water, jelly]), materials), look_of(scene, ""))
-    behind = draw_3d(make_frame(3, np.concatenate([water - [0, 0, 0.7], jelly + [0, 0, 0.7]]), materials), look_of(scene, ""))
+    behind = draw_3d(
+        make_frame(3, np.concatenate([water - [0, 0, 0.7], jelly + [0, 0, 0.7]]), materials), look_of(scene, "")
+    )
     middle = (front.width // 2, front.height // 2)
     assert is_bluish(front.getpixel(middle)) and not is_orange(front.getpixel(middle))
     assert is_orange(behind.getpixel(middle)) and not is_bluish(behind.getpixel(middle))

@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-
 from pbmpm.app.errors import InputError
 from pbmpm.app.motion import pose_at, quaternion, rotation_matrix
 from pbmpm.app.scene import MotionPart, load_scene, parse_scene
@@ -66,7 +65,12 @@ def test_defaults() -> None:
         ("fills.0.shape.half_extents", [0, 1], "fills[0].shape.half_extents[0]", "greater than 0"),
         ("fills.0.shape.rotation", [0, 0, 0, 1], "fills[0].shape.rotation", "angle"),
         ("domain.max", [0.2, 1], "domain.max[0]", "4 cells"),
-        ("colliders", [{"shape": {"kind": "plane", "position": [0, 0], "normal": [0, 0]}}], "colliders[0].shape.normal", "zero"),
+        (
+            "colliders",
+            [{"shape": {"kind": "plane", "position": [0, 0], "normal": [0, 0]}}],
+            "colliders[0].shape.normal",
+            "zero",
+        ),
         ("pictures", {"times": [-1]}, "pictures.times[0]", "greater than or equal to 0"),
         ("name", "../evil", "name", "pattern"),
     ],
@@ -137,7 +141,8 @@ def motion(**fields: Any) -> MotionPart:
 
 
 @pytest.mark.parametrize(
-    ("time", "repeat", "x"), [(0.0, False, 0), (1.25, False, 0.5), (9.0, False, 2), (2.25, True, 0.5), (3.75, True, 1.5)]
+    ("time", "repeat", "x"),
+    [(0.0, False, 0), (1.25, False, 0.5), (9.0, False, 2), (2.25, True, 0.5), (3.75, True, 1.5)],
 )
 def test_motion_is_linear_held_or_repeated(time: float, repeat: bool, x: float) -> None:
     position, rotation = pose_at(motion(repeat=repeat), time)

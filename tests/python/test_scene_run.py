@@ -90,8 +90,8 @@ def test_files(scene_file: Path, tmp_path: Path) -> None:
     names = sorted(path.name for path in (tmp_path / "out").iterdir())
     expected = [f"small_{i:05d}.{kind}" for i in range(4) for kind in ("ply", "vtu")]
     expected += [f"small_t{t}.png" for t in ("000.000", "000.250", "000.500")]
-    assert names == sorted([*expected, "small.pvd", "run.json"])
-    sidecar = json.loads((tmp_path / "out/run.json").read_text())
+    assert names == sorted([*expected, "small.pvd", "small_run.json"])
+    sidecar = json.loads((tmp_path / "out/small_run.json").read_text())
     assert sidecar["status"] == "complete"
     assert [entry["time"] for entry in sidecar["frames"]] == pytest.approx([0, 1 / 6, 1 / 3, 0.5])
     assert sidecar["scene"]["name"] == "small" and sidecar["seeds"] == [1, 1]
@@ -102,7 +102,7 @@ def test_files(scene_file: Path, tmp_path: Path) -> None:
 def test_identities_last_over_a_run(scene_file: Path, tmp_path: Path) -> None:
     pbmpm_command("run", scene_file, "--output", tmp_path / "out", "--ply", "--every", 30)
     tables = [plyfile.PlyData.read(str(tmp_path / f"out/small_{i:05d}.ply"))["vertex"].data for i in (0, 1)]
-    material = [dict(zip(zip(t["id"].tolist(), t["generation"].tolist()), t["material"].tolist())) for t in tables]
+    material = [{(i, g): m for i, g, m in t[["id", "generation", "material"]].tolist()} for t in tables]
     assert len(material[0]) == len(tables[0])
     assert material[0] == material[1]
     assert set(material[0].values()) == {0, 1}
@@ -143,7 +143,20 @@ def test_bad_input_is_exit_code_2(scene_file: Path, tmp_path: Path, arguments: t
 
 def test_ctrl_c_leaves_complete_files(scene_file: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"
-    command = [sys.executable, "-m", "pbmpm.app", "run", str(scene_file), "--seconds", "1000", "--ply", "--pictures", "", "--output", str(out)]
+    command = [
+        sys.executable,
+        "-m",
+        "pbmpm.app",
+        "run",
+        str(scene_file),
+        "--seconds",
+        "1000",
+        "--ply",
+        "--pictures",
+        "",
+        "--output",
+        str(out),
+    ]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
     try:
         deadline = time.monotonic() + 60
@@ -155,9 +168,9 @@ def test_ctrl_c_leaves_complete_files(scene_file: Path, tmp_path: Path) -> None:
         process.kill()
     assert process.returncode == 130, errors
     assert "Traceback" not in errors
-    sidecar = json.loads((out / "run.json").read_text())
+    sidecar = json.loads((out / "small_run.json").read_text())
     assert sidecar["status"] == "interrupted" and sidecar["report"]["interrupted"] is True
-    assert {path.name for path in out.iterdir()} == {"run.json", *(entry["ply"] for entry in sidecar["frames"])}
+    assert {path.name for path in out.iterdir()} == {"small_run.json", *(entry["ply"] for entry in sidecar["frames"])}
     for entry in sidecar["frames"]:
         assert len(plyfile.PlyData.read(str(out / entry["ply"]))["vertex"].data) == entry["particles"]
 

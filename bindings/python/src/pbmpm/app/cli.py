@@ -69,17 +69,29 @@ class TimeList(click.ParamType):
 
 @cli.command()
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
-@click.option("--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]")
+@click.option(
+    "--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
+)
 @click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]")
 @click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]")
 @click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]")
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
-@click.option("--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for files.  [default: NAME-output]")
+@click.option(
+    "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for files.  [default: NAME-output]"
+)
 @click.option("--ply", is_flag=True, help="Write a PLY file per frame.")
 @click.option("--vtk", is_flag=True, help="Write a VTU file per frame and a PVD index for ParaView.")
 @click.option("--every", type=click.IntRange(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
-@click.option("--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]")
-@click.option("--warmup-steps", type=click.IntRange(0), default=0, show_default=True, help="First steps to leave out of the timing.")
+@click.option(
+    "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
+)
+@click.option(
+    "--warmup-steps",
+    type=click.IntRange(0),
+    default=0,
+    show_default=True,
+    help="First steps to leave out of the timing.",
+)
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options: Any) -> None:
     """Simulate a scene file, ours or one of the EA demo.
@@ -142,8 +154,9 @@ def _summary(report: dict[str, Any]) -> str:
     """The report for a person."""
     rate = report["million_particle_iterations_per_second"]
     lines = [
-        f"{report['scene']}: {report['particles']} particles, {report['simulated_seconds']:.3f} s in {report['steps']} steps"
-        f" of {report['substeps']} x {report['iterations']} iterations{' (interrupted)' if report['interrupted'] else ''}",
+        f"{report['scene']}: {report['particles']} particles, {report['simulated_seconds']:.3f} s in"
+        f" {report['steps']} steps of {report['substeps']} x {report['iterations']} iterations"
+        + (" (interrupted)" if report["interrupted"] else ""),
         f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
         f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",
     ]
@@ -179,10 +192,18 @@ class NumberList(click.ParamType):
 @click.option("--rates", type=NumberList(float, 1e5), help="Steps per second.  [default: 30,60,120,240,480]")
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per step.  [default: 1,2,5,10]")
 @click.option("--quick", is_flag=True, help="Judge stability over 5 s instead of 20 s; default 30,60,240 Hz x 1,5,10.")
-@click.option("--width", type=click.FloatRange(1e-3, 1e3), help="Dam break: width of the column [m]; the experiment's is 0.05715.  [default: 1]")
-@click.option("--cells", type=click.IntRange(4, 256), help="Cells over the column's width (dam break) or height (column).")
+@click.option(
+    "--width",
+    type=click.FloatRange(1e-3, 1e3),
+    help="Dam break: width of the column [m]; the experiment's is 0.05715.  [default: 1]",
+)
+@click.option(
+    "--cells", type=click.IntRange(4, 256), help="Cells over the column's width (dam break) or height (column)."
+)
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
-@click.option("--chart", type=click.Path(path_type=Path, dir_okay=False), help="PNG to write.  [default: accuracy-CASE.png]")
+@click.option(
+    "--chart", type=click.Path(path_type=Path, dir_okay=False), help="PNG to write.  [default: accuracy-CASE.png]"
+)
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def accuracy(case: str | None, json_target: str | None, chart: Path | None, **options: Any) -> None:
     """Compare a CASE with experiment or theory over rates and iterations: error against milliseconds.

@@ -78,7 +78,9 @@ def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
         "rate_hz": settings["simRate"],
         "iterations": int(settings["iterationCount"]),
         "materials": _materials(settings, notes),
-        "fills": [_fill(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "initial fill"],
+        "fills": [
+            _fill(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "initial fill"
+        ],
         "colliders": [{"shape": p} for s, p in zip(shapes, parts) if s.function == "collider"],
         "pictures": {"colour": "material"},
         "notes": notes,
@@ -173,7 +175,12 @@ def _relaxation(settings: dict[str, float], name: str, notes: list[str]) -> floa
 
 
 def _fill(shape: _Shape, part: dict[str, Any], index: int, settings: dict[str, float]) -> dict[str, Any]:
-    return {"shape": part, "material": shape.material, "particles_per_axis": settings["particlesPerCellAxis"], "seed": index + 1}
+    return {
+        "shape": part,
+        "material": shape.material,
+        "particles_per_axis": settings["particlesPerCellAxis"],
+        "seed": index + 1,
+    }
 
 
 def _domain(width: int, height: int, cell_size: float, friction: float) -> dict[str, Any]:

@@ -58,7 +58,9 @@ class Meter:
             "million_particle_iterations_per_second": self.work / self.seconds / 1e6 if timed else None,
             "million_particle_iterations_per_second_in_iterate": self.work / iterate / 1e3 if iterate > 0 else None,
             "ms_per_step": 1e3 * self.seconds / self.steps_timed if timed else None,
-            "ms_per_step_by_phase": {name: total / self.steps_timed for name, total in self.phase_ms.items()} if timed else {},
+            "ms_per_step_by_phase": {name: total / self.steps_timed for name, total in self.phase_ms.items()}
+            if timed
+            else {},
             "volume_error_rms_over_run": self.volume_error_rms,
             "volume_error_max_over_run": self.volume_error_max,
             "max_speed_over_run": self.max_speed,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Callable, Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -55,7 +55,9 @@ def _distance_function(shape) -> Callable[[np.ndarray], np.ndarray]:
     if shape.kind == "sphere":
         return lambda p: np.linalg.norm(p, axis=1) - shape.radius
     if shape.kind == "capsule":
-        return lambda p: np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
+        return lambda p: (
+            np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
+        )
     half = np.array(shape.half_extents)
 
     def box(p: np.ndarray) -> np.ndarray:

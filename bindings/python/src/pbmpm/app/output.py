@@ -1,4 +1,4 @@
-"""Particle files: PLY and VTK sequences with an index for ParaView and a JSON sidecar that explains them.
+"""Particle files: PLY and VTK sequences with an index for ParaView and a JSON sidecar (NAME_run.json) that explains them.
 
 Each file appears under its name only when it is complete. The sidecar is written when the run starts and again after
 every frame, so that it always lists exactly the files that are there and says how the run ended.
@@ -15,7 +15,6 @@ import numpy as np
 from .files import replace_when_complete, write_json
 from .frame import Frame
 
-SIDECAR_NAME = "run.json"
 UNITS = {
     "position": "m",
     "velocity": "m/s",
@@ -65,7 +64,7 @@ class Sequence:
 
     def write_sidecar(self) -> None:
         """Writes the sidecar as it stands."""
-        write_json(self._sidecar, self.folder / SIDECAR_NAME)
+        write_json(self._sidecar, self.folder / f"{self.name}_run.json")
 
 
 def points_3d(values: np.ndarray) -> np.ndarray:

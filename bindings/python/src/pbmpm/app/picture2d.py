@@ -1,4 +1,4 @@
-"""Pictures of 2D scenes: discs for particles, filled outlines for obstacles. The first axis goes right, the second up."""
+"""Pictures of 2D scenes: discs for particles, outlines for obstacles. The first axis goes right, the second up."""
 
 from __future__ import annotations
 
@@ -77,7 +77,9 @@ def _bounds(frame: Frame, look: Look) -> tuple[np.ndarray, np.ndarray]:
 
 def _reach_of(shape) -> tuple[np.ndarray, np.ndarray]:
     """A box around a shape, whatever its rotation."""
-    size = math.hypot(*getattr(shape, "half_extents", [getattr(shape, "half_length", 0.0) + getattr(shape, "radius", 0.0)]))
+    size = math.hypot(
+        *getattr(shape, "half_extents", [getattr(shape, "half_length", 0.0) + getattr(shape, "radius", 0.0)])
+    )
     centre = np.array(shape.position)
     return centre - size, centre + size
 

@@ -1,9 +1,9 @@
 """Pictures of 3D scenes: particles as spheres in a depth buffer, smoothed and lit, on a tiled floor with shadows.
 
-Everything is NumPy on whole images. Particles are splatted offset by offset, sorted from far to near, so that of several
-particles on one pixel the nearest is written last. The depth of the particles is then smoothed where neighbouring pixels
-lie on the same surface, normals are taken from it, and the colours are lit: a body of liquid looks like one, while
-drops stay round.
+Everything is NumPy on whole images. Particles are splatted offset by offset, sorted from far to near, so that of
+several particles on one pixel the nearest is written last. The depth of the particles is then smoothed where
+neighbouring pixels lie on the same surface, normals are taken from it, and the colours are lit: a body of liquid looks
+like one, while drops stay round.
 """
 
 from __future__ import annotations
@@ -43,7 +43,9 @@ def draw_3d(frame: Frame, look: Look) -> Image.Image:
     rays = camera.rays()
     canvas = _background(camera)
     _draw_floor(canvas, camera, rays, frame, look, low, high)
-    for depth, colour in trace_obstacles(look.scene.colliders, frame.time, camera, rays, light, float(np.linalg.norm(high - low))):
+    for depth, colour in trace_obstacles(
+        look.scene.colliders, frame.time, camera, rays, light, float(np.linalg.norm(high - low))
+    ):
         _merge(canvas, depth, colour)
     _draw_particles(canvas, camera, rays, frame, look, light)
     if look.scene.domain is not None:
@@ -70,7 +72,9 @@ def _light_direction(camera: Camera, look: Look) -> np.ndarray:
 def _background(camera: Camera) -> _Canvas:
     shape = (camera.height, camera.width)
     colour = np.empty((*shape, 3), dtype=np.float32)
-    colour[:] = np.array(BACKGROUND, dtype=np.float32) * np.linspace(0.93, 1.0, camera.height, dtype=np.float32)[:, None, None]
+    colour[:] = (
+        np.array(BACKGROUND, dtype=np.float32) * np.linspace(0.93, 1.0, camera.height, dtype=np.float32)[:, None, None]
+    )
     return _Canvas(np.full(shape, np.inf, dtype=np.float32), colour)
 
 
@@ -80,7 +84,9 @@ def _merge(canvas: _Canvas, depth: np.ndarray, colour: np.ndarray) -> None:
     canvas.colour[nearer] = colour[nearer]
 
 
-def _draw_floor(canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, low: np.ndarray, high: np.ndarray) -> None:
+def _draw_floor(
+    canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, low: np.ndarray, high: np.ndarray
+) -> None:
     """A tiled rectangle under the scene, darkened where particles stand above it."""
     vertical = int(np.argmax(np.abs(scene_up(look.scene))))
     level = low[vertical] if scene_up(look.scene)[vertical] > 0 else high[vertical]
@@ -101,19 +107,27 @@ def _draw_floor(canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame,
     canvas.colour[rows, columns] = _FLOOR_COLOURS[parity] * shade[:, None]
 
 
-def _shadow(places: np.ndarray, frame: Frame, low: np.ndarray, high: np.ndarray, flat: list[int], cell: float) -> np.ndarray:
+def _shadow(
+    places: np.ndarray, frame: Frame, low: np.ndarray, high: np.ndarray, flat: list[int], cell: float
+) -> np.ndarray:
     """How bright the floor is at ``places``: particles above a cell darken it, softly."""
     counts = np.maximum(1, np.ceil((high - low) / cell)).astype(int)
     map_, _ = np.histogramdd(frame.positions[:, flat], bins=counts, range=list(zip(low, high)))
     cover = np.minimum(1.0, map_ / 4.0)
     for axis in (0, 1):
         padded = np.pad(cover, [(1, 1) if a == axis else (0, 0) for a in (0, 1)], mode="edge")
-        cover = 0.25 * np.take(padded, range(0, counts[axis]), axis) + 0.5 * cover + 0.25 * np.take(padded, range(2, counts[axis] + 2), axis)
+        cover = (
+            0.25 * np.take(padded, range(0, counts[axis]), axis)
+            + 0.5 * cover
+            + 0.25 * np.take(padded, range(2, counts[axis] + 2), axis)
+        )
     index = np.clip(((places - low) / (high - low) * counts).astype(int), 0, counts - 1)
     return 1.0 - 0.35 * cover[index[:, 0], index[:, 1]]
 
 
-def _draw_particles(canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, light: np.ndarray) -> None:
+def _draw_particles(
+    canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, light: np.ndarray
+) -> None:
     diameter = look.particle_diameter * _SPHERE_GROWTH
     depth, owner = _splat(camera, frame.positions, 0.5 * diameter)
     seen = owner >= 0
@@ -148,7 +162,9 @@ def _splat(camera: Camera, positions: np.ndarray, radius: float) -> tuple[np.nda
     return depth_map.reshape(shape), owner.reshape(shape)
 
 
-def _write_nearest(depth_map: np.ndarray, owner: np.ndarray, pixel: np.ndarray, near: np.ndarray, rows: np.ndarray) -> None:
+def _write_nearest(
+    depth_map: np.ndarray, owner: np.ndarray, pixel: np.ndarray, near: np.ndarray, rows: np.ndarray
+) -> None:
     """Writes where nearer than what is there. Entries come from far to near, and the last assignment wins."""
     wins = near < depth_map[pixel]
     depth_map[pixel[wins]] = near[wins]
@@ -215,7 +231,9 @@ def _nearer_difference(points: np.ndarray, depth: np.ndarray, axis: int) -> np.n
 
 def _draw_box(canvas: _Canvas, camera: Camera, low: np.ndarray, high: np.ndarray) -> None:
     """The edges of the domain, hidden behind what stands before them."""
-    corners = np.array([[low[0] if i & 1 else high[0], low[1] if i & 2 else high[1], low[2] if i & 4 else high[2]] for i in range(8)])
+    corners = np.array(
+        [[low[0] if i & 1 else high[0], low[1] if i & 2 else high[1], low[2] if i & 4 else high[2]] for i in range(8)]
+    )
     share = np.linspace(0.0, 1.0, 2 * camera.width)[:, None]
     for i in range(8):
         for bit in (1, 2, 4):

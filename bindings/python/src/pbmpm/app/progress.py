@@ -11,5 +11,12 @@ def progress_bar(total: float, unit: str, label: str) -> tqdm:
     """A tqdm bar with rate and time left; silent when stderr is not a terminal."""
     layout = "{desc}: {percentage:3.0f}% |{bar}| {n:.3g}/{total:.3g} {unit} [{rate_fmt}, {remaining} left{postfix}]"
     return tqdm(
-        total=total, unit=unit, desc=label, bar_format=layout, file=sys.stderr, disable=not sys.stderr.isatty(), mininterval=0.2, leave=False
+        total=total,
+        unit=unit,
+        desc=label,
+        bar_format=layout,
+        file=sys.stderr,
+        disable=not sys.stderr.isatty(),
+        mininterval=0.2,
+        leave=False,
     )

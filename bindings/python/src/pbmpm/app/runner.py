@@ -6,10 +6,11 @@ import math
 import signal
 import threading
 import time
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Iterator
+from typing import Any
 
 from .frame import Frame
 from .machine import machine_facts
@@ -61,7 +62,7 @@ class Interrupt:
         self.requested = True
 
     @contextmanager
-    def watching(self) -> Iterator["Interrupt"]:
+    def watching(self) -> Iterator[Interrupt]:
         """Listens for Ctrl-C inside the block (only possible on the main thread)."""
         if threading.current_thread() is not threading.main_thread():
             yield self
@@ -73,7 +74,9 @@ class Interrupt:
             signal.signal(signal.SIGINT, previous)
 
 
-def run_scene(scene: Scene, settings: RunSettings, seconds: float, output: OutputOptions, warmup_steps: int = 0) -> RunResult:
+def run_scene(
+    scene: Scene, settings: RunSettings, seconds: float, output: OutputOptions, warmup_steps: int = 0
+) -> RunResult:
     """Simulates ``seconds`` of a scene. Timing leaves out the first ``warmup_steps`` steps."""
     steps = max(1, math.ceil(seconds * settings.rate_hz - _TIME_TOLERANCE))
     with Simulation(scene, settings) as simulation, Interrupt().watching() as interrupt:
@@ -90,7 +93,7 @@ def run_scene(scene: Scene, settings: RunSettings, seconds: float, output: Outpu
     return RunResult(report, bool(interrupt), problems)
 
 
-def _loop(simulation: Simulation, steps: int, recorder: "_Recorder", meter: Meter, interrupt: Interrupt) -> None:
+def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter, interrupt: Interrupt) -> None:
     shown = 0.0
     with progress_bar(steps, "step", simulation.scene.name) as bar:
         recorder.after_step(simulation)

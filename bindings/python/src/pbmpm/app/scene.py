@@ -60,7 +60,7 @@ class ElasticPart(_Part):
     rebound_max: Annotated[float, Field(gt=0, le=10)] = 0.3
 
 
-MaterialPart = Annotated[Union[LiquidPart, ElasticPart], Field(discriminator="kind")]
+MaterialPart = Annotated[LiquidPart | ElasticPart, Field(discriminator="kind")]
 
 
 class PlanePart(_Part):
@@ -98,8 +98,8 @@ class CapsulePart(_Part):
     rotation: Rotation = 0.0
 
 
-SolidPart = Annotated[Union[BoxPart, SpherePart, CapsulePart], Field(discriminator="kind")]
-ObstaclePart = Annotated[Union[PlanePart, BoxPart, SpherePart, CapsulePart], Field(discriminator="kind")]
+SolidPart = Annotated[BoxPart | SpherePart | CapsulePart, Field(discriminator="kind")]
+ObstaclePart = Annotated[PlanePart | BoxPart | SpherePart | CapsulePart, Field(discriminator="kind")]
 
 
 class DomainPart(_Part):
@@ -136,7 +136,7 @@ class MotionPart(_Part):
     repeat: bool = False
 
     @model_validator(mode="after")
-    def _times_rise(self) -> "MotionPart":
+    def _times_rise(self) -> MotionPart:
         times = [frame.time for frame in self.keyframes]
         if any(later <= earlier for earlier, later in zip(times, times[1:])):
             raise ValueError("the times of the keyframes must rise")

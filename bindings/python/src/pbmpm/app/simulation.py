@@ -71,7 +71,7 @@ class Simulation:
         self.start_count = len(self.world)
         self.start_mass = float(np.sum(self.world.masses, dtype=np.float64))
 
-    def __enter__(self) -> "Simulation":
+    def __enter__(self) -> Simulation:
         return self
 
     def __exit__(self, *_: Any) -> None:
@@ -92,7 +92,9 @@ class Simulation:
                 velocity=fill.velocity,
             )
             if added == 0:
-                raise InputError(f"{self.scene.name}: fills[{index}]: no particle fits into this shape inside the domain")
+                raise InputError(
+                    f"{self.scene.name}: fills[{index}]: no particle fits into this shape inside the domain"
+                )
         self._moving = []
         for part in self.scene.colliders:
             collider = self.world.add_collider(
@@ -152,7 +154,9 @@ class Simulation:
     def finite(self) -> bool:
         """Whether all positions, velocities and volume ratios are finite."""
         world = self.world
-        return all(bool(np.isfinite(field.array()).all()) for field in (world.positions, world.velocities, world.volume_ratios))
+        return all(
+            bool(np.isfinite(field.array()).all()) for field in (world.positions, world.velocities, world.volume_ratios)
+        )
 
     def problems(self) -> list[str]:
         """What a run must never show: numbers that are not finite, or particles lost without a word."""

@@ -8,6 +8,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import PercentFormatter
 
 from ..files import replace_when_complete
 from .measures import SHIFT_LIMIT, dam_break_experiment
@@ -25,8 +26,8 @@ def save_chart(report: dict[str, Any], path: Path) -> None:
     draw(figure, report)
     machine = report["machine"]
     figure.suptitle(
-        f"{report['case']}, cell {report['cell_size']:.4g} m. {machine['cpu']}, {machine['isa']}, {machine['threads']} thread(s),"
-        f" {machine['date'][:10]}. Crosses: not stable.",
+        f"{report['case']}, cell {report['cell_size']:.4g} m. {machine['cpu']}, {machine['isa']},"
+        f" {machine['threads']} thread(s), {machine['date'][:10]}. Crosses: not stable.",
         fontsize=10,
     )
     FigureCanvasAgg(figure)
@@ -37,7 +38,13 @@ def save_chart(report: dict[str, Any], path: Path) -> None:
 
 def _dam_break(figure: Figure, report: dict[str, Any]) -> None:
     axes = figure.subplots(2, 2)
-    _error_panel(axes[0, 0], report, "front_rms_shifted", f"front RMS, best time shift within {SHIFT_LIMIT:g}", FRONT_GATE_SHIFTED)
+    _error_panel(
+        axes[0, 0],
+        report,
+        "front_rms_shifted",
+        f"front RMS, best time shift within {SHIFT_LIMIT:g}",
+        FRONT_GATE_SHIFTED,
+    )
     _error_panel(axes[0, 1], report, "front_rms", "front RMS, raw", FRONT_GATE)
     _curve_panel(axes[1, 0], report, "front", "T = t sqrt(2 g / a)", "front Z = x / a")
     _curve_panel(axes[1, 1], report, "height", "tau = t sqrt(g / a)", "height at the wall H = h / (2 a)")
@@ -51,22 +58,32 @@ def _column(figure: Figure, report: dict[str, Any]) -> None:
     _error_panel(right, report, "volume_error_rms", "volume error RMS (lines: law)", law="volume_error_law")
 
 
-def _error_panel(axes: Axes, report: dict[str, Any], key: str, title: str, gate: float | None = None, law: str | None = None) -> None:
+def _error_panel(
+    axes: Axes, report: dict[str, Any], key: str, title: str, gate: float | None = None, law: str | None = None
+) -> None:
     for colour, count in zip(_COLOURS, sorted({row["iterations"] for row in report["rows"]})):
         rows = [row for row in report["rows"] if row["iterations"] == count and row[key] is not None]
         stable = [row for row in rows if row["stable"]]
         failed = [row for row in rows if not row["stable"]]
-        _points(axes, stable, key, color=colour, marker="o", linestyle="" if law else "-", label=f"{count} iteration(s)")
+        _points(
+            axes, stable, key, color=colour, marker="o", linestyle="" if law else "-", label=f"{count} iteration(s)"
+        )
         _points(axes, failed, key, color=colour, marker="x", linestyle="", markersize=10, markeredgewidth=2.5)
         if law:
             _points(axes, rows, law, color=colour, linestyle="-", linewidth=1)
         for row in rows:
             place = (row["ms_per_simulated_second"], max(abs(row[key]), _FLOOR))
-            axes.annotate(f"{row['rate_hz']:g}", place, textcoords="offset points", xytext=(4, 4), fontsize=7, color=colour)
+            axes.annotate(
+                f"{row['rate_hz']:g}", place, textcoords="offset points", xytext=(4, 4), fontsize=7, color=colour
+            )
     if gate is not None:
         axes.axhline(gate, color="#444444", linewidth=0.8, linestyle="--")
-    axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time: 16.7 ms per frame at 60 Hz")
+    axes.axvline(
+        REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time: 16.7 ms per frame at 60 Hz"
+    )
     axes.set(xscale="log", yscale="log", title=title, xlabel="ms per simulated second (figures: Hz)", ylabel="error")
+    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
+    axes.yaxis.set_minor_formatter(PercentFormatter(1.0))
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
 

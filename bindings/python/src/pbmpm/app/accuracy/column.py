@@ -66,7 +66,13 @@ class Column:
         width = WIDTH_RATIO * self.height
         description = "Hydrostatic column: the settled height shows the compressibility of the solver."
         return water_scene(
-            "column_2d", description, self.cell_size, (width, BOX_HEIGHT * self.height), (width, self.height), self.seconds, iterations=10
+            "column_2d",
+            description,
+            self.cell_size,
+            (width, BOX_HEIGHT * self.height),
+            (width, self.height),
+            self.seconds,
+            iterations=10,
         )
 
     def measure(self, settings: RunSettings) -> dict[str, Any]:
@@ -94,7 +100,9 @@ class Column:
         count = max(1, round(TOP_SHARE * len(heights)))
         return float(np.partition(heights, -count)[-count:].mean())
 
-    def _row(self, settings: RunSettings, cost: float, sinking: float | None, meter: Meter, judge: StabilityJudge) -> dict[str, Any]:
+    def _row(
+        self, settings: RunSettings, cost: float, sinking: float | None, meter: Meter, judge: StabilityJudge
+    ) -> dict[str, Any]:
         modulus = modulus_over_density(self.scene(), settings)
         predicted = laws.mean_compression(self.height, GRAVITY, modulus)
         if sinking is not None:

@@ -20,7 +20,13 @@ WATER = "water"
 
 
 def water_scene(
-    name: str, description: str, cell_size: float, box: tuple[float, float], body: tuple[float, float], seconds: float, iterations: int
+    name: str,
+    description: str,
+    cell_size: float,
+    box: tuple[float, float],
+    body: tuple[float, float],
+    seconds: float,
+    iterations: int,
 ) -> Scene:
     """Water at rest in the lower left corner of a closed 2D box without friction; sizes are width and height [m]."""
     half = [0.5 * body[0], 0.5 * body[1]]

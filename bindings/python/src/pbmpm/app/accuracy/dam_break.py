@@ -18,7 +18,15 @@ from ..meter import Meter
 from ..scene import Scene
 from ..simulation import RunSettings, Simulation
 from . import laws
-from .common import GRAVITY, PARTICLES_PER_AXIS, centre_height_of, modulus_over_density, start_energy, timed_step, water_scene
+from .common import (
+    GRAVITY,
+    PARTICLES_PER_AXIS,
+    centre_height_of,
+    modulus_over_density,
+    start_energy,
+    timed_step,
+    water_scene,
+)
 from .measures import Curve, absolute_rms, best_shift, body_extent, dam_break_experiment, relative_rms
 from .stability import StabilityJudge
 
@@ -73,7 +81,13 @@ class DamBreak:
         a = self.width
         description = "Planar dam break of Martin and Moyce (1952): column twice as high as wide, dry floor."
         return water_scene(
-            "dam_break_2d", description, self.cell_size, (tank * a, TANK_HEIGHT * a), (a, HEIGHT_RATIO * a), seconds, iterations=10
+            "dam_break_2d",
+            description,
+            self.cell_size,
+            (tank * a, TANK_HEIGHT * a),
+            (a, HEIGHT_RATIO * a),
+            seconds,
+            iterations=10,
         )
 
     def measure(self, settings: RunSettings) -> dict[str, Any]:
@@ -115,7 +129,9 @@ class DamBreak:
                 if step % every == 0 or step == steps:
                     samples.append((simulation.time / unit, *self._extents(simulation)))
         tau, fronts, heights = np.array(samples).T
-        return _Collapse(Curve(math.sqrt(HEIGHT_RATIO) * tau, fronts / a), Curve(tau, heights / (HEIGHT_RATIO * a)), meter)
+        return _Collapse(
+            Curve(math.sqrt(HEIGHT_RATIO) * tau, fronts / a), Curve(tau, heights / (HEIGHT_RATIO * a)), meter
+        )
 
     def _extents(self, simulation: Simulation) -> tuple[float, float]:
         """Front and height at the back wall [m]."""
