@@ -227,8 +227,8 @@ static stage mixed_3d(scene_tweak *tweak, void *user)
     post.kind = PBMPM_CAPSULE;
     post.radius = 0.12f;
     create_collider(world, post, false);
-    fill_shape(world, water, box_shape(0.2f, 0.5f, 0.6f, 0.2f, 0.4f, 0.4f), at_rest);
-    fill_shape(world, jelly, sphere_shape(0.8f, 0.85f, 0.6f, 0.22f), at_rest);
+    fill_shape(world, water, box_shape(0.25f, 0.45f, 0.6f, 0.25f, 0.45f, 0.4f), at_rest);
+    fill_shape(world, jelly, sphere_shape(0.85f, 0.85f, 0.6f, 0.3f), at_rest);
     return (stage){.world = world};
 }
 

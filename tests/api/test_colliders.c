@@ -83,15 +83,23 @@ static void test_collider_is_read_back_and_destroyed(void)
     EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_collider_get(world, collider, &def));
 }
 
+/* The length of a quaternion does not matter. */
 static void test_rotation_is_normalised(void)
 {
-    const pbmpm_world_id world = open_world(2);
-    pbmpm_shape shape = box_shape(0, 0, 0, 1, 0.5f, 0.5f);
-    shape.rotation[2] = 0.9f;
-    shape.rotation[3] = 1.2f;
-    const pbmpm_collider_def read = collider_of(world, create_collider(world, shape, false));
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.6f, read.shape.rotation[2]);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.8f, read.shape.rotation[3]);
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_shape shape = box_shape(0.5f, 0.3f, 0, 0.4f, 0.05f, 0.5f);
+    const pbmpm_collider_id collider = create_collider(world, shape, false);
+    uint32_t level, counts[3];
+    OK(pbmpm_query_collider(world, collider, NULL, 0, &level));
+    for (int i = 0; i < 3; i++) {
+        const float scale[3] = {0.55f, 1.0f, 1.9f};
+        const float turned[4] = {0, 0, scale[i] * 0.6f, scale[i] * 0.8f};
+        OK(pbmpm_collider_teleport(world, collider, shape.position, turned));
+        OK(pbmpm_query_collider(world, collider, NULL, 0, &counts[i]));
+    }
+    TEST_ASSERT_TRUE(counts[1] > 0 && counts[1] != level);
+    TEST_ASSERT_EQUAL_UINT32(counts[1], counts[0]);
+    TEST_ASSERT_EQUAL_UINT32(counts[1], counts[2]);
 }
 
 /* ---- poses ---- */
