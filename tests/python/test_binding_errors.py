@@ -61,7 +61,7 @@ def test_bad_time_steps(world: pbmpm.World, dt: float) -> None:
         {"threads": -1},
         {"domain": ((0, 0, 0), (0.1, 1, 1))},
         {"domain": ((0, 0), (1, 1))},
-        {"domain_friction": -1},
+        {"domain": ((0, 0, 0), (1, 1, 1)), "domain_friction": -1},
         {"gravity": (0, NAN, 0)},
         {"gravity": (0, -9.81)},
         {"origin": (0, 0, INF)},
@@ -179,8 +179,10 @@ def test_a_plane_cannot_be_filled(world: pbmpm.World, water: pbmpm.Material) -> 
 
 def test_no_room(world: pbmpm.World, water: pbmpm.Material) -> None:
     box = pbmpm.Box([1.0] * world.dimension, [0.9] * world.dimension)
-    with pytest.raises(pbmpm.CapacityError, match="the shape needs [0-9]{5,} particles"):
-        world.fill(box, water, particles_per_axis=16)
+    with pytest.raises(pbmpm.CapacityError, match="[0-9]{4,} more particles"):
+        world.fill(box, water, particles_per_axis=4)
+    (event,) = world.events
+    assert event.kind is pbmpm.EventKind.CAPACITY and event.count > world.capacity
     with pytest.raises(pbmpm.CapacityError):
         world.add_particles(water, good(world, world.capacity + 1))
     assert len(world) == 0

@@ -14,7 +14,7 @@ from ._ffi import ffi
 from ._handle import WorldHandle
 from ._library import lib
 from .colliders import Collider, Friction
-from .errors import CapacityError, ClosedError, InvalidArgumentError, check
+from .errors import ClosedError, InvalidArgumentError, check
 from .materials import Material, Parameters
 from .shapes import Shape
 from .stats import Event, Stats, event_from_c, stats_from_c
@@ -307,7 +307,7 @@ class World:
             How many particles were added.
 
         Raises:
-            CapacityError: there is no room; nothing was added, and the message says how many the shape needs.
+            CapacityError: there is no room and nothing was added; message and event say how many the shape needs.
         """
         definition = initialised("pbmpm_fill_def")
         definition.material = self._id_of(material)
@@ -318,12 +318,7 @@ class World:
                 assign(definition, name, value)
         if velocity is not None:
             assign_vector(definition, "velocity", velocity, self._dimension)
-        added = ffi.new("uint32_t *")
-        try:
-            self._call(lib.pbmpm_particles_fill, definition, added)
-        except CapacityError as error:
-            raise CapacityError(f"{error.message} (the shape needs {added[0]} particles)") from None
-        return int(added[0])
+        return self._number(lib.pbmpm_particles_fill, "uint32_t", definition)
 
     def remove(self, ids: npt.ArrayLike) -> None:
         """Removes particles, shape (n, 2); with an unknown identifier none is removed."""
