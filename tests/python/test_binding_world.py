@@ -13,6 +13,7 @@ import pytest
 
 import pbmpm
 from generator import parser
+from pbmpm._ffi import ffi
 
 
 def test_defaults_are_those_of_the_library() -> None:
@@ -63,6 +64,12 @@ def test_a_forgotten_world_is_destroyed() -> None:
     del world
     gc.collect()
     assert handle() is None
+
+
+def test_closed_and_forgotten_worlds_make_room_for_others() -> None:
+    for _ in range(ffi.integer_const("PBMPM_MAX_WORLDS")):
+        pbmpm.World(2, 0.1, capacity=1, threads=1).close()
+        pbmpm.World(2, 0.1, capacity=1, threads=1)
 
 
 @pytest.mark.parametrize("parameters", [pbmpm.Liquid(500, viscosity=0.25), pbmpm.Elastic(2000, elasticity_ratio=0.5)])
