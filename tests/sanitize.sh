@@ -6,7 +6,7 @@ cd "$(dirname "$0")/.."
 . samples/setup.sh
 
 install_build_tools
-has clang-19 || install_optional "the sanitizers do not see inside the kernels" clang-19 libclang-rt-19-dev
+has clang-19 || install_optional "the sanitizers do not see inside the kernels" clang-19 libclang-rt-19-dev llvm-19
 failed=0
 for preset in asan tsan; do
     stage "Sanitizer preset $preset"
