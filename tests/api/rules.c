@@ -1,5 +1,6 @@
 #include "rules.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -18,8 +19,9 @@ static void write_value(void *structure, const rule *field, double value)
 {
     unsigned char *place = (unsigned char *)structure + field->offset;
     const float single = (float)value;
-    const int32_t integer = (int32_t)(value < INT32_MIN ? INT32_MIN : value > INT32_MAX ? INT32_MAX : value);
-    const uint32_t whole = (uint32_t)(value < 0 ? 0 : value > UINT32_MAX ? UINT32_MAX : value);
+    /* Written so that NaN, which has no integer, becomes the lower bound. */
+    const int32_t integer = (int32_t)(!(value > INT32_MIN) ? INT32_MIN : value > INT32_MAX ? INT32_MAX : value);
+    const uint32_t whole = (uint32_t)(!(value > 0) ? 0 : value > UINT32_MAX ? UINT32_MAX : value);
     switch (field->type) {
     case FLOAT32: memcpy(place, &single, sizeof single); break;
     case FLOAT64: memcpy(place, &value, sizeof value); break;
@@ -28,13 +30,18 @@ static void write_value(void *structure, const rule *field, double value)
     }
 }
 
+/* The neighbour outside the range; beside zero the smallest normal number, for the library may flush smaller ones. */
 static double next_below(const rule *field, double value)
 {
+    if (value == 0 && field->type == FLOAT32)
+        return -(double)FLT_MIN;
     return field->type == FLOAT32 ? (double)nextafterf((float)value, -INFINITY) : field->type == FLOAT64 ? nextafter(value, -INFINITY) : value - 1;
 }
 
 static double next_above(const rule *field, double value)
 {
+    if (value == 0 && field->type == FLOAT32)
+        return (double)FLT_MIN;
     return field->type == FLOAT32 ? (double)nextafterf((float)value, INFINITY) : field->type == FLOAT64 ? nextafter(value, INFINITY) : value + 1;
 }
 

@@ -232,18 +232,18 @@ static stage mixed_3d(scene_tweak *tweak, void *user)
     return (stage){.world = world};
 }
 
-/* A jet against a ball at many cells per step, in unbounded space; some particles are slowed by the clamp. */
-static stage jet_3d(scene_tweak *tweak, void *user)
+/* Two elastic balls that hit each other at many cells per step, in unbounded space; the clamp slows them down. */
+static stage crash_3d(scene_tweak *tweak, void *user)
 {
     const pbmpm_world_id world = open_world(3, 0.1f, tweak, user);
-    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
     pbmpm_settings settings = default_settings();
     settings.iterations = 2;
-    settings.max_displacement = 3.0f;
+    settings.max_displacement = 1.5f;
     settings.gravity[1] = -9.81f;
     OK(pbmpm_world_set_settings(world, &settings));
-    create_collider(world, sphere_shape(3.0f, 0, 0, 0.5f), false);
-    fill_shape(world, water, box_shape(0, 0, 0, 0.8f, 0.25f, 0.25f), (const float[3]){40.0f, 3.0f, 0});
+    fill_shape(world, jelly, sphere_shape(-2.0f, 0, 0, 0.37f), (const float[3]){20.0f, 3.0f, 0});
+    fill_shape(world, jelly, sphere_shape(2.0f, 0.2f, 0.1f, 0.37f), (const float[3]){-20.0f, 2.0f, 0});
     return (stage){.world = world};
 }
 
@@ -253,7 +253,7 @@ const scene scenes[] = {
     {"discs_2d", 2, 1.0f / 240, discs_2d, NULL},
     {"paddle_2d", 2, 1.0f / 120, paddle_2d, swing_paddle},
     {"mixed_3d", 3, 1.0f / 60, mixed_3d, NULL},
-    {"jet_3d", 3, 1.0f / 120, jet_3d, NULL},
+    {"crash_3d", 3, 1.0f / 120, crash_3d, NULL},
 };
 const int scene_count = (int)(sizeof scenes / sizeof *scenes);
 

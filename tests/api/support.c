@@ -195,6 +195,24 @@ uint64_t world_hash(pbmpm_world_id world)
     return hash;
 }
 
+uint64_t world_hash_unordered(pbmpm_world_id world)
+{
+    static const pbmpm_field fields[] = {PBMPM_PARTICLE, PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_VOLUME_RATIO};
+    enum { FIELDS = sizeof fields / sizeof *fields };
+    pbmpm_view views[FIELDS];
+    uint64_t sum = 0;
+    for (int f = 0; f < FIELDS; f++)
+        views[f] = view_of(world, fields[f]);
+    for (uint32_t row = 0; row < views[0].count; row++) {
+        uint64_t hash = 1469598103934665603u; /* FNV-1a, word by word */
+        for (int f = 0; f < FIELDS; f++)
+            for (uint32_t c = 0; c < views[f].components; c++)
+                hash = (hash ^ view_uint(&views[f], row, c)) * 1099511628211u;
+        sum += hash ^ hash >> 32;
+    }
+    return sum;
+}
+
 pbmpm_stats world_stats(pbmpm_world_id world)
 {
     pbmpm_stats stats = {.size = sizeof stats};

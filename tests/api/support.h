@@ -28,7 +28,7 @@ float random_float(uint32_t *state, float low, float high);
 /* ---- allocator that watches, and fails on request ---- */
 
 /** Counts what a world takes and gives back. Fresh memory is filled with 0xA5, released memory with 0xDD, and each
- *  block has a guard behind it. */
+ *  block has a guard behind it. It has to outlive its worlds, also when a failed check ends the test: make it static. */
 typedef struct ledger {
     uint64_t calls;        /**< allocations asked for */
     uint64_t releases;
@@ -71,6 +71,9 @@ uint32_t view_uint(const pbmpm_view *view, uint32_t row, uint32_t component);
 uint32_t world_count(pbmpm_world_id world);
 uint64_t world_hash(pbmpm_world_id world);
 pbmpm_stats world_stats(pbmpm_world_id world);
+
+/** A hash of positions, velocities and J by particle, whatever their order in memory. */
+uint64_t world_hash_unordered(pbmpm_world_id world);
 
 /** Events of one kind in the world's array: how many entries, and (unless null) the first of them. */
 uint32_t world_events_of(pbmpm_world_id world, pbmpm_event_kind kind, pbmpm_event *first);

@@ -153,15 +153,16 @@ static void check_nothing_enters(pbmpm_shape shape, int32_t dimension, pbmpm_mat
     const pbmpm_world_id world = open_world(dimension);
     const pbmpm_collider_id collider = create_collider(world, shape, false);
     const pbmpm_material_id matter = create_material(world, kind);
-    uint32_t inside = 1;
+    uint32_t inside = 1, contacts = 0;
     fill_shape(world, matter, sphere_shape(0, 0.75f, 0, 0.3f), (const float[3]){0, -4, 0});
     set_gravity(world, 0, -9.81f, 0);
     for (int i = 0; i < 60; i++) {
         OK(pbmpm_world_step(world, 0.01f));
         OK(pbmpm_query_collider(world, collider, NULL, 0, &inside));
         TEST_ASSERT_EQUAL_UINT32(0, inside);
+        contacts += world_stats(world).contacts;
     }
-    TEST_ASSERT_TRUE(world_stats(world).contacts > 0 || mean_of(world, PBMPM_POSITION, 1) < -1);
+    TEST_ASSERT_TRUE(contacts > 0);
     world_expect_finite(world, "after the fall");
 }
 

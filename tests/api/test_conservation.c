@@ -138,7 +138,7 @@ static void test_momentum_of_a_free_elastic_body_in_3d(void)
 static void test_mass_is_density_times_rest_volume(void)
 {
     const float positions[6] = {0, 0, 0.1f, 0, 0.2f, 0.1f}, volumes[3] = {0.25f, 0.5f, 0.125f};
-    const pbmpm_world_def def = default_world(2, 0.1f, 8);
+    const pbmpm_world_def def = default_world(2, 0.125f, 8); /* powers of two: no rounding */
     const pbmpm_world_id world = create_world(&def);
     pbmpm_material_def material = default_material(PBMPM_LIQUID);
     pbmpm_particles_def particles;
@@ -193,7 +193,8 @@ static void check_free_fall(int32_t dimension, pbmpm_material_kind kind)
         TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0, view_float(&velocity, i, 0));
     }
     TEST_ASSERT_DOUBLE_WITHIN(g * t * dt / 2 * 1.01, g * t * t / 2, before - after);
-    TEST_ASSERT_TRUE(world_stats(world).volume_error_max < 1e-3f);
+    /* The liquid's volume feedback evens out the jittered filling. */
+    TEST_ASSERT_TRUE(world_stats(world).volume_error_max < (kind == PBMPM_ELASTIC ? 1e-5f : 1e-2f));
 }
 
 static void test_free_fall(void)

@@ -108,7 +108,8 @@ static void test_log_callback_gets_refused_calls(void)
 
 static void test_shutdown_destroys_worlds_and_allows_a_new_start(void)
 {
-    ledger book = {0};
+    static ledger book;
+    book = (ledger){0};
     pbmpm_world_def def = default_world(2, 0.1f, 100);
     def.allocator = ledger_allocator(&book);
     def.thread_count = 3;

@@ -156,7 +156,7 @@ static void test_relaxation_brings_the_volume_back(void)
 {
     const double slow = squeezed_ratio_after_a_step(0.5f), fast = squeezed_ratio_after_a_step(1.5f);
     TEST_ASSERT_TRUE(slow > 0.9501);
-    TEST_ASSERT_TRUE(fast > slow + 0.005);
+    TEST_ASSERT_TRUE(fast > slow + 0.003);
     TEST_ASSERT_TRUE(fast < 1.05);
 }
 

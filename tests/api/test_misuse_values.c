@@ -225,7 +225,7 @@ static void check_shapes_with(use *apply, bool planes)
         {FIELD(pbmpm_shape, rotation[1]), FLOAT32, 0, 0, false, false},
         {FIELD(pbmpm_shape, rotation[2]), FLOAT32, -INFINITY, INFINITY, false, false},
         {FIELD(pbmpm_shape, rotation[3]), FLOAT32, 0.5, 2, false, false},
-        {FIELD(pbmpm_shape, kind), INT32, PBMPM_BOX, PBMPM_CAPSULE, false, false},
+        {FIELD(pbmpm_shape, kind), INT32, PBMPM_PLANE, PBMPM_CAPSULE, false, false},
     };
     static const rule boxes[] = {
         {FIELD(pbmpm_shape, half_extents[0]), FLOAT32, 0, INFINITY, true, false},

@@ -8,7 +8,7 @@ enum { WARM_UP = 60, MEASURED = 60 };
 
 /* The C library's allocation functions are replaced here by ones that count; the shared library's calls land here too.
  * Only glibc offers the originals under other names, and sanitizers have replacements of their own. */
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !defined(PBMPM_SANITIZED)
 #define COUNTS_MALLOC 1
 extern void *__libc_malloc(size_t size);
 extern void *__libc_calloc(size_t count, size_t size);
@@ -101,7 +101,8 @@ static pbmpm_world_id settled_tank(limits *given)
 
 static void check_warm_steps(int32_t thread_count)
 {
-    limits given = {.thread_count = thread_count};
+    static limits given;
+    given = (limits){.thread_count = thread_count};
     const pbmpm_world_id world = settled_tank(&given);
     const uint64_t calls = given.book.calls, releases = given.book.releases;
     const unsigned long mallocs = malloc_count();
@@ -130,7 +131,8 @@ static void test_a_warm_step_with_threads_allocates_nothing(void)
 /* Reading back allocates nothing either. */
 static void test_reading_allocates_nothing(void)
 {
-    limits given = {.thread_count = 1};
+    static limits given;
+    given = (limits){.thread_count = 1};
     const pbmpm_world_id world = settled_tank(&given);
     const pbmpm_shape ball = sphere_shape(0.5f, 0.25f, 0, 0.2f);
     const uint64_t calls = given.book.calls;
@@ -149,7 +151,8 @@ static void test_reading_allocates_nothing(void)
 /* The control: the counters do count. */
 static void test_creation_is_counted(void)
 {
-    limits given = {.thread_count = 1};
+    static limits given;
+    given = (limits){.thread_count = 1};
     const unsigned long mallocs = malloc_count();
     tank_2d(use_limits, &given);
     TEST_ASSERT_TRUE(given.book.calls > 0);

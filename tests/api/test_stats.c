@@ -118,7 +118,8 @@ static void use_ledger(pbmpm_world_def *def, void *user)
 
 static void test_memory_is_what_the_allocator_gave(void)
 {
-    ledger book = {0};
+    static ledger book;
+    book = (ledger){0};
     const pbmpm_world_id world = tank_2d(use_ledger, &book);
     TEST_ASSERT_EQUAL_UINT64(book.live_bytes, world_stats(world).memory_bytes);
     OK(pbmpm_world_step(world, 0.01f));

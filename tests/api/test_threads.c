@@ -75,7 +75,7 @@ static void *step_through_gate(void *user)
 
 static void test_every_call_is_refused_while_another_thread_steps(void)
 {
-    gate door = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+    static gate door = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
     const target ids = target_create(use_gate, &door), twin = target_create(NULL, NULL);
     stepper walker = {ids.world, &door, PBMPM_ERROR_BUSY};
     pbmpm_result results[64];
@@ -324,7 +324,7 @@ static uint64_t hash_with(const scene *plan, scene_tweak *tweak, void *user)
 
 static void test_the_hosts_job_system_gives_the_same_results(void)
 {
-    host threaded = {.threaded = true}, reversed = {0}, at_once = {0};
+    static host threaded = {.threaded = true}, reversed, at_once;
     for (int i = 0; i < scene_count; i++) {
         const uint64_t right = hash_with(&scenes[i], NULL, NULL);
         TEST_ASSERT_EQUAL_HEX64_MESSAGE(right, hash_with(&scenes[i], use_host, &threaded), scenes[i].name);
