@@ -197,14 +197,15 @@ uint64_t world_hash(pbmpm_world_id world)
 
 uint64_t world_hash_unordered(pbmpm_world_id world)
 {
-    static const pbmpm_field fields[] = {PBMPM_PARTICLE, PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_VOLUME_RATIO};
+    static const pbmpm_field fields[] = {PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_VOLUME_RATIO};
     enum { FIELDS = sizeof fields / sizeof *fields };
+    const pbmpm_view identity = view_of(world, PBMPM_PARTICLE);
     pbmpm_view views[FIELDS];
     uint64_t sum = 0;
     for (int f = 0; f < FIELDS; f++)
         views[f] = view_of(world, fields[f]);
-    for (uint32_t row = 0; row < views[0].count; row++) {
-        uint64_t hash = 1469598103934665603u; /* FNV-1a, word by word */
+    for (uint32_t row = 0; row < identity.count; row++) {
+        uint64_t hash = 1469598103934665603u ^ view_uint(&identity, row, 0); /* FNV-1a, word by word */
         for (int f = 0; f < FIELDS; f++)
             for (uint32_t c = 0; c < views[f].components; c++)
                 hash = (hash ^ view_uint(&views[f], row, c)) * 1099511628211u;

@@ -72,7 +72,7 @@ uint32_t world_count(pbmpm_world_id world);
 uint64_t world_hash(pbmpm_world_id world);
 pbmpm_stats world_stats(pbmpm_world_id world);
 
-/** A hash of positions, velocities and J by particle, whatever their order in memory. */
+/** A hash of positions, velocities and J by particle (index of its identifier), whatever their order in memory. */
 uint64_t world_hash_unordered(pbmpm_world_id world);
 
 /** Events of one kind in the world's array: how many entries, and (unless null) the first of them. */
