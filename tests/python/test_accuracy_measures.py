@@ -7,8 +7,17 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+
 from pbmpm.app.accuracy import laws
-from pbmpm.app.accuracy.measures import Curve, absolute_rms, best_shift, body_extent, dam_break_experiment, relative_rms
+from pbmpm.app.accuracy.measures import (
+    Curve,
+    absolute_rms,
+    best_shift,
+    body_extent,
+    dam_break_experiment,
+    occupied_area,
+    relative_rms,
+)
 from pbmpm.app.accuracy.stability import ENERGY_TOLERANCE, StabilityJudge
 
 
@@ -35,6 +44,18 @@ def test_extent_of_a_body_ignores_drops_ahead() -> None:
 def test_extent_takes_in_a_thin_tongue() -> None:
     tongue = np.arange(1.025, 1.6, 0.05)
     assert body_extent(np.concatenate([lattice(1.0, 0.05), tongue]), 0.1, 0.05) == pytest.approx(1.6)
+
+
+def test_a_chance_hole_does_not_end_a_body() -> None:
+    body = lattice(1.0, 0.05)
+    assert body_extent(body[(body < 0.5) | (body > 0.6)], 0.1, 0.05) == pytest.approx(1.0)
+    assert body_extent(body[(body < 0.5) | (body > 0.7)], 0.1, 0.05) == pytest.approx(0.5)
+
+
+def test_occupied_area_does_not_depend_on_waves() -> None:
+    x, y = (axis.ravel() for axis in np.meshgrid(np.arange(0.025, 2, 0.05), np.arange(0.005, 1, 0.01)))
+    wave = 0.5 + 0.2 * np.sin(math.pi * np.floor(x / 0.1) / 10)
+    assert occupied_area(np.stack([x, y * wave], axis=1), 0.1) == pytest.approx(np.mean(wave) * 2.0, rel=1e-6)
 
 
 def test_errors_of_known_curves() -> None:
@@ -96,4 +117,4 @@ def test_judge() -> None:
     assert "deleted" in judged(step(50.0, deleted=1))[0]
     assert "finite" in judged(step(50.0, speed=math.nan))[0]
     assert "settled" in judged(step(50.0), settled=1.4)[0]
-    assert "settled" in judged(step(50.0), settled=0.4)[0]
+    assert "settled" in judged(step(50.0), settled=0.2)[0]

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from pbmpm.app.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
 from pbmpm.app.errors import InputError
 from pbmpm.app.scene import load_scene

@@ -10,6 +10,8 @@ import meshio
 import numpy as np
 import plyfile
 import pytest
+from PIL import Image
+
 from pbmpm.app.files import json_text, replace_when_complete, write_json
 from pbmpm.app.frame import Frame
 from pbmpm.app.output import Sequence
@@ -17,7 +19,6 @@ from pbmpm.app.picture import annotate, draw_picture, look_of, particle_colours
 from pbmpm.app.picture2d import draw_2d
 from pbmpm.app.picture3d import draw_3d
 from pbmpm.app.scene import Scene, parse_scene
-from PIL import Image
 
 
 def make_frame(

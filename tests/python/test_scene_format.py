@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+
 from pbmpm.app.errors import InputError
 from pbmpm.app.motion import pose_at, quaternion, rotation_matrix
 from pbmpm.app.scene import MotionPart, load_scene, parse_scene

@@ -13,6 +13,7 @@ from .picture import BACKGROUND, INK, OBSTACLE, Look, particle_colours
 from .scene import ColliderPart
 
 OVERSAMPLING = 2
+_AIR = (34, 38, 46)  # dark, so that fast (bright) particles stand out
 _DISC_GROWTH = 1.5  # neighbours on the lattice overlap, so that a filled body looks filled
 _FAR = 20.0  # [view sizes] how far a half space reaches in the picture
 
@@ -40,6 +41,7 @@ def draw_2d(frame: Frame, look: Look) -> Image.Image:
     view = _View(frame, look)
     image = Image.new("RGB", (view.width, view.height), BACKGROUND)
     draw = ImageDraw.Draw(image)
+    draw.rectangle(_inside(view, look), fill=_AIR)
     for collider in look.scene.colliders:
         draw.polygon([tuple(p) for p in view.pixels(_outline(collider, frame.time, view))], fill=OBSTACLE)
     pixels = np.array(image)
@@ -106,9 +108,15 @@ def _local_outline(shape, far: float) -> np.ndarray:
     return far * np.array([along, along - normal, -along - normal, -along])
 
 
-def _draw_domain(draw: ImageDraw.ImageDraw, view: _View, look: Look) -> None:
+def _inside(view: _View, look: Look) -> tuple[float, float, float, float]:
+    """Left, top, right and bottom pixel of the domain, or of the whole picture."""
     domain = look.scene.domain
     if domain is None:
-        return
+        return 0, 0, view.width, view.height
     (left, bottom), (right, top) = view.pixels(np.array([domain.min, domain.max]))
-    draw.rectangle((left, top, right, bottom), outline=INK, width=2 * OVERSAMPLING)
+    return left, top, right, bottom
+
+
+def _draw_domain(draw: ImageDraw.ImageDraw, view: _View, look: Look) -> None:
+    if look.scene.domain is not None:
+        draw.rectangle(_inside(view, look), outline=INK, width=2 * OVERSAMPLING)

@@ -80,11 +80,6 @@ def centre_height(simulation: Simulation) -> float:
     return float(np.sum(masses * world.positions.array()[:, 1]) / masses.sum())
 
 
-def centre_height_of(stats: pbmpm.Stats) -> float:
-    """The same from the figures of a step [m]."""
-    return stats.potential_energy / (stats.mass * GRAVITY)
-
-
 def start_energy(simulation: Simulation) -> float:
     """Energy of water at rest, zero level at the floor [J per metre of depth]."""
     return GRAVITY * simulation.start_mass * centre_height(simulation)

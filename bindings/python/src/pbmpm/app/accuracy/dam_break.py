@@ -21,13 +21,12 @@ from . import laws
 from .common import (
     GRAVITY,
     PARTICLES_PER_AXIS,
-    centre_height_of,
     modulus_over_density,
     start_energy,
     timed_step,
     water_scene,
 )
-from .measures import Curve, absolute_rms, best_shift, body_extent, dam_break_experiment, relative_rms
+from .measures import Curve, absolute_rms, best_shift, body_extent, dam_break_experiment, occupied_area, relative_rms
 from .stability import StabilityJudge
 
 DEFAULT_WIDTH = 1.0
@@ -36,9 +35,11 @@ HEIGHT_RATIO = 2.0
 LONG_TANK = 16.0  # [column widths] the wave does not return before LAST_TAU
 SHORT_TANK = 4.0
 TANK_HEIGHT = 3.0
+WALL_STRIP = 2.0  # [cells] where the height at the wall is taken
 LAST_TAU = 7.4  # last measured height
 TIMING_REPEATS = 2
 _SAMPLES_PER_UNIT_TIME = 25  # of tau
+_VOLUME_SAMPLES = 15  # in the last second
 
 
 @dataclass(frozen=True)
@@ -138,28 +139,30 @@ class DamBreak:
         positions = simulation.world.positions.array()
         x, y = positions[:, 0], positions[:, 1]
         spacing = self.cell_size / PARTICLES_PER_AXIS
-        at_wall = y[x < self.cell_size]
+        at_wall = y[x < WALL_STRIP * self.cell_size]
         return body_extent(x, self.cell_size, spacing), body_extent(at_wall, self.cell_size, spacing)
 
     def _settle(self, settings: RunSettings, judge: StabilityJudge) -> float | None:
         """Runs until the water rests and tells the judge.
 
-        Gives the settled volume over the rest volume, from the height of the centre of mass in the last second.
+        Gives the volume that the water takes in the last second over its rest volume.
         """
         steps = max(1, math.ceil(self.stability_seconds * settings.rate_hz))
         last_second = steps - min(steps, math.ceil(settings.rate_hz))
         scene = self.scene(SHORT_TANK, self.stability_seconds)
         depth = HEIGHT_RATIO * self.width / SHORT_TANK
-        centres = []
+        every = max(1, int(settings.rate_hz / _VOLUME_SAMPLES))
+        volumes = []
         with Simulation(scene, settings) as simulation:
             judge.begin(start_energy(simulation))
             for step in range(steps):
-                stats = timed_step(simulation, Meter(), judge)
+                timed_step(simulation, Meter(), judge)
                 if judge.broken:
                     return None
-                if step >= last_second:
-                    centres.append(centre_height_of(stats))
-        ratio = 2.0 * float(np.mean(centres)) / depth
+                if step >= last_second and step % every == 0:
+                    positions = simulation.world.positions.array()
+                    volumes.append(occupied_area(positions, self.cell_size))
+        ratio = float(np.mean(volumes)) / (HEIGHT_RATIO * self.width**2)
         profile = laws.column_profile(depth, GRAVITY, modulus_over_density(scene, settings))
         judge.settle(ratio, laws.apparent_height_ratio(profile))
         return ratio

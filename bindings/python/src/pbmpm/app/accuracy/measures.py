@@ -8,7 +8,7 @@ from importlib import resources
 import numpy as np
 
 MIN_PARTICLES = 2
-"""A slice one cell wide belongs to the body when it holds this many particles (half of a full cell at 2 per axis)."""
+"""A slice one cell wide belongs to the body when it holds this many particles."""
 
 SHIFT_LIMIT = 0.5
 _SHIFT_STEP = 0.005
@@ -17,17 +17,26 @@ _SHIFT_STEP = 0.005
 def body_extent(coordinates: np.ndarray, cell_size: float, spacing: float) -> float:
     """How far a body of particles reaches from 0 along one axis [m].
 
-    The axis is cut into slices one cell wide. The body goes on up to the first slice with fewer than MIN_PARTICLES
-    particles, so drops that fly ahead do not count. Its end is the outermost particle of the last slice plus half the
-    lattice spacing.
+    The axis is cut into slices one cell wide. The body goes on up to the first two slices in a row with fewer than
+    MIN_PARTICLES particles, so drops that fly ahead do not count and a chance hole does not end it. Its end is the
+    outermost particle of the last slice plus half the lattice spacing.
     """
-    slices = np.floor(coordinates / cell_size).astype(np.int64)
-    counts = np.bincount(np.maximum(slices, 0), minlength=1)
-    gaps = np.nonzero(counts < MIN_PARTICLES)[0]
-    last = (gaps[0] if len(gaps) else len(counts)) - 1
-    if last < 0:
-        return 0.0
-    return float(coordinates[slices <= last].max()) + 0.5 * spacing
+    slices = np.maximum(np.floor(coordinates / cell_size), 0).astype(np.int64)
+    filled = np.append(np.bincount(slices) >= MIN_PARTICLES, [False, False])
+    last = int(np.argmax(~filled[:-1] & ~filled[1:])) - 1
+    inside = coordinates[slices <= last]
+    return float(inside.max()) + 0.5 * spacing if len(inside) else 0.0
+
+
+def occupied_area(positions: np.ndarray, cell_size: float) -> float:
+    """The area that water above the floor takes [m^2], whatever waves it makes.
+
+    Each column of cells counts as high as twice the mean height of its particles.
+    """
+    columns = np.maximum(np.floor(positions[:, 0] / cell_size), 0).astype(np.int64)
+    counts = np.bincount(columns)
+    heights = np.bincount(columns, weights=positions[:, 1])
+    return 2.0 * cell_size * float(np.sum(heights / np.maximum(counts, 1)))
 
 
 @dataclass(frozen=True)
