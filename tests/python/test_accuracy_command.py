@@ -11,6 +11,11 @@ from typing import Any
 import pytest
 from PIL import Image
 
+from pbmpm.app.accuracy.column import Column
+from pbmpm.app.accuracy.dam_break import DamBreak
+from pbmpm.app.accuracy.sweep import sweep, table
+from pbmpm.app.simulation import RunSettings
+
 DAM_BREAK_KEYS = {
     "rate_hz",
     "iterations",
@@ -46,3 +51,40 @@ def test_dam_break_json_and_chart(tmp_path: Path) -> None:
     assert report["cell_size"] == pytest.approx(1 / 8)
     assert {"isa", "cpu", "date", "threads"} <= set(report["machine"])
     assert Image.open(tmp_path / "chart.png").width > 800
+
+
+def test_dam_break_reaches_the_experiment_at_a_moderate_setting() -> None:
+    row = DamBreak(stability_seconds=2.0).measure(RunSettings(60.0, 1, 10, 1))
+    assert row["front_rms"] <= 0.10
+    assert row["front_rms_shifted"] <= 0.05
+    assert row["height_rms"] <= 0.12
+    assert row["reasons"] == []
+
+
+def test_coarsest_dam_break_is_stable_for_20_seconds() -> None:
+    row = DamBreak(stability_seconds=20.0).measure(RunSettings(30.0, 1, 1, 1))
+    assert row["stable"], row["reasons"]
+
+
+@pytest.mark.parametrize(("rate", "iterations"), [(240.0, 10), (480.0, 5)])
+def test_column_sinks_as_the_law_says(rate: float, iterations: int) -> None:
+    row = Column(cells=16, seconds=4.0).measure(RunSettings(rate, 1, iterations, 1))
+    assert row["stable"], row["reasons"]
+    assert row["height_error"] == pytest.approx(row["height_error_law"], abs=0.02)
+    assert row["volume_error_rms"] == pytest.approx(row["volume_error_law"], abs=0.01)
+
+
+def test_an_unstable_setting_stays_in_the_table_as_failed() -> None:
+    class Broken:
+        name = "column"
+
+        def facts(self) -> dict[str, Any]:
+            return {"cell_size": 0.1}
+
+        def measure(self, settings: RunSettings) -> dict[str, Any]:
+            keys = ("height_error", "height_error_law", "volume_error_rms", "volume_error_law")
+            row = {"rate_hz": settings.rate_hz, "iterations": settings.iterations, "ms_per_simulated_second": 1.0}
+            return {**row, **dict.fromkeys(keys), "stable": False, "reasons": ["it blew up at 1 s"]}
+
+    text = table(sweep(Broken(), [30.0], [1, 2], threads=1))
+    assert text.count("FAILED: it blew up at 1 s") == 2

@@ -15,6 +15,7 @@ class Meter:
         self._to_skip = warmup_steps
         self.steps_timed = 0
         self.seconds = 0.0
+        self.cpu_seconds = 0.0
         self.work = 0.0
         """Particle-iterations."""
         self.phase_ms = dict.fromkeys(PHASES, 0.0)
@@ -23,8 +24,8 @@ class Meter:
         self.max_speed = 0.0
         self.steps = 0
 
-    def add(self, stats: Any, seconds: float) -> None:
-        """Counts one step with its wall time [s]."""
+    def add(self, stats: Any, seconds: float, cpu_seconds: float = 0.0) -> None:
+        """Counts one step with its wall time and the CPU time of all threads [s]."""
         self.steps += 1
         self.volume_error_squares += stats.volume_error_rms**2
         self.volume_error_max = max(self.volume_error_max, stats.volume_error_max)
@@ -33,6 +34,7 @@ class Meter:
             return
         self.steps_timed += 1
         self.seconds += seconds
+        self.cpu_seconds += cpu_seconds
         self.work += stats.particle_count * stats.substeps * stats.iterations
         for phase in PHASES:
             self.phase_ms[phase] += getattr(stats, f"ms_{phase}")
@@ -54,6 +56,7 @@ class Meter:
             "steps": self.steps,
             "steps_timed": self.steps_timed,
             "wall_seconds_timed": self.seconds,
+            "cpu_seconds_timed": self.cpu_seconds,
             "ms_per_simulated_second": self.ms_per_simulated_second(dt),
             "million_particle_iterations_per_second": self.work / self.seconds / 1e6 if timed else None,
             "million_particle_iterations_per_second_in_iterate": self.work / iterate / 1e3 if iterate > 0 else None,

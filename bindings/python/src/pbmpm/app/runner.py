@@ -100,11 +100,11 @@ def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter,
         for _ in range(steps):
             if interrupt:
                 return
-            start = time.perf_counter()
+            start, cpu_start = time.perf_counter(), time.process_time()
             simulation.step()
-            now = time.perf_counter()
+            now, cpu_now = time.perf_counter(), time.process_time()
             stats = simulation.stats()
-            meter.add(stats, now - start)
+            meter.add(stats, now - start, cpu_now - cpu_start)
             recorder.after_step(simulation)
             bar.update()
             if now - shown > _POSTFIX_EVERY_SECONDS and not bar.disable:
