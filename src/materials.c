@@ -16,7 +16,7 @@ pbmpm_material_def material_defaults(void)
                                 .strain_min = 0.1f,
                                 .strain_max = 20.0f,
                                 .condition_max = 1e6f,
-                                .rebound_max = 0.3f};
+                                .rebound_max = 1.0f};
 }
 
 const char *material_problem(const pbmpm_material_def *def)
