@@ -88,7 +88,6 @@ struct KernelArgs {
     float cells_per_metre;  /* 1/dx */
     float gravity[3];       /* g dt^2 / dx: added to the predictor */
     float max_displacement; /* [cells] */
-    float iteration_share;  /* 1/N */
     int32_t max_cell;
     int32_t check_strain; /* bring F into range before its first use */
 };

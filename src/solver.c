@@ -30,7 +30,6 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .dt = dt,
                       .cells_per_metre = (float)cells_per_metre,
                       .max_displacement = world->settings.max_displacement,
-                      .iteration_share = 1.0f / (float)world->settings.iterations,
                       .max_cell = CELL_LIMIT,
                       .check_strain = world->strain_unchecked};
     memcpy(a->fraction, p->fraction, sizeof a->fraction);
