@@ -1,0 +1,1068 @@
+// Generated from the public headers by bindings/generator; a test compares it with them. Do not edit.
+using System;
+using System.Collections.Generic;
+using System.Runtime.InteropServices;
+using Pbmpm.Native;
+
+namespace Pbmpm
+{
+    /// <summary>Numbers of the C headers.</summary>
+    public static class Constants
+    {
+        public const int VersionMajor = 0;
+        public const int VersionMinor = 1;
+        public const int VersionPatch = 0;
+        /// <summary>Number of the binary interface (the shared library's SOVERSION). It changes only when an existing
+        /// function, constant or field changes its meaning, type or place.</summary>
+        public const int AbiVersion = 0;
+        public const int MaxMaterials = 256;
+        public const int MaxWorlds = 1024;
+        public const int MaxParticles = 268435456;
+        public const int MaxSubsteps = 256;
+        public const int MaxIterations = 1000;
+        /// <summary>Largest displacement of a particle in one substep [cells].</summary>
+        public const int MaxCellsPerSubstep = 64;
+        /// <summary>Cells per axis and direction around the origin that a particle can be in; beyond, it is deleted with an event.</summary>
+        public const int MaxCell = 4194304;
+        public const int MaxColliders = 1024;
+    }
+
+    /// <summary>What a call came to. Zero is success; everything else left the world as it was before the call, except
+    /// where the function says otherwise. Details: pbmpm_last_error().</summary>
+    public enum Result : int
+    {
+        Ok = 0,
+        /// <summary>null pointer, NaN, infinity, or a value outside its documented range</summary>
+        ErrorInvalidArgument = 1,
+        /// <summary>null, stale, foreign or made-up identifier</summary>
+        ErrorInvalidId = 2,
+        /// <summary>the allocator returned null, or the memory budget is used up</summary>
+        ErrorOutOfMemory = 3,
+        /// <summary>more particles, materials, colliders or worlds than there is room for</summary>
+        ErrorCapacity = 4,
+        /// <summary>another thread is inside a call on the same world</summary>
+        ErrorBusy = 5,
+        /// <summary>the CPU has no SSE4.2</summary>
+        ErrorUnsupportedCpu = 6,
+        /// <summary>a structure size, material or feature that this build does not know</summary>
+        ErrorUnsupported = 7,
+        /// <summary>a worker thread could not be started</summary>
+        ErrorThread = 8,
+        /// <summary>the object still has users (a material that particles refer to)</summary>
+        ErrorInUse = 9,
+        /// <summary>the world belongs to the parent process; in the child only destroy works</summary>
+        ErrorForked = 10,
+    }
+
+    /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
+    /// it, lowers the choice (never raises it).</summary>
+    public enum Isa : int
+    {
+        /// <summary>the CPU is not supported</summary>
+        None = 0,
+        Sse4 = 1,
+        Avx2 = 2,
+        Avx512 = 3,
+    }
+
+    public enum MaterialKind : int
+    {
+        /// <summary>keeps its volume: J = 1</summary>
+        Liquid = 0,
+        /// <summary>keeps its shape and volume: F is a rotation</summary>
+        Elastic = 1,
+    }
+
+    /// <summary>What happens to an elastic particle that is strained beyond all measure.</summary>
+    public enum StrainPolicy : int
+    {
+        /// <summary>singular values of F are kept in [strain_min, strain_max]</summary>
+        Clamp = 0,
+        /// <summary>deleted, with an event, when the condition number of F exceeds condition_max (the paper's rule)</summary>
+        Delete = 1,
+    }
+
+    public enum ShapeKind : int
+    {
+        /// <summary>half space behind the plane (2D: behind the line) through `position` with the outward `normal`</summary>
+        Plane = 0,
+        /// <summary>box with `half_extents` (2D: rectangle)</summary>
+        Box = 1,
+        /// <summary>ball with `radius` (2D: disc)</summary>
+        Sphere = 2,
+        /// <summary>all points within `radius` of the segment of half length half_extents[0] along the local first axis</summary>
+        Capsule = 3,
+    }
+
+    /// <summary>Fields of particles.</summary>
+    public enum Field : int
+    {
+        /// <summary>d floats [m], relative to the origin</summary>
+        Position = 0,
+        /// <summary>d floats [m/s]</summary>
+        Velocity = 1,
+        /// <summary>d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood</summary>
+        AffineVelocity = 2,
+        /// <summary>1 float: J of a liquid particle; det F of an elastic one as of its last step</summary>
+        VolumeRatio = 3,
+        /// <summary>d*d floats, row-major F; identity for liquids; needs an elastic material in the world</summary>
+        Deformation = 4,
+        /// <summary>1 uint32: index of the material's identifier</summary>
+        Material = 5,
+        /// <summary>2 uint32: pbmpm_particle_id</summary>
+        Particle = 6,
+        /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
+        Mass = 7,
+    }
+
+    public enum Friction : int
+    {
+        /// <summary>tangential impulse up to friction_coefficient times the normal impulse</summary>
+        Coulomb = 0,
+        /// <summary>matter moves with the surface and cannot leave it</summary>
+        Stick = 1,
+        /// <summary>no tangential impulse</summary>
+        Slip = 2,
+    }
+
+    public enum EventKind : int
+    {
+        /// <summary>a particle's state was NaN or infinite; it was taken out before it touched others</summary>
+        DeletedNotFinite = 1,
+        /// <summary>beyond PBMPM_MAX_CELL</summary>
+        DeletedOutOfRange = 2,
+        /// <summary>strain beyond condition_max</summary>
+        DeletedCondition = 3,
+        /// <summary>slowed to max_displacement</summary>
+        SpeedClamped = 4,
+        /// <summary>a call asked for more particles than there is room for; count: how many</summary>
+        Capacity = 5,
+    }
+
+    /// <summary>3 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Float3
+    {
+        public float X;
+        public float Y;
+        public float Z;
+
+        public Float3(float x, float y, float z)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+        }
+    }
+
+    /// <summary>4 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Float4
+    {
+        public float X;
+        public float Y;
+        public float Z;
+        public float W;
+
+        public Float4(float x, float y, float z, float w)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+            W = w;
+        }
+    }
+
+    /// <summary>3 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Double3
+    {
+        public double X;
+        public double Y;
+        public double Z;
+
+        public Double3(double x, double y, double z)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+        }
+    }
+
+    /// <summary>Identifiers are values of 8 bytes. All zero means "none". A generation is never used twice in a process (short
+    /// of 2^32 objects), so a stale identifier or one of another world is refused and never mistaken for a live one.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct WorldId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct MaterialId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct ColliderId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct ParticleId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
+    /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
+    /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
+    /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MaterialDef
+    {
+        /// <summary>sizeof(pbmpm_material_def), set by pbmpm_material_def_init()</summary>
+        public uint Size;
+        /// <summary>default PBMPM_LIQUID; cannot be changed later</summary>
+        public MaterialKind Kind;
+        /// <summary>rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000</summary>
+        public float Density;
+        /// <summary>share of the constraint error removed per iteration, in (0, 2); default 1.5</summary>
+        public float Relaxation;
+        /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
+        /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
+        public float Viscosity;
+        /// <summary>liquid: share per substep by which J follows the volume measured on the grid where
+        /// that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing.</summary>
+        public float VolumeFeedback;
+        /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
+        public float ElasticityRatio;
+        /// <summary>elastic; default PBMPM_STRAIN_CLAMP</summary>
+        public StrainPolicy StrainPolicy;
+        /// <summary>elastic: lower bound of the singular values of F, in [1e-3, 1]; default 0.1</summary>
+        public float StrainMin;
+        /// <summary>elastic: upper bound, in [1, 1e4]; default 20</summary>
+        public float StrainMax;
+        /// <summary>elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6</summary>
+        public float ConditionMax;
+        /// <summary>bound of the strain that a correction may add per iteration, in (0, 10]; default 0.3.
+        /// Matter that was crushed to nothing grows back at this rate instead of exploding.</summary>
+        public float ReboundMax;
+
+        /// <summary>The library's defaults.</summary>
+        public static MaterialDef Default
+        {
+            get
+            {
+                Library.Check();
+                MaterialDef it;
+                Library.Require(Methods.pbmpm_material_def_init(&it, (UIntPtr)sizeof(MaterialDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>A solid shape with its pose. Lengths in metres, positions relative to the world's origin.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Shape
+    {
+        /// <summary>sizeof(pbmpm_shape), set by pbmpm_shape_init()</summary>
+        public uint Size;
+        /// <summary>default PBMPM_BOX</summary>
+        public ShapeKind Kind;
+        /// <summary>centre, or a point of the plane; default 0</summary>
+        public Float3 Position;
+        /// <summary>unit quaternion (x, y, z, w); normalised by the library, length in [0.5, 2]; default (0, 0, 0, 1).
+        /// 2D: a turn by the angle a is (0, 0, sin(a/2), cos(a/2)); x and y must be 0.</summary>
+        public Float4 Rotation;
+        /// <summary>box: &gt; 0 per axis; capsule: [0] &gt;= 0; default 0.5</summary>
+        public Float3 HalfExtents;
+        /// <summary>sphere, capsule: &gt; 0; default 0.5</summary>
+        public float Radius;
+        /// <summary>plane: outward direction before rotation, any length &gt; 1e-6; default (0, 1, 0)</summary>
+        public Float3 Normal;
+
+        /// <summary>The library's defaults.</summary>
+        public static Shape Default
+        {
+            get
+            {
+                Library.Check();
+                Shape it;
+                Library.Require(Methods.pbmpm_shape_init(&it, (UIntPtr)sizeof(Shape)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What a world is made of for all its life. Fill it with pbmpm_world_def_init(), then change what differs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct WorldDef
+    {
+        /// <summary>sizeof(pbmpm_world_def), set by pbmpm_world_def_init()</summary>
+        public uint Size;
+        /// <summary>2 or 3; default 3. In 2D the third component of every vector is ignored.</summary>
+        public int Dimension;
+        /// <summary>grid spacing dx [m], in [1e-6, 1e6]; default 0.1</summary>
+        public float CellSize;
+        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation.</summary>
+        public uint ParticleCapacity;
+        /// <summary>what positions are relative to [m]; default 0. Used by nothing but the caller's own
+        /// conversion, so a scene far from zero loses no precision.</summary>
+        public Double3 Origin;
+        /// <summary>bytes that the world may hold at once; 0 (default): no limit</summary>
+        public ulong MemoryBudget;
+        /// <summary>1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
+        /// With task hooks: how many shares the work is cut into.</summary>
+        public int ThreadCount;
+        /// <summary>0 (default): unbounded. 1: closed box, walls that hold matter in.</summary>
+        public int DomainEnabled;
+        /// <summary>lower corner of the box [m], relative to the origin; default 0</summary>
+        public Float3 DomainMin;
+        /// <summary>upper corner; at least 4 cells above domain_min per axis; default 1</summary>
+        public Float3 DomainMax;
+        /// <summary>Coulomb coefficient of the walls, &gt;= 0; default 0</summary>
+        public float DomainFriction;
+        /// <summary>both functions null (default): the C library's</summary>
+        public Allocator Allocator;
+        /// <summary>both functions null (default): the world's own threads</summary>
+        public TaskHooks Tasks;
+
+        /// <summary>The library's defaults.</summary>
+        public static WorldDef Default
+        {
+            get
+            {
+                Library.Check();
+                WorldDef it;
+                Library.Require(Methods.pbmpm_world_def_init(&it, (UIntPtr)sizeof(WorldDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What may change between steps. State is kept in physical units, so a change of rate changes nothing in flight.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Settings
+    {
+        /// <summary>sizeof(pbmpm_settings), set by pbmpm_settings_init()</summary>
+        public uint Size;
+        /// <summary>equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1</summary>
+        public int Substeps;
+        /// <summary>N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5</summary>
+        public int Iterations;
+        /// <summary>acceleration [m/s^2]; default 0</summary>
+        public Float3 Gravity;
+        /// <summary>largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
+        /// default 32. Faster particles are slowed to it; each time is counted in the events.</summary>
+        public float MaxDisplacement;
+
+        /// <summary>The library's defaults.</summary>
+        public static Settings Default
+        {
+            get
+            {
+                Library.Check();
+                Settings it;
+                Library.Require(Methods.pbmpm_settings_init(&it, (UIntPtr)sizeof(Settings)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>Particles that fill a shape on a jittered lattice.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct FillDef
+    {
+        /// <summary>sizeof(pbmpm_fill_def), set by pbmpm_fill_def_init()</summary>
+        public uint Size;
+        /// <summary>of the jitter; equal seeds give equal particles; default 1</summary>
+        public uint Seed;
+        public MaterialId Material;
+        /// <summary>any kind but PBMPM_PLANE</summary>
+        public Shape Shape;
+        /// <summary>lattice points per cell and axis, in [0.25, 16]; default 2 (4 per cell in 2D, 8 in 3D)</summary>
+        public float ParticlesPerAxis;
+        /// <summary>random offset as a share of the lattice spacing, in [0, 1]; default 0.5</summary>
+        public float Jitter;
+        /// <summary>of every particle [m/s]; default 0</summary>
+        public Float3 Velocity;
+
+        /// <summary>The library's defaults.</summary>
+        public static FillDef Default
+        {
+            get
+            {
+                Library.Check();
+                FillDef it;
+                Library.Require(Methods.pbmpm_fill_def_init(&it, (UIntPtr)sizeof(FillDef)));
+                return it;
+            }
+        }
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct ColliderDef
+    {
+        /// <summary>sizeof(pbmpm_collider_def), set by pbmpm_collider_def_init()</summary>
+        public uint Size;
+        /// <summary>default PBMPM_FRICTION_COULOMB</summary>
+        public Friction Friction;
+        /// <summary>Coulomb coefficient, in [0, 100]; default 0.2</summary>
+        public float FrictionCoefficient;
+        /// <summary>0 (default): never moves. 1: pbmpm_collider_move() moves it.</summary>
+        public int Kinematic;
+        public Shape Shape;
+
+        /// <summary>The library's defaults.</summary>
+        public static ColliderDef Default
+        {
+            get
+            {
+                Library.Check();
+                ColliderDef it;
+                Library.Require(Methods.pbmpm_collider_def_init(&it, (UIntPtr)sizeof(ColliderDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>Figures of the last step. Times are of the whole step (all substeps); state is that at its end. Momentum and angular
+    /// momentum are relative to the world's origin; in 2D only component 2 of the angular momentum is used.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Stats
+    {
+        /// <summary>sizeof(pbmpm_stats), set by the caller</summary>
+        public uint Size;
+        /// <summary>live particles</summary>
+        public uint ParticleCount;
+        /// <summary>steps since creation</summary>
+        public ulong StepCount;
+        /// <summary>since creation</summary>
+        public double SimulatedSeconds;
+        /// <summary>held by the world</summary>
+        public ulong MemoryBytes;
+        /// <summary>blocks of 4^d cells with particles</summary>
+        public uint ParticleBlocks;
+        /// <summary>blocks of 4^d nodes that they touch</summary>
+        public uint NodeBlocks;
+        /// <summary>node-obstacle pairs in the last substep</summary>
+        public uint Contacts;
+        /// <summary>of the step</summary>
+        public uint Substeps;
+        /// <summary>per substep</summary>
+        public uint Iterations;
+        /// <summary>shares the work was cut into</summary>
+        public uint ThreadCount;
+        /// <summary>wall time [ms] of the step</summary>
+        public float MsTotal;
+        /// <summary>... of which binning and reordering</summary>
+        public float MsSort;
+        /// <summary>first P2G and predictor</summary>
+        public float MsScatter;
+        /// <summary>finding nodes near obstacles</summary>
+        public float MsContacts;
+        /// <summary>N passes of G2P, projection, P2G and grid update</summary>
+        public float MsIterate;
+        /// <summary>last G2P, integration, guards</summary>
+        public float MsIntegrate;
+        /// <summary>root mean square of |J - 1| over particles</summary>
+        public float VolumeErrorRms;
+        /// <summary>largest |J - 1|</summary>
+        public float VolumeErrorMax;
+        /// <summary>[m/s]</summary>
+        public float MaxSpeed;
+        /// <summary>largest particle displacement of the last substep [cells] (the Courant number)</summary>
+        public float MaxDisplacement;
+        /// <summary>[kg]</summary>
+        public double Mass;
+        /// <summary>[kg m/s]</summary>
+        public Double3 Momentum;
+        /// <summary>about the origin, with the affine part [kg m^2/s]</summary>
+        public Double3 AngularMomentum;
+        /// <summary>translation of particles [J]</summary>
+        public double KineticEnergy;
+        /// <summary>in gravity, relative to the origin [J]</summary>
+        public double PotentialEnergy;
+        /// <summary>share of particles that left their cell in the last substep</summary>
+        public float CellChanges;
+        /// <summary>share of SIMD lanes that held a particle; 1 is perfect</summary>
+        public float LaneOccupancy;
+        /// <summary>particles deleted by the library since creation (never by calls)</summary>
+        public ulong DeletedTotal;
+        /// <summary>times a particle was slowed to max_displacement since creation</summary>
+        public ulong ClampedTotal;
+    }
+
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Event
+    {
+        public EventKind Kind;
+        /// <summary>how many particles (deletions: always 1)</summary>
+        public uint Count;
+        /// <summary>the particle, or the first one of several</summary>
+        public ParticleId Particle;
+        /// <summary>where [m]</summary>
+        public Float3 Position;
+        /// <summary>in which substep of the step</summary>
+        public uint Substep;
+        /// <summary>step_count when it happened</summary>
+        public ulong Step;
+    }
+}
+
+namespace Pbmpm.Native
+{
+    /// <summary>Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
+    /// null; `release` gets the size that was asked for. Called from the thread that calls the library.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Allocator
+    {
+        public IntPtr Allocate;
+        public IntPtr Release;
+        public IntPtr User;
+    }
+
+    /// <summary>Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
+    /// once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
+    /// of them have returned. Null functions: the world's own thread pool is used.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct TaskHooks
+    {
+        public IntPtr Enqueue;
+        public IntPtr Finish;
+        public IntPtr User;
+    }
+
+    /// <summary>One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
+    /// structure itself (offset 0, size of the whole).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct LayoutEntry
+    {
+        public IntPtr Structure;
+        public IntPtr Field;
+        /// <summary>bytes from the start of the structure</summary>
+        public uint Offset;
+        /// <summary>bytes</summary>
+        public uint Size;
+    }
+
+    /// <summary>Particles from arrays. Arrays are read during the call only. "d" is the world's dimension.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct ParticlesDef
+    {
+        /// <summary>sizeof(pbmpm_particles_def), set by pbmpm_particles_def_init()</summary>
+        public uint Size;
+        /// <summary>number of particles in the arrays</summary>
+        public uint Count;
+        /// <summary>their material</summary>
+        public MaterialId Material;
+        /// <summary>count * d floats [m], relative to the origin; inside the domain box if there is one</summary>
+        public float* Positions;
+        /// <summary>count * d floats [m/s], or null for rest</summary>
+        public float* Velocities;
+        /// <summary>count floats: rest volumes [m^d], &gt; 0, or null for `volume`</summary>
+        public float* Volumes;
+        /// <summary>rest volume of each particle [m^d]; 0 (default): (dx/2)^d</summary>
+        public float Volume;
+
+        /// <summary>The library's defaults.</summary>
+        public static ParticlesDef Default
+        {
+            get
+            {
+                Library.Check();
+                ParticlesDef it;
+                Library.Require(Methods.pbmpm_particles_def_init(&it, (UIntPtr)sizeof(ParticlesDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>A window on the world's own memory. Element (i, c) of the field is at
+    /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct View
+    {
+        /// <summary>sizeof(pbmpm_view), set by the caller</summary>
+        public uint Size;
+        /// <summary>particles</summary>
+        public uint Count;
+        /// <summary>values per particle</summary>
+        public uint Components;
+        /// <summary>bytes from one component to the next</summary>
+        public uint ComponentStride;
+        /// <summary>bytes from one particle to the next</summary>
+        public ulong Stride;
+        /// <summary>null when count is 0</summary>
+        public IntPtr Data;
+        /// <summary>valid while pbmpm_world_generation() returns this number</summary>
+        public ulong Generation;
+    }
+
+    /// <summary>The functions of the C library, as they are.</summary>
+    public static unsafe class Methods
+    {
+        /// <summary>The name that the run time looks for; it adds what the platform wants around it.</summary>
+        public const string LibraryName = "pbmpm";
+
+        /// <summary>A short constant name of a result ("PBMPM_ERROR_CAPACITY"); never null, never to be freed. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_result_name(Result result);
+
+        /// <summary>The message of the last call that failed on this thread, or an empty string. Valid until the next call that
+        /// fails on this thread; never null. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_last_error();
+
+        /// <summary>Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
+        /// library. Bindings need not use it: everything it says can also be polled.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_set_log_callback(IntPtr callback, IntPtr user);
+
+        /// <summary>The version of the library that is loaded, as major * 1000000 + minor * 1000 + patch. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern uint pbmpm_version();
+
+        /// <summary>PBMPM_ABI_VERSION of the library that is loaded; a binding refuses to run when it differs from its own. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern uint pbmpm_abi_version();
+
+        /// <summary>The kernels in use. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Isa pbmpm_active_isa();
+
+        /// <summary>The name of an instruction set ("AVX2"); never null. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_isa_name(Isa isa);
+
+        /// <summary>The layouts of all public structures as this library was compiled. Every binding compares it with its own
+        /// mirror when it loads. The table is constant and lives as long as the library. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_layout_table(LayoutEntry** entries, uint* count);
+
+        /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library. No other call may be
+        /// under way. Afterwards the library may be used again.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_shutdown();
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_def_init(MaterialDef* def, UIntPtr size);
+
+        /// <summary>Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown), CAPACITY,
+        /// OUT_OF_MEMORY (the first elastic material makes room for F), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_create(WorldId world, MaterialDef* def, MaterialId* material);
+
+        /// <summary>Reads a material. `def-&gt;size` must be set.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_get(WorldId world, MaterialId material, MaterialDef* def);
+
+        /// <summary>Changes the parameters of a material (not its kind or density); takes effect with the next step.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_set(WorldId world, MaterialId material, MaterialDef* def);
+
+        /// <summary>Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_destroy(WorldId world, MaterialId material);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_shape_init(Shape* shape, UIntPtr size);
+
+        /// <summary>Writes the defaults. `size` is the caller's sizeof(*def).
+        /// Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_def_init(WorldDef* def, UIntPtr size);
+
+        /// <summary>Writes the defaults. `size` is the caller's sizeof(*def).
+        /// Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_settings_init(Settings* settings, UIntPtr size);
+
+        /// <summary>Creates a world and takes its memory. On failure *world is the null identifier and nothing is held.
+        /// Errors: INVALID_ARGUMENT, OUT_OF_MEMORY, CAPACITY (worlds), UNSUPPORTED_CPU, THREAD. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_create(WorldDef* def, WorldId* world);
+
+        /// <summary>Destroys a world and everything in it; views and identifiers of it become invalid.
+        /// Errors: INVALID_ID (also on a second destroy), BUSY. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_destroy(WorldId world);
+
+        /// <summary>The definition the world was made from. `def-&gt;size` must be set (pbmpm_world_def_init).</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
+
+        /// <summary>Reads and changes the settings; take effect with the next step.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_settings(WorldId world, Settings* settings);
+
+        /// <summary>Reads and changes the settings; take effect with the next step.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
+
+        /// <summary>Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
+        /// of occupied blocks has stopped growing. `dt` must be finite, in (0, 10].
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
+        /// needed it is not begun, earlier substeps of the call stay done.
+        /// Any thread, one at a time per world; different worlds step at the same time.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step(WorldId world, float dt);
+
+        /// <summary>A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
+        /// the view's own.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_generation(WorldId world, ulong* generation);
+
+        /// <summary>64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for
+        /// the same calls on the same binary and instruction set, for any number of threads.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_hash(WorldId world, ulong* hash);
+
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_def_init(ParticlesDef* def, UIntPtr size);
+
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_fill_def_init(FillDef* def, UIntPtr size);
+
+        /// <summary>Adds particles. All of them or none. `ids`: null or room for def-&gt;count identifiers.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
+
+        /// <summary>Fills a shape. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
+        /// says how many the shape needs. `added` may be null.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
+
+        /// <summary>Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_remove(WorldId world, ParticleId* ids, uint count);
+
+        /// <summary>Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_remove_in(WorldId world, Shape* shape, uint* removed);
+
+        /// <summary>Number of live particles.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_count(WorldId world, uint* count);
+
+        /// <summary>A view of a field. The order of particles is the same in all views of one generation and changes with steps; their
+        /// identity is PBMPM_PARTICLE. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (no such field in this world), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_view(WorldId world, Field field, View* view);
+
+        /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
+        /// Settable: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+        /// with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
+        /// All or nothing; expires views. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_set(WorldId world, Field field, ParticleId* ids, uint count, float* values);
+
+        /// <summary>Where particles stand in the current storage order (the row in a view).</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_find(WorldId world, ParticleId* ids, uint count, uint* rows);
+
+        /// <summary>Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
+        /// `ids` may be null when capacity is 0.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
+
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
+
+        /// <summary>Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_create(WorldId world, ColliderDef* def, ColliderId* collider);
+
+        /// <summary>Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_destroy(WorldId world, ColliderId collider);
+
+        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def);
+
+        /// <summary>Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
+        /// matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
+        /// `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT (also: not kinematic), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_move(WorldId world, ColliderId collider, Float3* position, Float4* rotation);
+
+        /// <summary>Puts an obstacle somewhere at once, without velocity. Works for static ones too.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_teleport(WorldId world, ColliderId collider, Float3* position, Float4* rotation);
+
+        /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
+
+        /// <summary>Figures of the last step; before the first all are 0 but the counts. `stats-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
+
+        /// <summary>Events of the last step, and of calls since then. The array belongs to the world and is valid until its next step or
+        /// change. When more happened than the array holds, *missed says how many are not in it; totals are in pbmpm_stats.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_events(WorldId world, Event** events, uint* count, uint* missed);
+    }
+
+    /// <summary>Where the fields of the structures above lie.</summary>
+    internal static unsafe class Mirror
+    {
+        /// <summary>All fields of all structures; a structure follows its fields.</summary>
+        internal static List<MirrorField> All()
+        {
+            var fields = new List<MirrorField>();
+            WorldId(fields);
+            MaterialId(fields);
+            ColliderId(fields);
+            ParticleId(fields);
+            Allocator(fields);
+            TaskHooks(fields);
+            LayoutEntry(fields);
+            MaterialDef(fields);
+            Shape(fields);
+            WorldDef(fields);
+            Settings(fields);
+            ParticlesDef(fields);
+            FillDef(fields);
+            View(fields);
+            ColliderDef(fields);
+            Stats(fields);
+            Event(fields);
+            return fields;
+        }
+
+        static void WorldId(List<MirrorField> fields)
+        {
+            var it = default(WorldId);
+            fields.Add(new MirrorField("pbmpm_world_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void MaterialId(List<MirrorField> fields)
+        {
+            var it = default(MaterialId);
+            fields.Add(new MirrorField("pbmpm_material_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void ColliderId(List<MirrorField> fields)
+        {
+            var it = default(ColliderId);
+            fields.Add(new MirrorField("pbmpm_collider_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void ParticleId(List<MirrorField> fields)
+        {
+            var it = default(ParticleId);
+            fields.Add(new MirrorField("pbmpm_particle_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_particle_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_particle_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void Allocator(List<MirrorField> fields)
+        {
+            var it = default(Allocator);
+            fields.Add(new MirrorField("pbmpm_allocator", "allocate", &it, &it.Allocate, &it.Allocate + 1, false));
+            fields.Add(new MirrorField("pbmpm_allocator", "release", &it, &it.Release, &it.Release + 1, false));
+            fields.Add(new MirrorField("pbmpm_allocator", "user", &it, &it.User, &it.User + 1, false));
+            fields.Add(new MirrorField("pbmpm_allocator", "", &it, &it, &it + 1, false));
+        }
+
+        static void TaskHooks(List<MirrorField> fields)
+        {
+            var it = default(TaskHooks);
+            fields.Add(new MirrorField("pbmpm_task_hooks", "enqueue", &it, &it.Enqueue, &it.Enqueue + 1, false));
+            fields.Add(new MirrorField("pbmpm_task_hooks", "finish", &it, &it.Finish, &it.Finish + 1, false));
+            fields.Add(new MirrorField("pbmpm_task_hooks", "user", &it, &it.User, &it.User + 1, false));
+            fields.Add(new MirrorField("pbmpm_task_hooks", "", &it, &it, &it + 1, false));
+        }
+
+        static void LayoutEntry(List<MirrorField> fields)
+        {
+            var it = default(LayoutEntry);
+            fields.Add(new MirrorField("pbmpm_layout_entry", "structure", &it, &it.Structure, &it.Structure + 1, false));
+            fields.Add(new MirrorField("pbmpm_layout_entry", "field", &it, &it.Field, &it.Field + 1, false));
+            fields.Add(new MirrorField("pbmpm_layout_entry", "offset", &it, &it.Offset, &it.Offset + 1, false));
+            fields.Add(new MirrorField("pbmpm_layout_entry", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_layout_entry", "", &it, &it, &it + 1, false));
+        }
+
+        static void MaterialDef(List<MirrorField> fields)
+        {
+            var it = default(MaterialDef);
+            fields.Add(new MirrorField("pbmpm_material_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "kind", &it, &it.Kind, &it.Kind + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "density", &it, &it.Density, &it.Density + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "relaxation", &it, &it.Relaxation, &it.Relaxation + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "viscosity", &it, &it.Viscosity, &it.Viscosity + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "volume_feedback", &it, &it.VolumeFeedback, &it.VolumeFeedback + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "elasticity_ratio", &it, &it.ElasticityRatio, &it.ElasticityRatio + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "strain_policy", &it, &it.StrainPolicy, &it.StrainPolicy + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "strain_min", &it, &it.StrainMin, &it.StrainMin + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "strain_max", &it, &it.StrainMax, &it.StrainMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "condition_max", &it, &it.ConditionMax, &it.ConditionMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "rebound_max", &it, &it.ReboundMax, &it.ReboundMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void Shape(List<MirrorField> fields)
+        {
+            var it = default(Shape);
+            fields.Add(new MirrorField("pbmpm_shape", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "kind", &it, &it.Kind, &it.Kind + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "position", &it, &it.Position, &it.Position + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "rotation", &it, &it.Rotation, &it.Rotation + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "half_extents", &it, &it.HalfExtents, &it.HalfExtents + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "radius", &it, &it.Radius, &it.Radius + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "normal", &it, &it.Normal, &it.Normal + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "", &it, &it, &it + 1, true));
+        }
+
+        static void WorldDef(List<MirrorField> fields)
+        {
+            var it = default(WorldDef);
+            fields.Add(new MirrorField("pbmpm_world_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "dimension", &it, &it.Dimension, &it.Dimension + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "cell_size", &it, &it.CellSize, &it.CellSize + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "particle_capacity", &it, &it.ParticleCapacity, &it.ParticleCapacity + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "origin", &it, &it.Origin, &it.Origin + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "memory_budget", &it, &it.MemoryBudget, &it.MemoryBudget + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "thread_count", &it, &it.ThreadCount, &it.ThreadCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_enabled", &it, &it.DomainEnabled, &it.DomainEnabled + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_min", &it, &it.DomainMin, &it.DomainMin + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_max", &it, &it.DomainMax, &it.DomainMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_friction", &it, &it.DomainFriction, &it.DomainFriction + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "allocator", &it, &it.Allocator, &it.Allocator + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "tasks", &it, &it.Tasks, &it.Tasks + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void Settings(List<MirrorField> fields)
+        {
+            var it = default(Settings);
+            fields.Add(new MirrorField("pbmpm_settings", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "substeps", &it, &it.Substeps, &it.Substeps + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "iterations", &it, &it.Iterations, &it.Iterations + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "gravity", &it, &it.Gravity, &it.Gravity + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "max_displacement", &it, &it.MaxDisplacement, &it.MaxDisplacement + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "", &it, &it, &it + 1, true));
+        }
+
+        static void ParticlesDef(List<MirrorField> fields)
+        {
+            var it = default(ParticlesDef);
+            fields.Add(new MirrorField("pbmpm_particles_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "positions", &it, &it.Positions, &it.Positions + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "velocities", &it, &it.Velocities, &it.Velocities + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "volumes", &it, &it.Volumes, &it.Volumes + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "volume", &it, &it.Volume, &it.Volume + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void FillDef(List<MirrorField> fields)
+        {
+            var it = default(FillDef);
+            fields.Add(new MirrorField("pbmpm_fill_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "seed", &it, &it.Seed, &it.Seed + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "particles_per_axis", &it, &it.ParticlesPerAxis, &it.ParticlesPerAxis + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "jitter", &it, &it.Jitter, &it.Jitter + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void View(List<MirrorField> fields)
+        {
+            var it = default(View);
+            fields.Add(new MirrorField("pbmpm_view", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "components", &it, &it.Components, &it.Components + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "component_stride", &it, &it.ComponentStride, &it.ComponentStride + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "stride", &it, &it.Stride, &it.Stride + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "data", &it, &it.Data, &it.Data + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_view", "", &it, &it, &it + 1, true));
+        }
+
+        static void ColliderDef(List<MirrorField> fields)
+        {
+            var it = default(ColliderDef);
+            fields.Add(new MirrorField("pbmpm_collider_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "friction", &it, &it.Friction, &it.Friction + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void Stats(List<MirrorField> fields)
+        {
+            var it = default(Stats);
+            fields.Add(new MirrorField("pbmpm_stats", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "particle_count", &it, &it.ParticleCount, &it.ParticleCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "step_count", &it, &it.StepCount, &it.StepCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "simulated_seconds", &it, &it.SimulatedSeconds, &it.SimulatedSeconds + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "memory_bytes", &it, &it.MemoryBytes, &it.MemoryBytes + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "particle_blocks", &it, &it.ParticleBlocks, &it.ParticleBlocks + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "node_blocks", &it, &it.NodeBlocks, &it.NodeBlocks + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "contacts", &it, &it.Contacts, &it.Contacts + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "substeps", &it, &it.Substeps, &it.Substeps + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "iterations", &it, &it.Iterations, &it.Iterations + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "thread_count", &it, &it.ThreadCount, &it.ThreadCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_total", &it, &it.MsTotal, &it.MsTotal + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_sort", &it, &it.MsSort, &it.MsSort + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_scatter", &it, &it.MsScatter, &it.MsScatter + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_contacts", &it, &it.MsContacts, &it.MsContacts + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_iterate", &it, &it.MsIterate, &it.MsIterate + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "ms_integrate", &it, &it.MsIntegrate, &it.MsIntegrate + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "volume_error_rms", &it, &it.VolumeErrorRms, &it.VolumeErrorRms + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "volume_error_max", &it, &it.VolumeErrorMax, &it.VolumeErrorMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "max_speed", &it, &it.MaxSpeed, &it.MaxSpeed + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "max_displacement", &it, &it.MaxDisplacement, &it.MaxDisplacement + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "mass", &it, &it.Mass, &it.Mass + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "momentum", &it, &it.Momentum, &it.Momentum + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "angular_momentum", &it, &it.AngularMomentum, &it.AngularMomentum + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "kinetic_energy", &it, &it.KineticEnergy, &it.KineticEnergy + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "potential_energy", &it, &it.PotentialEnergy, &it.PotentialEnergy + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "cell_changes", &it, &it.CellChanges, &it.CellChanges + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "lane_occupancy", &it, &it.LaneOccupancy, &it.LaneOccupancy + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "deleted_total", &it, &it.DeletedTotal, &it.DeletedTotal + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "clamped_total", &it, &it.ClampedTotal, &it.ClampedTotal + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "", &it, &it, &it + 1, true));
+        }
+
+        static void Event(List<MirrorField> fields)
+        {
+            var it = default(Event);
+            fields.Add(new MirrorField("pbmpm_event", "kind", &it, &it.Kind, &it.Kind + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "particle", &it, &it.Particle, &it.Particle + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "position", &it, &it.Position, &it.Position + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "substep", &it, &it.Substep, &it.Substep + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "step", &it, &it.Step, &it.Step + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "", &it, &it, &it + 1, false));
+        }
+    }
+}

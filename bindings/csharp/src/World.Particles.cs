@@ -1,0 +1,189 @@
+using System;
+using Pbmpm.Native;
+
+namespace Pbmpm
+{
+    public sealed unsafe partial class World
+    {
+        /// <summary>Number of live particles.</summary>
+        public int ParticleCount
+        {
+            get
+            {
+                uint count;
+                Done(Methods.pbmpm_particles_count(Id, &count));
+                return (int)count;
+            }
+        }
+
+        // Adding and removing
+
+        /// <summary>Fills a shape; begin with <see cref="FillDef.Default"/>. Returns how many particles were added.</summary>
+        public int Fill(FillDef definition)
+        {
+            uint added;
+            Changed(Methods.pbmpm_particles_fill(Id, &definition, &added));
+            return (int)added;
+        }
+
+        /// <summary>Adds particles from arrays: all of them or none.</summary>
+        /// <param name="material">Their material.</param>
+        /// <param name="positions">Dimension numbers per particle [m]; their number says how many particles.</param>
+        /// <param name="velocities">Dimension numbers per particle [m/s]; null: at rest.</param>
+        /// <param name="volumes">Rest volumes [m^d]; null: a cell has room for two particles per axis.</param>
+        /// <param name="ids">Receives their identifiers; may be null.</param>
+        public void AddParticles(MaterialId material, float[] positions, float[] velocities = null, float[] volumes = null,
+                                 ParticleId[] ids = null)
+        {
+            var count = Rows(positions, nameof(positions), Dimension);
+            RequireLength(velocities, nameof(velocities), positions.Length);
+            RequireLength(volumes, nameof(volumes), count);
+            RequireLength(ids, nameof(ids), count);
+            var definition = ParticlesDef.Default;
+            definition.Material = material;
+            definition.Count = (uint)count;
+            fixed (float* place = positions, speed = velocities, volume = volumes)
+            fixed (ParticleId* made = ids)
+            {
+                definition.Positions = place;
+                definition.Velocities = speed;
+                definition.Volumes = volume;
+                Changed(Methods.pbmpm_particles_add(Id, &definition, made));
+            }
+        }
+
+        /// <summary>Removes particles; with an unknown identifier none is removed.</summary>
+        public void Remove(ParticleId[] ids)
+        {
+            Remove(ids, Rows(ids, nameof(ids), 1));
+        }
+
+        /// <summary>Removes the first particles of a list; with an unknown identifier none is removed.</summary>
+        public void Remove(ParticleId[] ids, int count)
+        {
+            RequireRoom(ids, nameof(ids), count);
+            fixed (ParticleId* first = ids) Changed(Methods.pbmpm_particles_remove(Id, first, (uint)count));
+        }
+
+        /// <summary>Removes all particles inside a shape and says how many.</summary>
+        public int RemoveIn(Shape shape)
+        {
+            uint removed;
+            Changed(Methods.pbmpm_particles_remove_in(Id, &shape, &removed));
+            return (int)removed;
+        }
+
+        // Reading and changing
+
+        /// <summary>A window on a field of all particles; it expires with the next change.</summary>
+        /// <param name="field">Any but Material and Particle, which have properties of their own.</param>
+        public FloatView View(Field field)
+        {
+            if (field == Field.Material || field == Field.Particle)
+                throw new ArgumentException("this field does not hold floats; use Materials or Particles", nameof(field));
+            return new FloatView(Window(field));
+        }
+
+        /// <summary>Positions [m], relative to the origin.</summary>
+        public FloatView Positions => View(Field.Position);
+
+        /// <summary>Velocities [m/s].</summary>
+        public FloatView Velocities => View(Field.Velocity);
+
+        /// <summary>For each particle the index of its material's identifier.</summary>
+        public MaterialView Materials => new MaterialView(Window(Field.Material));
+
+        /// <summary>The identifiers of all particles.</summary>
+        public ParticleView Particles => new ParticleView(Window(Field.Particle));
+
+        /// <summary>Writes a field of all particles, in the order of the views.</summary>
+        public void Set(Field field, float[] values)
+        {
+            if (values == null) throw new ArgumentNullException(nameof(values));
+            var count = ParticleCount;
+            RequireLength(values, nameof(values), count * ComponentsOf(field));
+            fixed (float* first = values) Changed(Methods.pbmpm_particles_set(Id, field, null, (uint)count, first));
+        }
+
+        /// <summary>Writes a field of some particles: all or nothing.</summary>
+        public void Set(Field field, ParticleId[] ids, float[] values)
+        {
+            var count = Rows(ids, nameof(ids), 1);
+            if (values == null) throw new ArgumentNullException(nameof(values));
+            RequireLength(values, nameof(values), count * ComponentsOf(field));
+            fixed (ParticleId* chosen = ids)
+            fixed (float* first = values)
+                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, field, chosen, (uint)count, first));
+        }
+
+        /// <summary>Where particles stand in the views of now.</summary>
+        public void Find(ParticleId[] ids, uint[] rows)
+        {
+            var count = Rows(ids, nameof(ids), 1);
+            RequireRoom(rows, nameof(rows), count);
+            fixed (ParticleId* wanted = ids)
+            fixed (uint* found = rows)
+                Done(Methods.pbmpm_particles_find(Id, wanted, (uint)count, found));
+        }
+
+        /// <summary>Finds the particles inside a shape. Writes as many identifiers as there is room for and returns the full
+        /// number.</summary>
+        public int Query(Shape shape, ParticleId[] ids)
+        {
+            uint count;
+            var room = (uint)Rows(ids, nameof(ids), 1);
+            fixed (ParticleId* first = ids) Done(Methods.pbmpm_query_shape(Id, &shape, first, room, &count));
+            return (int)count;
+        }
+
+        /// <summary>Finds the particles inside an obstacle; as the query of a shape.</summary>
+        public int Query(ColliderId collider, ParticleId[] ids)
+        {
+            uint count;
+            var room = (uint)Rows(ids, nameof(ids), 1);
+            fixed (ParticleId* first = ids) Done(Methods.pbmpm_query_collider(Id, collider, first, room, &count));
+            return (int)count;
+        }
+
+        Window Window(Field field)
+        {
+            var found = new View { Size = (uint)sizeof(View) };
+            Done(Methods.pbmpm_particles_view(Id, field, &found));
+            return new Window(this, found);
+        }
+
+        // The library gets bare pointers, so lengths are checked here
+
+        int ComponentsOf(Field field)
+        {
+            switch (field)
+            {
+                case Field.Position:
+                case Field.Velocity: return Dimension;
+                case Field.AffineVelocity:
+                case Field.Deformation: return Dimension * Dimension;
+                default: return 1;
+            }
+        }
+
+        static int Rows(Array array, string name, int columns)
+        {
+            if (array == null) throw new ArgumentNullException(name);
+            if (array.Length % columns != 0) throw new ArgumentException("the length is no multiple of " + columns, name);
+            return array.Length / columns;
+        }
+
+        static void RequireLength(Array array, string name, int length)
+        {
+            if (array != null && array.Length != length)
+                throw new ArgumentException("the length is " + array.Length + " instead of " + length, name);
+        }
+
+        static void RequireRoom(Array array, string name, int count)
+        {
+            if (array == null) throw new ArgumentNullException(name);
+            if (count < 0 || count > array.Length)
+                throw new ArgumentException("the length is " + array.Length + ", too few for " + count, name);
+        }
+    }
+}

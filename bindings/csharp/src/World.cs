@@ -1,0 +1,242 @@
+using System;
+using Pbmpm.Native;
+
+namespace Pbmpm
+{
+    /// <summary>A world of liquid and elastic matter.
+    /// Units are SI, angles radians; in 2D the third component of every vector is ignored.
+    /// Worlds are independent: different ones may step at the same time on different threads. A second thread in the same
+    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw.
+    /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected.</summary>
+    public sealed unsafe partial class World : IDisposable
+    {
+        /// <summary>No view has it: they start low and count up.</summary>
+        const ulong NoGeneration = ulong.MaxValue;
+
+        WorldId id;
+        ulong generation = NoGeneration;
+
+        /// <summary>Makes a world; begin with <see cref="WorldDef.Default"/> and change what differs.</summary>
+        /// <exception cref="LibraryException">The native library is missing or does not fit.</exception>
+        /// <exception cref="PbmpmException">The definition is refused, or there is no memory.</exception>
+        public World(WorldDef definition)
+        {
+            Library.Check();
+            WorldId made;
+            Library.Require(Methods.pbmpm_world_create(&definition, &made));
+            id = made;
+            Dimension = definition.Dimension;
+            NoteGeneration();
+        }
+
+        /// <summary>A world that nobody refers to any more. No call of it can be under way: see <see cref="Done"/>.</summary>
+        ~World()
+        {
+            if (id.Generation != 0) Methods.pbmpm_world_destroy(id);
+        }
+
+        /// <summary>Destroys the world; views of it expire. A second call does nothing.</summary>
+        /// <exception cref="PbmpmException">Another thread is inside a call; the world is still there.</exception>
+        public void Dispose()
+        {
+            if (IsDisposed) return;
+            var result = Methods.pbmpm_world_destroy(id);
+            if (result != Result.ErrorInvalidId) Done(result); // an unknown one is gone: Library.Shutdown() was called
+            id = default(WorldId);
+            generation = NoGeneration;
+            GC.SuppressFinalize(this);
+        }
+
+        public bool IsDisposed => id.Generation == 0;
+
+        /// <summary>The identifier, for the functions in <see cref="Methods"/>. Views do not notice what those change;
+        /// use GC.KeepAlive(world) after them.</summary>
+        /// <exception cref="ObjectDisposedException"/>
+        public WorldId Id
+        {
+            get
+            {
+                if (IsDisposed) throw new ObjectDisposedException(nameof(World));
+                return id;
+            }
+        }
+
+        /// <summary>2 or 3.</summary>
+        public int Dimension { get; }
+
+        /// <summary>What the world was made from.</summary>
+        public WorldDef Definition
+        {
+            get
+            {
+                var found = new WorldDef { Size = (uint)sizeof(WorldDef) };
+                Done(Methods.pbmpm_world_get_def(Id, &found));
+                return found;
+            }
+        }
+
+        /// <summary>What may change between steps; takes effect with the next one.</summary>
+        public Settings Settings
+        {
+            get
+            {
+                var found = new Settings { Size = (uint)sizeof(Settings) };
+                Done(Methods.pbmpm_world_get_settings(Id, &found));
+                return found;
+            }
+            set => Done(Methods.pbmpm_world_set_settings(Id, &value));
+        }
+
+        /// <summary>Advances the world by <paramref name="seconds"/>, in (0, 10], in as many parts as the settings say.</summary>
+        public void Step(float seconds)
+        {
+            Changed(Methods.pbmpm_world_step(Id, seconds));
+        }
+
+        /// <summary>What the last step cost and the state that it left.</summary>
+        public Stats Stats
+        {
+            get
+            {
+                var found = new Stats { Size = (uint)sizeof(Stats) };
+                Done(Methods.pbmpm_world_get_stats(Id, &found));
+                return found;
+            }
+        }
+
+        /// <summary>Events of the last step and of calls since then.</summary>
+        public EventList Events
+        {
+            get
+            {
+                Event* list;
+                uint count, missed;
+                Done(Methods.pbmpm_world_events(Id, &list, &count, &missed));
+                return new EventList(this, list, (int)count, missed);
+            }
+        }
+
+        /// <summary>Hash of the dynamic state in storage order. Equal for the same calls on the same binary and
+        /// instruction set, for any number of threads.</summary>
+        public ulong StateHash
+        {
+            get
+            {
+                ulong hash;
+                Done(Methods.pbmpm_world_hash(Id, &hash));
+                return hash;
+            }
+        }
+
+        // Materials
+
+        /// <summary>Adds a material; begin with <see cref="MaterialDef.Default"/>.</summary>
+        public MaterialId AddMaterial(MaterialDef definition)
+        {
+            MaterialId made;
+            Done(Methods.pbmpm_material_create(Id, &definition, &made));
+            return made;
+        }
+
+        public MaterialDef GetMaterial(MaterialId material)
+        {
+            var found = new MaterialDef { Size = (uint)sizeof(MaterialDef) };
+            Done(Methods.pbmpm_material_get(Id, material, &found));
+            return found;
+        }
+
+        /// <summary>Changes the parameters of a material (not its kind or density).</summary>
+        public void SetMaterial(MaterialId material, MaterialDef definition)
+        {
+            Done(Methods.pbmpm_material_set(Id, material, &definition));
+        }
+
+        /// <summary>Removes a material that no particle uses.</summary>
+        public void RemoveMaterial(MaterialId material)
+        {
+            Done(Methods.pbmpm_material_destroy(Id, material));
+        }
+
+        // Obstacles
+
+        /// <summary>Adds an obstacle; begin with <see cref="ColliderDef.Default"/>. It may stand on top of matter: that is
+        /// pushed out over the next steps.</summary>
+        public ColliderId AddCollider(ColliderDef definition)
+        {
+            ColliderId made;
+            Done(Methods.pbmpm_collider_create(Id, &definition, &made));
+            return made;
+        }
+
+        /// <summary>The definition of an obstacle with its current pose.</summary>
+        public ColliderDef GetCollider(ColliderId collider)
+        {
+            var found = new ColliderDef { Size = (uint)sizeof(ColliderDef) };
+            Done(Methods.pbmpm_collider_get(Id, collider, &found));
+            return found;
+        }
+
+        public void RemoveCollider(ColliderId collider)
+        {
+            Done(Methods.pbmpm_collider_destroy(Id, collider));
+        }
+
+        /// <summary>Where a kinematic obstacle shall be at the end of the next step; its rotation stays.</summary>
+        public void MoveCollider(ColliderId collider, Float3 position)
+        {
+            Done(Methods.pbmpm_collider_move(Id, collider, &position, null));
+        }
+
+        /// <summary>Where a kinematic obstacle shall be at the end of the next step, and how it shall be turned.</summary>
+        public void MoveCollider(ColliderId collider, Float3 position, Float4 rotation)
+        {
+            Done(Methods.pbmpm_collider_move(Id, collider, &position, &rotation));
+        }
+
+        /// <summary>Puts an obstacle, static ones too, somewhere at once, without velocity; its rotation stays.</summary>
+        public void TeleportCollider(ColliderId collider, Float3 position)
+        {
+            Done(Methods.pbmpm_collider_teleport(Id, collider, &position, null));
+        }
+
+        /// <summary>Puts and turns an obstacle, static ones too, at once, without velocity.</summary>
+        public void TeleportCollider(ColliderId collider, Float3 position, Float4 rotation)
+        {
+            Done(Methods.pbmpm_collider_teleport(Id, collider, &position, &rotation));
+        }
+
+        // What every call ends with
+
+        /// <summary>Throws unless the call went well. It reads this object after the call, so the collector cannot take the
+        /// world away while the library works on it.</summary>
+        void Done(Result result)
+        {
+            GC.KeepAlive(this);
+            Library.Require(result);
+        }
+
+        /// <summary>As <see cref="Done"/>, for calls that may have expired views, also when they failed.</summary>
+        void Changed(Result result)
+        {
+            var problem = result == Result.Ok ? null : Library.Problem(result);
+            NoteGeneration();
+            if (problem != null) throw problem;
+        }
+
+        /// <summary>Asks once per change, so that a view can compare numbers instead of calling the library for every
+        /// element.</summary>
+        void NoteGeneration()
+        {
+            ulong now;
+            generation = Methods.pbmpm_world_generation(id, &now) == Result.Ok ? now : NoGeneration;
+            GC.KeepAlive(this);
+        }
+
+        internal bool IsCurrent(ulong viewGeneration)
+        {
+            return viewGeneration == generation;
+        }
+
+        internal ulong Generation => generation;
+    }
+}
