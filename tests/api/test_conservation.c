@@ -135,7 +135,7 @@ static void expect_conserved(const moments *first, const moments *now, int step)
 
 static void check_momentum(int32_t dimension)
 {
-    const double cell_size = dimension == 3 ? 0.1 : 0.04, dt = cell_size / 10;
+    const double cell_size = dimension == 3 ? 0.1 : 0.025, dt = cell_size / 10;
     const double drift[3] = {0.3, -0.2, dimension == 3 ? 0.1 : 0}, spin[3] = {dimension == 3 ? 1.0 : 0, dimension == 3 ? -0.5 : 0, 2.0};
     const pbmpm_world_def def = default_world(dimension, (float)cell_size, 8192);
     const pbmpm_world_id world = create_world(&def);
