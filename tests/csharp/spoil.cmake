@@ -1,0 +1,12 @@
+# Copies INPUT to OUTPUT with OLD replaced by NEW; OLD has to be there exactly once.
+file(READ "${INPUT}" text)
+string(LENGTH "${text}" length)
+string(REPLACE "${OLD}" "" without "${text}")
+string(LENGTH "${without}" length_without)
+string(LENGTH "${OLD}" length_old)
+math(EXPR expected "${length} - ${length_old}")
+if(NOT length_without EQUAL expected)
+    message(FATAL_ERROR "'${OLD}' does not stand exactly once in ${INPUT}")
+endif()
+string(REPLACE "${OLD}" "${NEW}" text "${text}")
+file(WRITE "${OUTPUT}" "${text}")
