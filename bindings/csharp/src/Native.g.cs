@@ -250,8 +250,9 @@ namespace Pbmpm
         public float StrainMax;
         /// <summary>elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6</summary>
         public float ConditionMax;
-        /// <summary>bound of the strain that a correction may add per iteration, in (0, 10]; default 0.3.
-        /// Matter that was crushed to nothing grows back at this rate instead of exploding.</summary>
+        /// <summary>largest strain that the constraint asks for at once (liquid: per substep; elastic: per
+        /// iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
+        /// this rate instead of exploding.</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>

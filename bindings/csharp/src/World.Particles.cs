@@ -81,7 +81,7 @@ namespace Pbmpm
         {
             if (field == Field.Material || field == Field.Particle)
                 throw new ArgumentException("this field does not hold floats; use Materials or Particles", nameof(field));
-            return new FloatView(Window(field));
+            return new FloatView(TakeWindow(field));
         }
 
         /// <summary>Positions [m], relative to the origin.</summary>
@@ -91,10 +91,10 @@ namespace Pbmpm
         public FloatView Velocities => View(Field.Velocity);
 
         /// <summary>For each particle the index of its material's identifier.</summary>
-        public MaterialView Materials => new MaterialView(Window(Field.Material));
+        public MaterialView Materials => new MaterialView(TakeWindow(Field.Material));
 
         /// <summary>The identifiers of all particles.</summary>
-        public ParticleView Particles => new ParticleView(Window(Field.Particle));
+        public ParticleView Particles => new ParticleView(TakeWindow(Field.Particle));
 
         /// <summary>Writes a field of all particles, in the order of the views.</summary>
         public void Set(Field field, float[] values)
@@ -145,7 +145,7 @@ namespace Pbmpm
             return (int)count;
         }
 
-        Window Window(Field field)
+        Window TakeWindow(Field field)
         {
             var found = new View { Size = (uint)sizeof(View) };
             Done(Methods.pbmpm_particles_view(Id, field, &found));

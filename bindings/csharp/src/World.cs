@@ -234,7 +234,7 @@ namespace Pbmpm
 
         internal bool IsCurrent(ulong viewGeneration)
         {
-            return viewGeneration == generation;
+            return viewGeneration == generation && generation != NoGeneration;
         }
 
         internal ulong Generation => generation;
