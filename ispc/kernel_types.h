@@ -64,6 +64,7 @@ struct KernelArgs {
     K_PTR(float) volume_ratio;
     K_PTR(float) mass;
     K_PTR(float) deformation[9]; /* null without elastic materials */
+    K_CONST_PTR(uint32_t) identity; /* two per particle: index and generation */
     K_PTR(int32_t) status;       /* K_ALIVE, or why the particle has to go */
 
     /* Runs and blocks. */
@@ -89,6 +90,7 @@ struct KernelArgs {
     float gravity[3];       /* g dt^2 / dx: added to the predictor */
     float max_displacement; /* [cells] */
     int32_t max_cell;
+    uint32_t salt; /* changes from substep to substep */
     int32_t check_strain; /* bring F into range before its first use */
 };
 #endif

@@ -173,7 +173,7 @@ static void node_position(const ContactFrame *frame, int32_t block, int node, do
     const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
     const int local[3] = {node & 3, node >> 2 & 3, node >> 4};
     for (int a = 0; a < 3; a++)
-        point[a] = a < frame->grid->dimension ? (double)(corner[a] * K_BLOCK_AXIS + local[a]) * frame->cell_size : 0.0;
+        point[a] = a < frame->grid->dimension ? (double)(frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS + local[a]) * frame->cell_size : 0.0;
 }
 
 /* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and a

@@ -81,7 +81,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
         const pbmpm_particle_id id = particles_append(p, &particle, generation);
         if (ids) ids[i] = id;
     }
-    world_touch(world);
+    world_matter_changed(world);
     return PBMPM_OK;
 }
 
@@ -190,7 +190,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
     walk_lattice(world, &lattice, def, generation);
-    world_touch(world);
+    world_matter_changed(world);
     return PBMPM_OK;
 }
 
@@ -208,7 +208,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     }
     if (count) {
         particles_compact(p);
-        world_touch(world);
+        world_matter_changed(world);
     }
     return PBMPM_OK;
 }
@@ -230,7 +230,7 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
     if (removed) *removed = count;
     if (count) {
         particles_compact(p);
-        world_touch(world);
+        world_matter_changed(world);
     }
     return PBMPM_OK;
 }

@@ -4,7 +4,7 @@
 
 #include "result.h"
 
-enum { BLOCK_GRAIN = 4, AXIS_BITS = 21, AXIS_BIAS = 1 << 20 };
+enum { BLOCK_GRAIN = 4, AXIS_BITS = 21, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
 
 /* A block in order of discovery. */
 typedef struct FoundBlock {
@@ -45,10 +45,11 @@ void grid_free(Grid *grid, Memory *memory)
 
 /* ---- Finding blocks: a hash table from block coordinates to the order of discovery. ---- */
 
+/* Block coordinates start at -1, the neighbours of the first block. */
 static uint64_t pack(const int32_t c[3])
 {
-    return ((uint64_t)(uint32_t)(c[0] + AXIS_BIAS) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(c[1] + AXIS_BIAS) << AXIS_BITS) |
-           (uint64_t)(uint32_t)(c[2] + AXIS_BIAS);
+    return ((uint64_t)(uint32_t)(c[0] + 1) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(c[1] + 1) << AXIS_BITS) |
+           (uint64_t)(uint32_t)(c[2] + 1);
 }
 
 static size_t hash_slot(const Grid *grid, uint64_t key)
@@ -107,14 +108,24 @@ static uint32_t sides_of(const int32_t cell[3], int dimension)
 {
     uint32_t sides = 0;
     for (int a = 0; a < dimension; a++) {
-        const int32_t local = cell[a] & (K_BLOCK_AXIS - 1);
+        const int32_t local = cell[a] & CELL_IN_BLOCK;
         sides |= (uint32_t)(local == 0) << (2 * a) | (uint32_t)(local == K_BLOCK_AXIS - 1) << (2 * a + 1);
     }
     return sides;
 }
 
+static void drop_anchor(Grid *grid, const Particles *p)
+{
+    for (int a = 0; a < p->dimension; a++) {
+        int32_t lowest = INT32_MAX;
+        for (uint32_t i = 0; i < p->count; i++) lowest = p->cell[a][i] < lowest ? p->cell[a][i] : lowest;
+        grid->anchor[a] = lowest;
+    }
+}
+
 static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
 {
+    drop_anchor(grid, p);
     if (!reserve_found(grid, memory)) return false;
     memset(grid->table.data, 0, grid->table.bytes);
     grid->found_count = 0;
@@ -122,8 +133,8 @@ static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
     for (uint32_t i = 0; i < p->count; i++) {
         int32_t cell[3] = {0}, c[3] = {0};
         for (int a = 0; a < p->dimension; a++) {
-            cell[a] = p->cell[a][i];
-            c[a] = cell[a] >> 2;
+            cell[a] = p->cell[a][i] - grid->anchor[a];
+            c[a] = cell[a] / K_BLOCK_AXIS;
         }
         if (c[0] != last[0] || c[1] != last[1] || c[2] != last[2]) {
             block = find_or_add(grid, memory, c);
@@ -197,8 +208,7 @@ static const uint32_t *sort_blocks(Grid *grid)
     uint32_t *from = grid->sorted.data, *to = from + count;
     for (uint32_t i = 0; i < count; i++) {
         const int32_t *c = found[i].coordinate;
-        found[i].morton = spread_bits((uint32_t)(c[0] + AXIS_BIAS)) | spread_bits((uint32_t)(c[1] + AXIS_BIAS)) << 1 |
-                          spread_bits((uint32_t)(c[2] + AXIS_BIAS)) << 2;
+        found[i].morton = spread_bits((uint32_t)(c[0] + 1)) | spread_bits((uint32_t)(c[1] + 1)) << 1 | spread_bits((uint32_t)(c[2] + 1)) << 2;
         from[i] = i;
     }
     for (uint32_t width = 1; width < count; width *= 2) {
@@ -292,33 +302,37 @@ static void order_by_block(Grid *grid, uint32_t count)
     begin[0] = 0;
 }
 
-static uint32_t cell_in_block(const Particles *p, uint32_t i)
+/* What particles are sorted by inside a block. */
+typedef struct SortJob {
+    Grid *grid;
+    Particles *particles;
+} SortJob;
+
+static uint32_t cell_in_block(const SortJob *job, uint32_t i)
 {
-    uint32_t cell = (uint32_t)(p->cell[0][i] & 3) | (uint32_t)(p->cell[1][i] & 3) << 2;
-    return p->dimension == 3 ? cell | (uint32_t)(p->cell[2][i] & 3) << 4 : cell;
+    uint32_t cell = 0;
+    for (int a = 0; a < job->particles->dimension; a++)
+        cell |= (uint32_t)((job->particles->cell[a][i] - job->grid->anchor[a]) & CELL_IN_BLOCK) << (2 * a);
+    return cell;
 }
 
-static uint32_t run_key_of(const Particles *p, uint32_t i)
+static uint32_t run_key_of(const SortJob *job, uint32_t i)
 {
-    return cell_in_block(p, i) | p->material[i] << K_RUN_CELL_BITS;
+    return cell_in_block(job, i) | job->particles->material[i] << K_RUN_CELL_BITS;
 }
 
 enum { BUCKETS = 256 };
 _Static_assert((int)BUCKETS >= (int)PBMPM_MAX_MATERIALS && BUCKETS > K_RUN_CELL_MASK, "one bucket per material or cell");
 
 /* One stable counting pass over `count` entries of `from`; the key is the material slot or the cell in the block. */
-static void counting_pass(const Particles *p, const uint32_t *from, uint32_t *to, uint32_t count, bool by_material)
+static void counting_pass(const SortJob *job, const uint32_t *from, uint32_t *to, uint32_t count, bool by_material)
 {
+    const uint32_t *material = job->particles->material;
     uint32_t start[BUCKETS + 1] = {0};
-    for (uint32_t i = 0; i < count; i++) start[(by_material ? p->material[from[i]] : cell_in_block(p, from[i])) + 1]++;
+    for (uint32_t i = 0; i < count; i++) start[(by_material ? material[from[i]] : cell_in_block(job, from[i])) + 1]++;
     for (int k = 0; k < BUCKETS; k++) start[k + 1] += start[k];
-    for (uint32_t i = 0; i < count; i++) to[start[by_material ? p->material[from[i]] : cell_in_block(p, from[i])]++] = from[i];
+    for (uint32_t i = 0; i < count; i++) to[start[by_material ? material[from[i]] : cell_in_block(job, from[i])]++] = from[i];
 }
-
-typedef struct SortJob {
-    Grid *grid;
-    Particles *particles;
-} SortJob;
 
 static void sort_inside_blocks(void *context, int32_t begin, int32_t end)
 {
@@ -329,9 +343,9 @@ static void sort_inside_blocks(void *context, int32_t begin, int32_t end)
         uint32_t *order = job->grid->order + first, *scratch = job->grid->order_scratch + first;
         bool mixed = false;
         for (uint32_t i = 1; i < count; i++) mixed |= job->particles->material[order[i]] != job->particles->material[order[0]];
-        counting_pass(job->particles, order, scratch, count, mixed);
+        counting_pass(job, order, scratch, count, mixed);
         if (mixed)
-            counting_pass(job->particles, scratch, order, count, false);
+            counting_pass(job, scratch, order, count, false);
         else
             memcpy(order, scratch, count * sizeof *order);
     }
@@ -346,7 +360,7 @@ static void count_runs(void *context, int32_t begin, int32_t end)
     for (int32_t b = begin; b < end; b++) {
         uint32_t runs = 1;
         for (uint32_t i = block_begin[b] + 1; i < block_begin[b + 1]; i++)
-            runs += run_key_of(job->particles, i) != run_key_of(job->particles, i - 1);
+            runs += run_key_of(job, i) != run_key_of(job, i - 1);
         block_run[b + 1] = runs;
     }
 }
@@ -359,7 +373,7 @@ static void write_runs(void *context, int32_t begin, int32_t end)
     for (int32_t b = begin; b < end; b++) {
         uint32_t run = block_run[b];
         for (uint32_t i = block_begin[b]; i < block_begin[b + 1]; i++) {
-            const uint32_t key = run_key_of(job->particles, i);
+            const uint32_t key = run_key_of(job, i);
             if (i > block_begin[b] && key == grid->run_key[run - 1]) continue;
             grid->run_begin[run] = i;
             grid->run_key[run++] = key;

@@ -14,10 +14,14 @@ typedef struct Grid {
     int tile_nodes;     /* 6^d */
     uint32_t capacity;  /* particles */
 
+    /* The lowest cell with a particle, per axis: blocks are counted from it. So the division into blocks, and with it the order
+     * of all sums, goes with the matter: a scene shifted by whole cells moves bit for bit the same. */
+    int32_t anchor[3];
+
     /* Blocks [0, particle_blocks) hold particles, the rest up to node_blocks are only touched. Each kind is in Morton order. */
     int32_t particle_blocks;
     int32_t node_blocks;
-    Array coordinate;    /* int32_t[3] per node block: its position in blocks */
+    Array coordinate;    /* int32_t[3] per node block: its position in blocks from the anchor */
     Array neighbour;     /* int32_t per node block and neighbour: block index or -1 */
     Array block_begin;   /* uint32_t per particle block, and the end: first particle */
     Array block_run;     /* uint32_t per particle block, and the end: first run */

@@ -1,8 +1,61 @@
 #include "solver.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { BLOCK_GRAIN = 2 };
+
+/* ---- The bound of the rebound ---- */
+
+static double measure_liquid(const World *world)
+{
+    const Particles *p = &world->particles;
+    double volume = 0.0;
+    for (uint32_t row = 0; row < p->count; row++) {
+        const KernelMaterial *material = &world->materials.kernel[p->material[row]];
+        if (material->kind == K_LIQUID) volume += (double)p->mass[row] * (double)material->inverse_density;
+    }
+    return volume * world_cell_volume(world);
+}
+
+/* How high matter stands along gravity, in its particle blocks, or would stand as a cube if that is higher: a column that
+ * has collapsed still weighs what it weighs. Returns |g| H [m^2/s^2]. */
+static double gravity_head(const World *world)
+{
+    const float *g = world->settings.gravity;
+    const int d = world->def.dimension;
+    double low = INFINITY, high = -INFINITY, strength = 0.0;
+    for (int a = 0; a < d; a++) strength += (double)g[a] * (double)g[a];
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        double along = 0.0;
+        for (int a = 0; a < d; a++) along += (double)g[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
+        low = fmin(low, along);
+        high = fmax(high, along);
+    }
+    const double stands = (high - low) * K_BLOCK_AXIS * (double)world->def.cell_size;
+    return fmax(stands, sqrt(strength) * pow(world->liquid_volume, 1.0 / d));
+}
+
+/* A liquid of stiffness K that asks for the strain b presses with K b. Under gravity no more is ever needed than a few times
+ * what the whole column weighs, so b is bounded by p/K with p/rho = 3 |g| H: that carries the column and the impact of what
+ * fell from its top, and crushed liquid leaves with at most sqrt(2 p / rho), at any rate and number of iterations.
+ * K/rho = w N dx^2 / (4 d dt^2). */
+static void bound_rebound(World *world, float dt)
+{
+    const int d = world->def.dimension;
+    if (world->liquid_volume < 0.0) world->liquid_volume = measure_liquid(world);
+    const double pressure = 3.0 * gravity_head(world);
+    const double cells = (double)dt / (double)world->def.cell_size;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->materials.generation[slot] == 0 || material->kind != K_LIQUID) continue;
+        const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * d * cells * cells);
+        const double most = (double)world->materials.def[slot].rebound_max;
+        material->rebound_max = (float)(pressure > 0.0 ? fmin(most, pressure / stiffness) : most);
+    }
+}
+
+/* ---- Running kernels ---- */
 
 void solver_bind(World *world, float dt, bool with_volume)
 {
@@ -12,6 +65,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     const double cells_per_metre = 1.0 / (double)world->def.cell_size;
     *a = (KernelArgs){.volume_ratio = p->volume_ratio,
                       .mass = p->mass,
+                      .identity = (const uint32_t *)(const void *)p->id,
                       .status = p->status,
                       .run_begin = grid->run_begin,
                       .run_key = grid->run_key,
@@ -31,7 +85,9 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .cells_per_metre = (float)cells_per_metre,
                       .max_displacement = world->settings.max_displacement,
                       .max_cell = CELL_LIMIT,
+                      .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
+    bound_rebound(world, dt);
     memcpy(a->fraction, p->fraction, sizeof a->fraction);
     memcpy(a->cell, p->cell, sizeof a->cell);
     memcpy(a->velocity, p->velocity, sizeof a->velocity);

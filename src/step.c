@@ -90,6 +90,7 @@ static void collect_events(World *world, uint32_t substep)
     world->deleted_total += total_lost;
     if (total_lost) {
         particles_compact(&world->particles);
+        world_matter_changed(world);
         result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
     }
 }

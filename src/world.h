@@ -36,6 +36,7 @@ typedef struct World {
     Colliders colliders;
     Grid grid;
     KernelArgs args;
+    double liquid_volume;  /* rest volume of all liquid [m^d]; below 0: not known */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     Events events;
@@ -69,5 +70,12 @@ static inline double world_cell_volume(const World *world)
 
 /* Expires all views: the particles are not what they were. */
 static inline void world_touch(World *world) { world->generation++; }
+
+/* The same when particles came or went. */
+static inline void world_matter_changed(World *world)
+{
+    world_touch(world);
+    world->liquid_volume = -1.0;
+}
 
 #endif
