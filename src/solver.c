@@ -40,18 +40,37 @@ static double gravity_head(const World *world)
  * what the whole column weighs, so b is bounded by p/K with p/rho = 3 |g| H: that carries the column and the impact of what
  * fell from its top, and crushed liquid leaves with at most sqrt(2 p / rho), at any rate and number of iterations.
  * K/rho = w N dx^2 / (4 d dt^2). */
-static void bound_rebound(World *world, float dt)
+static float liquid_rebound(const World *world, const pbmpm_material_def *def, float relaxation, float dt, double head)
 {
-    const int d = world->def.dimension;
-    if (world->liquid_volume < 0.0) world->liquid_volume = measure_liquid(world);
-    const double pressure = 3.0 * gravity_head(world);
     const double cells = (double)dt / (double)world->def.cell_size;
+    const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
+    return head > 0.0 ? (float)fmin((double)def->rebound_max, 3.0 * head / stiffness) : def->rebound_max;
+}
+
+/* ---- Parameters of the substep ---- */
+
+/* Stiffness goes with 1/dt^2, so a dt that alternates pumps energy like a child on a swing. With the error of a mode shrinking
+ * by r per substep and steps T, t in turn, the product of the two transfer matrices has |trace| <= 1 + det for every r only if
+ * T/t + t/T <= 6. So when dt drops the relaxation is lowered at first: stiffness grows by at most 1/0.8^2 per substep. It drops at
+ * once, and a constant dt is not touched. */
+static float softening(World *world, float dt)
+{
+    world->slow_dt = fmax((double)dt, 0.8 * world->slow_dt);
+    const double ratio = (double)dt / world->slow_dt;
+    return (float)(ratio * ratio);
+}
+
+static void set_materials(World *world, float dt)
+{
+    if (world->liquid_volume < 0.0) world->liquid_volume = measure_liquid(world);
+    const double head = gravity_head(world);
+    const float soft = softening(world, dt);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (world->materials.generation[slot] == 0) continue;
+        const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
-        if (world->materials.generation[slot] == 0 || material->kind != K_LIQUID) continue;
-        const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * d * cells * cells);
-        const double most = (double)world->materials.def[slot].rebound_max;
-        material->rebound_max = (float)(pressure > 0.0 ? fmin(most, pressure / stiffness) : most);
+        material->relaxation = def->relaxation * soft;
+        if (material->kind == K_LIQUID) material->rebound_max = liquid_rebound(world, def, material->relaxation, dt, head);
     }
 }
 
@@ -87,7 +106,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
-    bound_rebound(world, dt);
+    set_materials(world, dt);
     memcpy(a->fraction, p->fraction, sizeof a->fraction);
     memcpy(a->cell, p->cell, sizeof a->cell);
     memcpy(a->velocity, p->velocity, sizeof a->velocity);

@@ -37,6 +37,7 @@ typedef struct World {
     Grid grid;
     KernelArgs args;
     double liquid_volume;  /* rest volume of all liquid [m^d]; below 0: not known */
+    double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     Events events;

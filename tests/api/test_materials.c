@@ -33,7 +33,7 @@ static void test_definition_has_the_documented_defaults(void)
     TEST_ASSERT_EQUAL_FLOAT(0.1f, def.strain_min);
     TEST_ASSERT_EQUAL_FLOAT(20.0f, def.strain_max);
     TEST_ASSERT_EQUAL_FLOAT(1e6f, def.condition_max);
-    TEST_ASSERT_EQUAL_FLOAT(0.3f, def.rebound_max);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, def.rebound_max);
 }
 
 static void test_material_is_read_back_and_changed(void)
