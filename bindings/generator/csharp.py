@@ -1,8 +1,8 @@
 """Writes the P/Invoke declarations for C#.
 
-Structures and enumerations become blittable types of the namespace ``Pbmpm``, those that hold pointers and the functions
-go to ``Pbmpm.Native``. Functions keep their C names. Beside the declarations stands a list of where every field really
-lies, which the binding compares with the library's own list when it loads.
+Structures and enumerations become blittable types of the namespace ``Pbmpm``, those that hold pointers and the
+functions go to ``Pbmpm.Native``. Functions keep their C names. Beside the declarations stands a list of where every
+field really lies, which the binding compares with the library's own list when it loads.
 """
 
 from __future__ import annotations
@@ -13,9 +13,7 @@ from xml.sax.saxutils import escape
 from .model import Api, Constant, Enumeration, Field, Function, Kind, Structure, Type
 
 _HEADER = "// Generated from the public headers by bindings/generator; a test compares it with them. Do not edit."
-_USED = tuple(
-    f"using {name};" for name in ("System", "System.Collections.Generic", "System.Runtime.InteropServices", "Pbmpm.Native")
-)
+_NAMESPACES = ("System", "System.Collections.Generic", "System.Runtime.InteropServices", "Pbmpm.Native")
 _PREFIX = "pbmpm_"
 _FORCE_WIDTH = "_FORCE32"
 _INDENT = "    "
@@ -42,9 +40,9 @@ _SCALARS = {
 }
 #: Words of C# that are ordinary names in C.
 _KEYWORDS = frozenset(
-    "as base bool byte checked decimal delegate event explicit fixed foreach implicit in interface internal is lock namespace "
-    "new null object operator out override params private protected public readonly ref sbyte sealed string this throw try "
-    "typeof unchecked using virtual".split()
+    "as base bool byte checked decimal delegate event explicit fixed foreach implicit in interface internal is lock "
+    "namespace new null object operator out override params private protected public readonly ref sbyte sealed string "
+    "this throw try typeof unchecked using virtual".split()
 )
 
 
@@ -62,7 +60,8 @@ def emit(api: Api) -> str:
     public += [_structure(item, f"{item.name}_init" in filled) for item in plain]
     native = [_structure(item, f"{item.name}_init" in filled) for item in raw]
     native += [_functions(api.functions), _mirror(api.structures)]
-    return "\n".join([_HEADER, *_USED, "", _namespace("Pbmpm", public), "", _namespace("Pbmpm.Native", native), ""])
+    used = [f"using {name};" for name in _NAMESPACES]
+    return "\n".join([_HEADER, *used, "", _namespace("Pbmpm", public), "", _namespace("Pbmpm.Native", native), ""])
 
 
 # Blocks of text
@@ -198,7 +197,8 @@ def _vector(scalar: str, length: int) -> str:
     parameters = ", ".join(f"{scalar} {axis.lower()}" for axis in axes)
     constructor = _block(f"public {name}({parameters})", "\n".join(f"{axis} = {axis.lower()};" for axis in axes))
     doc = f"{length} numbers, in C an array."
-    return _block(f"[StructLayout(LayoutKind.Sequential)]\npublic partial struct {name}", f"{fields}\n\n{constructor}", doc)
+    head = f"[StructLayout(LayoutKind.Sequential)]\npublic partial struct {name}"
+    return _block(head, f"{fields}\n\n{constructor}", doc)
 
 
 def _structure(item: Structure, has_defaults: bool) -> str:
@@ -230,9 +230,7 @@ def _functions(functions: tuple[Function, ...]) -> str:
 
 
 def _function(item: Function) -> str:
-    parameters = ", ".join(
-        f"{_parameter_type(parameter.type)} {_parameter_name(parameter.name)}" for parameter in item.signature.parameters
-    )
+    parameters = ", ".join(f"{_parameter_type(it.type)} {_parameter_name(it.name)}" for it in item.signature.parameters)
     result = item.signature.result
     returned = "void" if result.kind is Kind.VOID and not result.pointers else _pointer(result)
     attribute = "[DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]"

@@ -33,10 +33,10 @@ static class LayoutTests
         {
             var type = TypeOf(structure.Key);
             Expect.Equal((int)structure.Last().Size, Marshal.SizeOf(type), "size of " + type.Name);
-            var fields = type.GetFields(BindingFlags.Instance | BindingFlags.Public).OrderBy(field => field.MetadataToken).ToList();
+            var fields = type.GetFields(BindingFlags.Instance | BindingFlags.Public).OrderBy(it => it.MetadataToken).ToList();
             Expect.Equal(fields.Count, structure.Count() - 1, "number of fields of " + type.Name);
-            foreach (var pair in fields.Zip(structure, (field, mirror) => new { field, mirror }))
-                Expect.Equal((int)pair.mirror.Offset, (int)Marshal.OffsetOf(type, pair.field.Name), "offset of " + pair.mirror.Name);
+            foreach (var pair in fields.Zip(structure, (field, mirror) => new { field.Name, mirror }))
+                Expect.Equal((int)pair.mirror.Offset, (int)Marshal.OffsetOf(type, pair.Name), "offset of " + pair.mirror.Name);
         }
     }
 

@@ -169,8 +169,10 @@ static class ParticleTests
             Expect.Throws<ArgumentNullException>(() => world.AddParticles(material, null), "no positions");
             Expect.Throws<ArgumentException>(() => world.AddParticles(material, new float[3]), "half a position");
             Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, new float[3]), "too few velocities");
-            Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, null, new float[1]), "too few volumes");
-            Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, ids: new ParticleId[1]), "no room for ids");
+            var one = new float[1];
+            Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, null, one), "too few volumes");
+            var room = new ParticleId[1];
+            Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, ids: room), "no room for ids");
             Expect.Throws<ArgumentException>(() => world.Set(Field.Position, new float[3]), "too few values");
             Expect.Throws<ArgumentException>(() => world.Set(Field.Position, ids, new float[3]), "too few values for two");
             Expect.Throws<ArgumentException>(() => world.Find(ids, new uint[1]), "no room for rows");

@@ -122,8 +122,10 @@ static class WorldTests
             var definition = ColliderDef.Default;
             var shapes = new[]
             {
-                Shape.Plane(new Float3(0, 0, 0), new Float3(0, 1, 0)), Shape.Box(new Float3(1, 1, 1), new Float3(0.1f, 0.2f, 0.3f)),
-                Shape.Sphere(new Float3(1, 1, 1), 0.2f), Shape.Capsule(new Float3(1, 1, 1), 0.3f, 0.1f),
+                Shape.Plane(new Float3(0, 0, 0), new Float3(0, 1, 0)),
+                Shape.Box(new Float3(1, 1, 1), new Float3(0.1f, 0.2f, 0.3f)),
+                Shape.Sphere(new Float3(1, 1, 1), 0.2f),
+                Shape.Capsule(new Float3(1, 1, 1), 0.3f, 0.1f),
             };
             foreach (var shape in shapes)
             {

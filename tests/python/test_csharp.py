@@ -56,7 +56,8 @@ def test_types_become_blittable(tmp_path: Path) -> None:
         typedef struct pbmpm_raw {
             const char *text; void *user; float *values; void (*call)(int32_t); pbmpm_hook *hook; pbmpm_plain inner;
         } pbmpm_raw;
-        pbmpm_kind pbmpm_try(pbmpm_plain by_value, const pbmpm_plain **list, const float place[2], void **out, uint64_t *event);
+        pbmpm_kind pbmpm_try(pbmpm_plain by_value, const pbmpm_plain **list, const float place[2], void **out,
+                             uint64_t *event);
         const char *pbmpm_text(void);
         void pbmpm_nothing(void);
         """,

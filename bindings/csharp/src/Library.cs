@@ -53,7 +53,8 @@ namespace Pbmpm
                                           || cause is BadImageFormatException)
             {
                 throw new LibraryException("the native library '" + Methods.LibraryName + "' cannot be loaded; it has to stand "
-                    + "beside the program or on the system's search path, and to be of the same architecture: " + cause.Message, cause);
+                    + "beside the program or on the system's search path, and to be of the same architecture: "
+                    + cause.Message, cause);
             }
             fits = true;
         }
@@ -93,7 +94,8 @@ namespace Pbmpm
         {
             var abi = Methods.pbmpm_abi_version();
             if (abi != Constants.AbiVersion)
-                throw new LibraryException("this assembly needs ABI " + Constants.AbiVersion + ", but the native library has ABI " + abi);
+                throw new LibraryException("this assembly needs ABI " + Constants.AbiVersion
+                    + ", but the native library has ABI " + abi);
             var needed = Constants.VersionMajor * 1000000u + Constants.VersionMinor * 1000u + Constants.VersionPatch;
             var version = Methods.pbmpm_version();
             if (version < needed)

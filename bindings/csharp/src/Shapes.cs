@@ -26,7 +26,7 @@ namespace Pbmpm
             return it;
         }
 
-        /// <summary>All points within a radius [m] of a segment along the local first axis, given by its half length [m].</summary>
+        /// <summary>All points within a radius [m] of a segment along the local first axis with this half length [m].</summary>
         public static Shape Capsule(Float3 center, float halfLength, float radius)
         {
             var it = At(ShapeKind.Capsule, center);
