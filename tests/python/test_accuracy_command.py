@@ -66,12 +66,13 @@ def test_coarsest_dam_break_is_stable_for_20_seconds() -> None:
     assert row["stable"], row["reasons"]
 
 
-@pytest.mark.parametrize(("rate", "iterations"), [(240.0, 10), (480.0, 5)])
+@pytest.mark.parametrize(("rate", "iterations"), [(120.0, 10), (240.0, 2), (240.0, 5)])
 def test_column_sinks_as_the_law_says(rate: float, iterations: int) -> None:
+    """Half or twice the law's modulus would be far outside."""
     row = Column(cells=16, seconds=4.0).measure(RunSettings(rate, 1, iterations, 1))
     assert row["stable"], row["reasons"]
-    assert row["height_error"] == pytest.approx(row["height_error_law"], abs=0.02)
-    assert row["volume_error_rms"] == pytest.approx(row["volume_error_law"], abs=0.01)
+    assert row["height_error"] == pytest.approx(row["height_error_law"], rel=0.35)
+    assert row["volume_error_rms"] == pytest.approx(row["volume_error_law"], rel=0.25)
 
 
 def test_an_unstable_setting_stays_in_the_table_as_failed() -> None:

@@ -14,6 +14,9 @@ from typing import Any
 import plyfile
 import pytest
 
+from pbmpm.app.scene import parse_scene
+from pbmpm.app.simulation import RunSettings, Simulation
+
 SCENE: dict[str, Any] = {
     "format": "pbmpm-scene",
     "version": 1,
@@ -173,6 +176,14 @@ def test_ctrl_c_leaves_complete_files(scene_file: Path, tmp_path: Path) -> None:
     assert {path.name for path in out.iterdir()} == {"small_run.json", *(entry["ply"] for entry in sidecar["frames"])}
     for entry in sidecar["frames"]:
         assert len(plyfile.PlyData.read(str(out / entry["ply"]))["vertex"].data) == entry["particles"]
+
+
+def test_a_particle_lost_without_a_word_is_a_failed_check() -> None:
+    with Simulation(parse_scene(SCENE), RunSettings(60.0, 1, 3, 1)) as simulation:
+        simulation.step()
+        assert simulation.problems() == []
+        simulation.world.remove(simulation.frame().ids[:2])
+        assert simulation.problems() == ["2 particles are gone, but the library reports 0 deletions"]
 
 
 def ea_scene(material: str) -> dict[str, Any]:

@@ -8,7 +8,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import PercentFormatter
+from matplotlib.ticker import FuncFormatter
 
 from ..files import replace_when_complete
 from .measures import SHIFT_LIMIT, dam_break_experiment
@@ -82,8 +82,9 @@ def _error_panel(
         REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time: 16.7 ms per frame at 60 Hz"
     )
     axes.set(xscale="log", yscale="log", title=title, xlabel="ms per simulated second (figures: Hz)", ylabel="error")
-    axes.yaxis.set_major_formatter(PercentFormatter(1.0))
-    axes.yaxis.set_minor_formatter(PercentFormatter(1.0))
+    percent = FuncFormatter(lambda value, _: f"{100 * value:g} %")
+    axes.yaxis.set_major_formatter(percent)
+    axes.yaxis.set_minor_formatter(percent)
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
 
