@@ -7,7 +7,7 @@ library=$(find "$prefix" -name libpbmpm.so)
 PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig; export PKG_CONFIG_PATH
 found=$(pkg-config --modversion pbmpm)
 [ "$found" = "$version" ] || { echo "pkg-config says version $found, not $version"; exit 1; }
-program=$prefix/tank-by-pkg-config
+program=$prefix/minimal-by-pkg-config
 eval "set -- $(pkg-config --cflags --libs pbmpm)" # pkg-config quotes blanks for the shell
 "$compiler" "$source" -o "$program" "$@"
 LD_LIBRARY_PATH=$(dirname "$library") "$program"

@@ -1,0 +1,66 @@
+# pbmpm_compile_kernels(FILE OBJECTS [INCLUDE FOLDER...] [DEPENDS FILE...])
+#
+# Compiles an .ispc file for every instruction set and appends the objects to the list OBJECTS. An exported function f is in
+# them as f_sse4, f_avx2 and f_avx512skx. ISPC also writes an object with a dispatcher of its own, which is left out: src/
+# chooses by its own table. Under a sanitizer with Clang 19 or newer the kernels are instrumented too.
+include_guard(GLOBAL)
+
+set(PBMPM_KERNEL_ISAS sse4 avx2 avx512skx CACHE INTERNAL "")
+set(PBMPM_KERNEL_TARGETS sse4-i32x4,avx2-i32x8,avx512skx-x8 CACHE INTERNAL "")
+set(PBMPM_KERNEL_MACHINES nehalem haswell skylake-avx512 CACHE INTERNAL "") # what Clang calls them
+
+set(instrument FALSE)
+if(NOT PBMPM_SANITIZE STREQUAL none)
+    if(CMAKE_C_COMPILER_ID STREQUAL "Clang" AND CMAKE_C_COMPILER_VERSION VERSION_GREATER_EQUAL 19)
+        set(instrument TRUE)
+    else()
+        message(STATUS "No Clang 19 or newer: the sanitizer sees the C code but not inside the kernels")
+    endif()
+endif()
+set(PBMPM_INSTRUMENT_KERNELS ${instrument} CACHE INTERNAL "")
+
+function(pbmpm_compile_kernels file objects)
+    cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "INCLUDE;DEPENDS")
+    cmake_path(ABSOLUTE_PATH file)
+    cmake_path(GET file STEM name)
+    set(stem "${CMAKE_CURRENT_BINARY_DIR}/${name}")
+    if(PBMPM_INSTRUMENT_KERNELS)
+        set(suffix .ll)
+        set(flags -O1 -g --emit-llvm-text)
+    else()
+        set(suffix .o)
+        set(flags -O3 $<$<CONFIG:Debug,RelWithDebInfo>:-g> $<$<BOOL:${PBMPM_WARNINGS_AS_ERRORS}>:--werror>)
+    endif()
+    list(TRANSFORM PBMPM_KERNEL_ISAS REPLACE "(.+)" "${stem}_\\1${suffix}" OUTPUT_VARIABLE outputs)
+    list(TRANSFORM arg_INCLUDE PREPEND "-I" OUTPUT_VARIABLE includes)
+    add_custom_command(
+        OUTPUT ${outputs}
+        BYPRODUCTS "${stem}${suffix}"
+        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} --target=${PBMPM_KERNEL_TARGETS} --pic --wno-perf "${flags}"
+            -o "${stem}${suffix}"
+        DEPENDS "${file}" ${arg_DEPENDS} "${CMAKE_ISPC_COMPILER}"
+        COMMENT "Compiling ${name}.ispc for ${PBMPM_KERNEL_TARGETS}"
+        COMMAND_EXPAND_LISTS VERBATIM)
+    if(PBMPM_INSTRUMENT_KERNELS)
+        instrument_kernels("${stem}" outputs)
+    endif()
+    set(${objects} ${${objects}} ${outputs} PARENT_SCOPE)
+endfunction()
+
+# instrument_kernels(STEM OBJECTS): ISPC has written LLVM's text; its functions are marked, and Clang makes the objects.
+function(instrument_kernels stem objects)
+    set(made "")
+    foreach(isa machine IN ZIP_LISTS PBMPM_KERNEL_ISAS PBMPM_KERNEL_MACHINES)
+        set(part "${stem}_${isa}")
+        add_custom_command(
+            OUTPUT "${part}.o"
+            COMMAND sed "/^attributes #.* nounwind/s/{/{ sanitize_${PBMPM_SANITIZE}/" "${part}.ll" > "${part}.marked.ll"
+            COMMAND "${CMAKE_C_COMPILER}" -x ir -O1 -g -fPIC -march=${machine} -fsanitize=${PBMPM_SANITIZE}
+                -Wno-override-module -c "${part}.marked.ll" -o "${part}.o"
+            DEPENDS "${part}.ll"
+            COMMENT "Instrumenting ${part}"
+            VERBATIM)
+        list(APPEND made "${part}.o")
+    endforeach()
+    set(${objects} ${made} PARENT_SCOPE)
+endfunction()
