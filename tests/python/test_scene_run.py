@@ -68,6 +68,7 @@ def test_report(scene_file: Path) -> None:
     assert report["particles"] == report["particles_at_start"] > 400
     assert report["mass"] == pytest.approx(report["mass_at_start"])
     assert report["finite"] is True and report["problems"] == [] and report["deleted"] == 0
+    assert report["million_particle_iterations_per_cpu_second"] > 0
     assert report["ms_per_simulated_second"] > 0 and report["million_particle_iterations_per_second"] > 0
     assert set(report["ms_per_step_by_phase"]) == {"sort", "scatter", "contacts", "iterate", "integrate"}
     assert report["machine"]["isa"] and report["machine"]["date"]
