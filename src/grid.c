@@ -114,6 +114,13 @@ static uint32_t sides_of(const int32_t cell[3], int dimension)
     return sides;
 }
 
+/* A block that was asked for not long ago. Particles come in almost sorted order, in turns from a block and its neighbours;
+ * those differ in the parity of a coordinate, so one place per parity answers nearly every question. */
+typedef struct Seen {
+    int32_t coordinate[3];
+    int32_t block;
+} Seen;
+
 static void drop_anchor(Grid *grid, const Particles *p)
 {
     for (int a = 0; a < p->dimension; a++) {
@@ -129,22 +136,23 @@ static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
     if (!reserve_found(grid, memory)) return false;
     memset(grid->table.data, 0, grid->table.bytes);
     grid->found_count = 0;
-    int32_t last[3] = {INT32_MIN, 0, 0}, block = -1;
+    Seen seen[8];
+    for (int k = 0; k < 8; k++) seen[k] = (Seen){.coordinate = {-1, -1, -1}}; /* no particle's block */
     for (uint32_t i = 0; i < p->count; i++) {
         int32_t cell[3] = {0}, c[3] = {0};
         for (int a = 0; a < p->dimension; a++) {
             cell[a] = p->cell[a][i] - grid->anchor[a];
             c[a] = cell[a] / K_BLOCK_AXIS;
         }
-        if (c[0] != last[0] || c[1] != last[1] || c[2] != last[2]) {
-            block = find_or_add(grid, memory, c);
-            if (block < 0) return false;
-            memcpy(last, c, sizeof last);
+        Seen *near = &seen[(c[0] & 1) | (c[1] & 1) << 1 | (c[2] & 1) << 2];
+        if (c[0] != near->coordinate[0] || c[1] != near->coordinate[1] || c[2] != near->coordinate[2]) {
+            *near = (Seen){{c[0], c[1], c[2]}, find_or_add(grid, memory, c)};
+            if (near->block < 0) return false;
         }
-        FoundBlock *found = (FoundBlock *)grid->found.data + block;
+        FoundBlock *found = (FoundBlock *)grid->found.data + near->block;
         found->particles++;
         found->sides |= sides_of(cell, p->dimension);
-        grid->block_of[i] = block;
+        grid->block_of[i] = near->block;
     }
     return true;
 }
