@@ -9,8 +9,11 @@
 extern "C" {
 #endif
 
-enum { PBMPM_MAX_COLLIDERS = 1024 };
+enum {
+    PBMPM_MAX_COLLIDERS = 1024 /**< per world */
+};
 
+/** What an obstacle does to motion along its surface. */
 typedef enum pbmpm_friction {
     PBMPM_FRICTION_COULOMB = 0, /**< tangential impulse up to friction_coefficient times the normal impulse */
     PBMPM_FRICTION_STICK = 1,   /**< matter moves with the surface and cannot leave it */
@@ -18,22 +21,26 @@ typedef enum pbmpm_friction {
     PBMPM_FRICTION_FORCE32 = 0x7fffffff
 } pbmpm_friction;
 
+/** An obstacle. Fill it with pbmpm_collider_def_init(), then change what differs. */
 typedef struct pbmpm_collider_def {
     uint32_t size;              /**< sizeof(pbmpm_collider_def), set by pbmpm_collider_def_init() */
     pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
-    pbmpm_shape shape;
+    pbmpm_shape shape;          /**< with the pose at the start */
 } pbmpm_collider_def;
 
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 
 /** Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider);
+
+/** Takes an obstacle away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
 
-/** Reads the definition with the current pose. `def->size` must be set. */
+/** Reads the definition with the current pose. `def->size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def);
 
 /** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
@@ -42,7 +49,8 @@ PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_i
 PBMPM_API pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
                                            const float rotation[4]);
 
-/** Puts an obstacle somewhere at once, without velocity. Works for static ones too. */
+/** Puts an obstacle somewhere at once, without velocity. Works for static ones too. Errors: INVALID_ID,
+ *  INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
                                                const float rotation[4]);
 

@@ -9,8 +9,11 @@
 extern "C" {
 #endif
 
-enum { PBMPM_MAX_MATERIALS = 256 };
+enum {
+    PBMPM_MAX_MATERIALS = 256 /**< per world */
+};
 
+/** What a material resists. */
 typedef enum pbmpm_material_kind {
     PBMPM_LIQUID = 0,  /**< keeps its volume: J = 1 */
     PBMPM_ELASTIC = 1, /**< keeps its shape and volume: F is a rotation */
@@ -27,7 +30,8 @@ typedef enum pbmpm_strain_policy {
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
  *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
- *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. */
+ *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
+ *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once. */
 typedef struct pbmpm_material_def {
     uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
     pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
@@ -44,7 +48,8 @@ typedef struct pbmpm_material_def {
     float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
     float rebound_max;          /**< largest strain that the constraint asks for at once (liquid: per substep; elastic: per
                                      iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
-                                     this rate instead of exploding. */
+                                     this rate instead of exploding. Under gravity a liquid's bound is lower where that
+                                     suffices: it presses with at most 3 * density * |g| * height of the matter. */
 } pbmpm_material_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
@@ -54,10 +59,11 @@ PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t s
  *  OUT_OF_MEMORY (the first elastic material makes room for F), BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material);
 
-/** Reads a material. `def->size` must be set. */
+/** Reads a material. `def->size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def);
 
-/** Changes the parameters of a material (not its kind or density); takes effect with the next step. */
+/** Changes the parameters of a material (not its kind or density); takes effect with the next step.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def);
 
 /** Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY. */

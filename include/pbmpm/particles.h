@@ -32,19 +32,25 @@ typedef struct pbmpm_fill_def {
     float velocity[3];          /**< of every particle [m/s]; default 0 */
 } pbmpm_fill_def;
 
+/** Writes the defaults. `size` is the caller's sizeof(*def).
+ *  Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread. */
 PBMPM_API pbmpm_result pbmpm_particles_def_init(pbmpm_particles_def *def, size_t size);
+/** Writes the defaults, as pbmpm_particles_def_init() does. */
 PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 
 /** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
-/** Fills a shape. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
- *  says how many the shape needs. `added` may be null. */
+/** Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
+ *  one lattice cell. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
+ *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added);
 
-/** Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed. */
+/** Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed. */
 PBMPM_API pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count);
+
+/** Removes all particles inside a shape; *removed (may be null) says how many. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *shape, uint32_t *removed);
 
 /** Number of live particles. */
@@ -63,7 +69,8 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory. Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view shows other
+ *  particles' values but never faults. Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -80,17 +87,18 @@ typedef struct pbmpm_view {
 PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
 
 /** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
- *  Settable: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+ *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
  *  with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
- *  All or nothing; expires views. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
+ *  All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
+ *  UNSUPPORTED (a particle whose material has no such field); BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count,
                                            const float *values);
 
-/** Where particles stand in the current storage order (the row in a view). */
+/** Where particles stand in the current storage order (the row in a view). Errors: INVALID_ID (no row is written), BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
 
 /** Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
- *  `ids` may be null when capacity is 0. */
+ *  `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity,
                                          uint32_t *count);
 

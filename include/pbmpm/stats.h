@@ -43,10 +43,12 @@ typedef struct pbmpm_stats {
     uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
 } pbmpm_stats;
 
-/** Figures of the last step; before the first all are 0 but the counts. `stats->size` must be set.
+/** Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
+ *  the particles, and only when called. `stats->size` must be set.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);
 
+/** What an event tells. */
 typedef enum pbmpm_event_kind {
     PBMPM_EVENT_DELETED_NOT_FINITE = 1,   /**< a particle's state was NaN or infinite; it was taken out before it touched others */
     PBMPM_EVENT_DELETED_OUT_OF_RANGE = 2, /**< beyond PBMPM_MAX_CELL */
@@ -56,6 +58,7 @@ typedef enum pbmpm_event_kind {
     PBMPM_EVENT_KIND_FORCE32 = 0x7fffffff
 } pbmpm_event_kind;
 
+/** Something that happened which the caller did not ask for. */
 typedef struct pbmpm_event {
     pbmpm_event_kind kind;
     uint32_t count;             /**< how many particles (deletions: always 1) */

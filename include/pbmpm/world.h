@@ -9,10 +9,10 @@ extern "C" {
 #endif
 
 enum {
-    PBMPM_MAX_WORLDS = 1024,
-    PBMPM_MAX_PARTICLES = 1 << 28,
-    PBMPM_MAX_SUBSTEPS = 256,
-    PBMPM_MAX_ITERATIONS = 1000,
+    PBMPM_MAX_WORLDS = 1024,       /**< at the same time, per process */
+    PBMPM_MAX_PARTICLES = 1 << 28, /**< per world */
+    PBMPM_MAX_SUBSTEPS = 256,      /**< per step */
+    PBMPM_MAX_ITERATIONS = 1000,   /**< per substep */
     /** Largest displacement of a particle in one substep [cells]. */
     PBMPM_MAX_CELLS_PER_SUBSTEP = 64,
     /** Cells per axis and direction around the origin that a particle can be in; beyond, it is deleted with an event. */
@@ -33,7 +33,7 @@ typedef struct pbmpm_world_def {
     int32_t domain_enabled;     /**< 0 (default): unbounded. 1: closed box, walls that hold matter in. */
     float domain_min[3];        /**< lower corner of the box [m], relative to the origin; default 0 */
     float domain_max[3];        /**< upper corner; at least 4 cells above domain_min per axis; default 1 */
-    float domain_friction;      /**< Coulomb coefficient of the walls, >= 0; default 0 */
+    float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0 */
     pbmpm_allocator allocator;  /**< both functions null (default): the C library's */
     pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
 } pbmpm_world_def;
@@ -51,6 +51,8 @@ typedef struct pbmpm_settings {
 /** Writes the defaults. `size` is the caller's sizeof(*def).
  *  Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread. */
 PBMPM_API pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size);
+
+/** Writes the defaults, as pbmpm_world_def_init() does. */
 PBMPM_API pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size);
 
 /** Creates a world and takes its memory. On failure *world is the null identifier and nothing is held.
@@ -61,12 +63,14 @@ PBMPM_API pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_worl
  *  Errors: INVALID_ID (also on a second destroy), BUSY. Any thread. */
 PBMPM_API pbmpm_result pbmpm_world_destroy(pbmpm_world_id world);
 
-/** The definition the world was made from. `def->size` must be set (pbmpm_world_def_init). */
+/** The definition the world was made from. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
-/** Reads and changes the settings; take effect with the next step.
- *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world. */
+/** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
+ *  Any thread, one at a time per world. */
 PBMPM_API pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings);
+
+/** Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. */
 PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
 
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
@@ -77,7 +81,7 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 
 /** A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
- *  the view's own. */
+ *  the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation);
 
 /** 64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for

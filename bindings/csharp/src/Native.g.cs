@@ -15,15 +15,21 @@ namespace Pbmpm
         /// <summary>Number of the binary interface (the shared library's SOVERSION). It changes only when an existing
         /// function, constant or field changes its meaning, type or place.</summary>
         public const int AbiVersion = 0;
+        /// <summary>per world</summary>
         public const int MaxMaterials = 256;
+        /// <summary>at the same time, per process</summary>
         public const int MaxWorlds = 1024;
+        /// <summary>per world</summary>
         public const int MaxParticles = 268435456;
+        /// <summary>per step</summary>
         public const int MaxSubsteps = 256;
+        /// <summary>per substep</summary>
         public const int MaxIterations = 1000;
         /// <summary>Largest displacement of a particle in one substep [cells].</summary>
         public const int MaxCellsPerSubstep = 64;
         /// <summary>Cells per axis and direction around the origin that a particle can be in; beyond, it is deleted with an event.</summary>
         public const int MaxCell = 4194304;
+        /// <summary>per world</summary>
         public const int MaxColliders = 1024;
     }
 
@@ -65,6 +71,7 @@ namespace Pbmpm
         Avx512 = 3,
     }
 
+    /// <summary>What a material resists.</summary>
     public enum MaterialKind : int
     {
         /// <summary>keeps its volume: J = 1</summary>
@@ -115,6 +122,7 @@ namespace Pbmpm
         Mass = 7,
     }
 
+    /// <summary>What an obstacle does to motion along its surface.</summary>
     public enum Friction : int
     {
         /// <summary>tangential impulse up to friction_coefficient times the normal impulse</summary>
@@ -125,6 +133,7 @@ namespace Pbmpm
         Slip = 2,
     }
 
+    /// <summary>What an event tells.</summary>
     public enum EventKind : int
     {
         /// <summary>a particle's state was NaN or infinite; it was taken out before it touched others</summary>
@@ -222,7 +231,8 @@ namespace Pbmpm
     /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
-    /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep.</summary>
+    /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
+    /// from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MaterialDef
     {
@@ -252,7 +262,8 @@ namespace Pbmpm
         public float ConditionMax;
         /// <summary>largest strain that the constraint asks for at once (liquid: per substep; elastic: per
         /// iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
-        /// this rate instead of exploding.</summary>
+        /// this rate instead of exploding. Under gravity a liquid's bound is lower where that
+        /// suffices: it presses with at most 3 * density * |g| * height of the matter.</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>
@@ -327,7 +338,7 @@ namespace Pbmpm
         public Float3 DomainMin;
         /// <summary>upper corner; at least 4 cells above domain_min per axis; default 1</summary>
         public Float3 DomainMax;
-        /// <summary>Coulomb coefficient of the walls, &gt;= 0; default 0</summary>
+        /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0</summary>
         public float DomainFriction;
         /// <summary>both functions null (default): the C library's</summary>
         public Allocator Allocator;
@@ -407,6 +418,7 @@ namespace Pbmpm
         }
     }
 
+    /// <summary>An obstacle. Fill it with pbmpm_collider_def_init(), then change what differs.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct ColliderDef
     {
@@ -418,6 +430,7 @@ namespace Pbmpm
         public float FrictionCoefficient;
         /// <summary>0 (default): never moves. 1: pbmpm_collider_move() moves it.</summary>
         public int Kinematic;
+        /// <summary>with the pose at the start</summary>
         public Shape Shape;
 
         /// <summary>The library's defaults.</summary>
@@ -500,6 +513,7 @@ namespace Pbmpm
         public ulong ClampedTotal;
     }
 
+    /// <summary>Something that happened which the caller did not ask for.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Event
     {
@@ -585,7 +599,8 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory. Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view shows other
+    /// particles' values but never faults. Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -661,11 +676,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_create(WorldId world, MaterialDef* def, MaterialId* material);
 
-        /// <summary>Reads a material. `def-&gt;size` must be set.</summary>
+        /// <summary>Reads a material. `def-&gt;size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_get(WorldId world, MaterialId material, MaterialDef* def);
 
-        /// <summary>Changes the parameters of a material (not its kind or density); takes effect with the next step.</summary>
+        /// <summary>Changes the parameters of a material (not its kind or density); takes effect with the next step.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_set(WorldId world, MaterialId material, MaterialDef* def);
 
@@ -682,8 +698,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_def_init(WorldDef* def, UIntPtr size);
 
-        /// <summary>Writes the defaults. `size` is the caller's sizeof(*def).
-        /// Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread.</summary>
+        /// <summary>Writes the defaults, as pbmpm_world_def_init() does.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_settings_init(Settings* settings, UIntPtr size);
 
@@ -697,17 +712,16 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_destroy(WorldId world);
 
-        /// <summary>The definition the world was made from. `def-&gt;size` must be set (pbmpm_world_def_init).</summary>
+        /// <summary>The definition the world was made from. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
-        /// <summary>Reads and changes the settings; take effect with the next step.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        /// <summary>Reads the settings. `settings-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
+        /// Any thread, one at a time per world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_settings(WorldId world, Settings* settings);
 
-        /// <summary>Reads and changes the settings; take effect with the next step.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        /// <summary>Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
 
@@ -720,7 +734,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_step(WorldId world, float dt);
 
         /// <summary>A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
-        /// the view's own.</summary>
+        /// the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_generation(WorldId world, ulong* generation);
 
@@ -729,9 +743,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_hash(WorldId world, ulong* hash);
 
+        /// <summary>Writes the defaults. `size` is the caller's sizeof(*def).
+        /// Errors: INVALID_ARGUMENT (null), UNSUPPORTED (a size that no version had). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_def_init(ParticlesDef* def, UIntPtr size);
 
+        /// <summary>Writes the defaults, as pbmpm_particles_def_init() does.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_fill_def_init(FillDef* def, UIntPtr size);
 
@@ -740,16 +757,17 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
-        /// <summary>Fills a shape. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
-        /// says how many the shape needs. `added` may be null.</summary>
+        /// <summary>Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
+        /// one lattice cell. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
+        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
 
-        /// <summary>Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed.</summary>
+        /// <summary>Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_remove(WorldId world, ParticleId* ids, uint count);
 
-        /// <summary>Removes particles by identifier, or all inside a shape. Unknown identifiers: INVALID_ID and nothing is removed.</summary>
+        /// <summary>Removes all particles inside a shape; *removed (may be null) says how many. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_remove_in(WorldId world, Shape* shape, uint* removed);
 
@@ -763,21 +781,23 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_view(WorldId world, Field field, View* view);
 
         /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
-        /// Settable: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+        /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
         /// with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
-        /// All or nothing; expires views. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        /// All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
+        /// UNSUPPORTED (a particle whose material has no such field); BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_set(WorldId world, Field field, ParticleId* ids, uint count, float* values);
 
-        /// <summary>Where particles stand in the current storage order (the row in a view).</summary>
+        /// <summary>Where particles stand in the current storage order (the row in a view). Errors: INVALID_ID (no row is written), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_find(WorldId world, ParticleId* ids, uint count, uint* rows);
 
         /// <summary>Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
-        /// `ids` may be null when capacity is 0.</summary>
+        /// `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
 
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
 
@@ -786,12 +806,11 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_create(WorldId world, ColliderDef* def, ColliderId* collider);
 
-        /// <summary>Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
+        /// <summary>Takes an obstacle away. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_destroy(WorldId world, ColliderId collider);
 
-        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set.</summary>
+        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def);
 
@@ -801,7 +820,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_move(WorldId world, ColliderId collider, Float3* position, Float4* rotation);
 
-        /// <summary>Puts an obstacle somewhere at once, without velocity. Works for static ones too.</summary>
+        /// <summary>Puts an obstacle somewhere at once, without velocity. Works for static ones too. Errors: INVALID_ID,
+        /// INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_teleport(WorldId world, ColliderId collider, Float3* position, Float4* rotation);
 
@@ -809,7 +829,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
 
-        /// <summary>Figures of the last step; before the first all are 0 but the counts. `stats-&gt;size` must be set.
+        /// <summary>Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
+        /// the particles, and only when called. `stats-&gt;size` must be set.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
