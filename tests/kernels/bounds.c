@@ -1,0 +1,130 @@
+#include "bounds.h"
+
+#include <math.h>
+
+#include "matrices.h"
+
+BoundParticle bound_gather(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double d[3] = {0}, D[9] = {0};
+    for (int i = 0; i < s.count; i++) {
+        const RefNode *node = &grid->node[reference_index(grid, s.node[i])];
+        for (int r = 0; r < grid->dimension; r++) {
+            d[r] += s.weight[i] * fabs(node->u[r]);
+            for (int c = 0; c < grid->dimension; c++) D[r * 3 + c] += 4.0 * s.weight[i] * fabs(node->u[r] * s.offset[i][c]);
+        }
+    }
+    const double each = TRANSFER_ROUNDINGS * UNIT_ROUNDOFF;
+    return (BoundParticle){each * fmax(d[0], fmax(d[1], d[2])) + FLUSHED, each * matrix_largest(grid->dimension, D) + FLUSHED};
+}
+
+/* The update is linear in D. In the largest entry: viscosity changes D by at most 2 nu |D|, the correction by relaxation
+ * times |D|. 1/J - 1 is computed with an error of U (1/J + 1), and all of it with a few roundings of its terms. */
+static double bound_liquid(const RefParticle *p, double largest, double error)
+{
+    const KernelMaterial *material = &p->material;
+    const double gain = 1.0 + 2.0 * (double)material->viscosity + (double)material->relaxation;
+    const double wanted = fmin(1.0 / p->volume_ratio + 1.0, (double)material->rebound_max + 2.0);
+    return gain * error + 8.0 * UNIT_ROUNDOFF * (gain * largest + (double)material->relaxation * wanted);
+}
+
+/* Frobenius norm of the rotation's error. The rotation that maximises tr(R^T A) turns by |dA| times 2 over the smallest sum of
+ * two of A's signed singular values; no two rotations are farther apart than 2 sqrt 2. The kernel's own round-off is that
+ * of a matrix that differs by a few units: 16 operations from the matrix to the turned one, three entries each. */
+static double bound_rotation(int n, const double *A, double error)
+{
+    double u[9], s[3], v[9];
+    matrix_decompose(n, A, u, s, v);
+    const double gap = s[n - 2] + s[n - 1], own = 48.0 * UNIT_ROUNDOFF;
+    const double turned = gap > 0.0 ? 2.0 * (error + own * matrix_norm(n, A)) / gap : INFINITY;
+    return fmin(turned + own, 2.0 * sqrt(2.0));
+}
+
+/* Relative error of |det|^(-1/d) within its clamp, given that of A: |d det| <= |cof A| |dA|. */
+static double bound_root(int n, const double *A, double error)
+{
+    const double norm = matrix_norm(n, A), det = fabs(matrix_determinant(n, A));
+    const double det_error = pow(norm, n - 1) * (error + 8.0 * UNIT_ROUNDOFF * norm);
+    if (det_error > 0.5 * det) return det > 0.2 ? 1.0 : 2.0; /* even the sign may differ */
+    return 2.0 * det_error / (n * fmax(det, 0.1)) + 8.0 * UNIT_ROUNDOFF;
+}
+
+/* X = (A - F*) cof(F)^T / det F. Errors of A, of F* and of the inverse are multiplied by the size of the other factor; taking
+ * the symmetric part and bounding the length never enlarge a difference. Two corrections differ by 2 rebound_max at most. */
+static double bound_elastic(int n, const RefParticle *p, const double D[9], double error)
+{
+    const KernelMaterial *material = &p->material;
+    const double *F = p->deformation;
+    const double beta = (double)material->elasticity_ratio, limit = (double)material->rebound_max;
+    double next[9] = {0}, inverse[9];
+    matrix_multiply(n, D, F, next);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) next[r * 3 + c] += F[r * 3 + c];
+    const double size = matrix_norm(n, next), norm = matrix_norm(n, F), next_error = bound_advance(n, F, D, error);
+    const double det = fabs(matrix_inverse(n, F, inverse));
+    if (!(det > 1e-11)) return error + 2.0 * limit; /* at the limit of what the kernel inverts */
+    const double root = pow(fmin(fmax(fabs(matrix_determinant(n, next)), 0.1), 1000.0), -1.0 / n);
+    const double shape = beta * bound_rotation(n, next, next_error) +
+                         (1.0 - beta) * root * (next_error + bound_root(n, next, next_error) * size);
+    const double target = beta * sqrt(n) + (1.0 - beta) * root * size;
+    const double difference_error = shape + next_error + 8.0 * UNIT_ROUNDOFF * (target + size);
+    const double det_share = 8.0 * UNIT_ROUNDOFF * pow(norm, n) / det;
+    const double inverse_norm = matrix_norm(n, inverse);
+    const double inverse_error = 8.0 * UNIT_ROUNDOFF * pow(norm, n - 1) / det + 2.0 * inverse_norm * (det_share + 4.0 * UNIT_ROUNDOFF);
+    const double change = (double)material->relaxation * (inverse_norm * difference_error + (target + size) * inverse_error);
+    const double correction = fmin((double)material->relaxation * (target + size) * inverse_norm, limit);
+    return error + fmin(change + 8.0 * UNIT_ROUNDOFF * correction, 2.0 * limit) + 2.0 * UNIT_ROUNDOFF * (matrix_largest(n, D) + limit);
+}
+
+double bound_project(int dimension, const RefParticle *p, const double D[9], double error)
+{
+    if (p->material.kind == K_LIQUID) return bound_liquid(p, matrix_largest(dimension, D), error);
+    return bound_elastic(dimension, p, D, error);
+}
+
+void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double d[3], const double D[9],
+                   BoundParticle error)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    for (int i = 0; i < s.count; i++) {
+        BoundNode *node = &bounds[reference_index(grid, s.node[i])];
+        const double m = s.weight[i] * p->mass;
+        node->terms++;
+        for (int r = 0; r < grid->dimension; r++) {
+            double carried = error.d, size = fabs(d[r]);
+            for (int c = 0; c < grid->dimension; c++) {
+                carried += error.D * fabs(s.offset[i][c]);
+                size += fabs(D[r * 3 + c] * s.offset[i][c]);
+            }
+            node->carried[r] += m * carried + FLUSHED * p->mass * (1.0 + size);
+            node->size[r] += m * size;
+        }
+    }
+}
+
+double bound_of_sum(const BoundNode *node, int axis)
+{
+    return node->carried[axis] + (TRANSFER_ROUNDINGS + node->terms) * UNIT_ROUNDOFF * node->size[axis];
+}
+
+double bound_advance(int n, const double *F, const double D[9], double error)
+{
+    return matrix_norm(n, F) * (n * error + 8.0 * UNIT_ROUNDOFF * (1.0 + matrix_norm(n, D)));
+}
+
+/* The clamp maps signed singular values s to f(s). In the directions of the singular vectors a difference grows by
+ * |f'| <= 1, between them by (f(si) - f(sj)) / (si - sj) <= 1 and (f(si) + f(sj)) / (si + sj). */
+double strain_limit_sensitivity(int n, const KernelMaterial *material, const double *F)
+{
+    double u[9], s[3], v[9], worst = 1.0;
+    if (material->condition_max > 0.0f) return 1.0;
+    matrix_decompose(n, F, u, s, v);
+    for (int i = 0; i < n; i++)
+        for (int j = i + 1; j < n; j++) {
+            const double low = (double)material->strain_min, high = (double)material->strain_max;
+            const double limited = fmin(fmax(s[i], low), high) + fmin(fmax(s[j], low), high);
+            worst = fmax(worst, s[i] + s[j] > 0.0 ? limited / (s[i] + s[j]) : INFINITY);
+        }
+    return worst;
+}

@@ -1,0 +1,9 @@
+/* A loop over the instruction sets that the CPU has, up to the one in PBMPM_ISA. */
+#ifndef PBMPM_TESTS_ISAS_H
+#define PBMPM_TESTS_ISAS_H
+
+#include "cpu.h"
+
+#define EACH_ISA(isa) for (pbmpm_isa isa = PBMPM_ISA_SSE4; isa <= cpu_isa(); isa = (pbmpm_isa)(isa + 1))
+
+#endif

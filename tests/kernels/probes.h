@@ -1,0 +1,27 @@
+/* The exports of the probes, by instruction set and dimension. */
+#ifndef PBMPM_TESTS_PROBES_H
+#define PBMPM_TESTS_PROBES_H
+
+#include "pbmpm/base.h"
+
+/* `count` matrices of nine floats each, row-major with stride 3. */
+typedef void RotateAll(const float *f, float *rotation, int32_t count);
+/* `s`: three floats per matrix. */
+typedef void DecomposeAll(const float *f, float *u, float *s, float *v, int32_t count);
+/* `out`: see LAYOUT_VALUES. */
+typedef void WriteLayout(int32_t *out);
+
+typedef struct Probes {
+    RotateAll *rotate_all;
+    DecomposeAll *decompose_all;
+} Probes;
+
+const Probes *probes_for(pbmpm_isa isa, int dimension);
+
+typedef struct LayoutProbes {
+    WriteLayout *material, *args;
+} LayoutProbes;
+
+const LayoutProbes *layout_probes_for(pbmpm_isa isa);
+
+#endif

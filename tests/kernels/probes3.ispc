@@ -1,0 +1,27 @@
+#define DIM 3
+#include "kernel_types.h"
+#include "layout_fields.h"
+#include "probes.isph"
+
+export void rotate_all3(const uniform float f[], uniform float rotation[], uniform int count) { rotate_all(f, rotation, count); }
+export void decompose_all3(const uniform float f[], uniform float u[], uniform float s[], uniform float v[], uniform int count) {
+    decompose_all(f, u, s, v, count);
+}
+
+#define WRITE_FIELD(name)                                                                                                     \
+    out[n++] = (uniform int32)((uniform int64)&probe.name - (uniform int64)&probe);                                           \
+    out[n++] = sizeof(probe.name);
+
+export void layout_of_material3(uniform int32 out[]) {
+    uniform struct KernelMaterial probe;
+    uniform int n = 0;
+    out[n++] = sizeof(probe);
+    KERNEL_MATERIAL_FIELDS(WRITE_FIELD)
+}
+
+export void layout_of_args3(uniform int32 out[]) {
+    uniform struct KernelArgs probe;
+    uniform int n = 0;
+    out[n++] = sizeof(probe);
+    KERNEL_ARGS_FIELDS(WRITE_FIELD)
+}

@@ -1,0 +1,250 @@
+#include "reference.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "matrices.h"
+
+static const double RATIO_MIN = 0.05, RATIO_MAX = 1.2; /* of a liquid's J */
+
+/* ---- Transfers ---- */
+
+/* The quadratic B-spline: 3/4 - x^2 around its node, (3/2 - |x|)^2 / 2 beyond half a cell. */
+static double spline(double x)
+{
+    const double r = fabs(x);
+    if (r <= 0.5) return 0.75 - r * r;
+    return r < 1.5 ? 0.5 * (1.5 - r) * (1.5 - r) : 0.0;
+}
+
+RefStencil reference_stencil(int dimension, const RefParticle *p)
+{
+    RefStencil s = {0};
+    for (int z = dimension == 3 ? -1 : 0; z <= (dimension == 3 ? 1 : 0); z++)
+        for (int y = -1; y <= 1; y++)
+            for (int x = -1; x <= 1; x++) {
+                const int step[3] = {x, y, z};
+                s.weight[s.count] = 1.0;
+                for (int a = 0; a < dimension; a++) {
+                    s.node[s.count][a] = p->cell[a] + step[a];
+                    s.offset[s.count][a] = step[a] - p->fraction[a];
+                    s.weight[s.count] *= spline(s.offset[s.count][a]);
+                }
+                s.count++;
+            }
+    return s;
+}
+
+RefGrid reference_grid(int dimension, const int32_t low[3], const int32_t high[3])
+{
+    RefGrid grid = {.dimension = dimension, .size = {1, 1, 1}};
+    size_t count = 1;
+    for (int a = 0; a < dimension; a++) {
+        grid.low[a] = low[a];
+        grid.size[a] = high[a] - low[a] + 1;
+        count *= (size_t)grid.size[a];
+    }
+    grid.node = calloc(count, sizeof *grid.node);
+    return grid;
+}
+
+void reference_grid_free(RefGrid *grid)
+{
+    free(grid->node);
+    *grid = (RefGrid){0};
+}
+
+int64_t reference_index(const RefGrid *grid, const int32_t node[3])
+{
+    int64_t index = 0;
+    for (int a = grid->dimension - 1; a >= 0; a--) {
+        const int32_t local = node[a] - grid->low[a];
+        if (local < 0 || local >= grid->size[a]) return -1;
+        index = index * grid->size[a] + local;
+    }
+    return index;
+}
+
+void reference_start(const RefStep *step, const RefParticle *p, double d[3], double D[9])
+{
+    for (int a = 0; a < 3; a++) d[a] = p->velocity[a] * step->dt * step->cells_per_metre;
+    for (int k = 0; k < 9; k++) D[k] = p->affine[k] * step->dt;
+}
+
+void reference_scatter(RefGrid *grid, const RefParticle *p, const double d[3], const double D[9])
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    for (int i = 0; i < s.count; i++) {
+        RefNode *node = &grid->node[reference_index(grid, s.node[i])];
+        const double m = s.weight[i] * p->mass;
+        node->mass += m;
+        node->volume += m * (double)p->material.inverse_density;
+        for (int r = 0; r < grid->dimension; r++) {
+            double moved = d[r];
+            for (int c = 0; c < grid->dimension; c++) moved += D[r * 3 + c] * s.offset[i][c];
+            node->u[r] += m * moved;
+        }
+    }
+}
+
+void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], double D[9])
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    memset(d, 0, 3 * sizeof *d);
+    memset(D, 0, 9 * sizeof *D);
+    for (int i = 0; i < s.count; i++) {
+        const RefNode *node = &grid->node[reference_index(grid, s.node[i])];
+        for (int r = 0; r < grid->dimension; r++) {
+            d[r] += s.weight[i] * node->u[r];
+            for (int c = 0; c < grid->dimension; c++) D[r * 3 + c] += 4.0 * s.weight[i] * node->u[r] * s.offset[i][c];
+        }
+    }
+}
+
+double reference_compression(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double sum = 0.0;
+    for (int i = 0; i < s.count; i++) sum += s.weight[i] * grid->node[reference_index(grid, s.node[i])].volume;
+    return sum;
+}
+
+/* ---- Materials ---- */
+
+/* J (1 + tr D) = 1. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
+static void project_liquid(int n, const RefParticle *p, double D[9])
+{
+    const KernelMaterial *material = &p->material;
+    const double trace = matrix_trace(n, D);
+    double old[9];
+    memcpy(old, D, sizeof old);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) {
+            const double deviator = 0.5 * (old[r * 3 + c] + old[c * 3 + r]) - (r == c ? trace / n : 0.0);
+            D[r * 3 + c] -= (double)material->viscosity * deviator;
+        }
+    const double wanted = fmin(1.0 / p->volume_ratio - 1.0, (double)material->rebound_max);
+    for (int r = 0; r < n; r++) D[r * 4] += (double)material->relaxation / n * (wanted - trace);
+}
+
+static void advance(int n, const double *D, const double *F, double *o)
+{
+    matrix_multiply(n, D, F, o);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) o[r * 3 + c] += F[r * 3 + c];
+}
+
+/* F* = (I + D) F should be A = beta R + (1 - beta) F* / det(F*)^(1/d): D gets the symmetric part of the difference
+ * X = (A - F*) F^-1, no longer than rebound_max. The root's argument stays within [0.1, 1000]; a singular F waits. */
+static void project_elastic(int n, const RefParticle *p, double D[9])
+{
+    const KernelMaterial *material = &p->material;
+    const double beta = (double)material->elasticity_ratio, limit = (double)material->rebound_max;
+    double next[9], rotation[9], difference[9], inverse[9], X[9], size = 0.0;
+    advance(n, D, p->deformation, next);
+    matrix_rotation(n, next, rotation);
+    const double det = matrix_determinant(n, next);
+    const double unit = copysign(pow(fmin(fmax(fabs(det), 0.1), 1000.0), -1.0 / n), det);
+    for (int k = 0; k < 9; k++) difference[k] = beta * rotation[k] + (1.0 - beta) * unit * next[k] - next[k];
+    if (fabs(matrix_inverse(n, p->deformation, inverse)) <= 1e-12) return;
+    matrix_multiply(n, difference, inverse, X);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) difference[r * 3 + c] = 0.5 * (double)material->relaxation * (X[r * 3 + c] + X[c * 3 + r]);
+    size = matrix_norm(n, difference);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) D[r * 3 + c] += size > limit ? difference[r * 3 + c] * limit / size : difference[r * 3 + c];
+}
+
+void reference_project(int dimension, const RefParticle *p, double D[9])
+{
+    if (p->material.kind == K_LIQUID)
+        project_liquid(dimension, p, D);
+    else
+        project_elastic(dimension, p, D);
+}
+
+bool reference_limit_strain(int n, const KernelMaterial *material, double F[9])
+{
+    double u[9], s[3], v[9], vt[9];
+    matrix_decompose(n, F, u, s, v);
+    if (material->condition_max > 0.0f) return s[n - 1] > 0.0 && s[0] <= (double)material->condition_max * s[n - 1];
+    for (int c = 0; c < n; c++) {
+        const double clamped = fmin(fmax(s[c], (double)material->strain_min), (double)material->strain_max);
+        for (int r = 0; r < n; r++) u[r * 3 + c] *= clamped;
+    }
+    matrix_transpose(n, v, vt);
+    matrix_multiply(n, u, vt, F);
+    return true;
+}
+
+/* ---- Integration ---- */
+
+/* A number in [-1/2, 1/2) that looks random: lowbias32 of C. Wellons, "Prospecting for hash functions", 2018. */
+static double random_looking(uint32_t x)
+{
+    x = (x ^ x >> 16) * 0x7feb352du;
+    x = (x ^ x >> 15) * 0x846ca68bu;
+    x ^= x >> 16;
+    return (double)(x >> 8) / 16777216.0 - 0.5;
+}
+
+/* Crowded particles are parted by up to 1/40 cell per axis, differently in each substep. */
+static void nudge(const RefStep *step, RefParticle *p)
+{
+    for (int a = 0; a < step->dimension; a++)
+        p->fraction[a] += 0.05 * random_looking(p->identity * 0x9e3779b9u + step->salt * 0x85ebca6bu + (uint32_t)a);
+}
+
+/* J follows tr D. With feedback it moves a share of the way to what the grid says where there is more matter than room, and
+ * never exceeds what there is room for where matter is crowded. */
+static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
+{
+    const double feedback = (double)p->material.volume_feedback;
+    double ratio = p->volume_ratio * (1.0 + matrix_trace(step->dimension, D));
+    if (step->with_volume && feedback > 0.0) {
+        const double held = reference_compression(grid, p);
+        if (held > REF_COMPRESSED) ratio += feedback * (REF_COMPRESSED / held - ratio);
+        if (held > REF_CROWDED) {
+            ratio = fmin(ratio, REF_CROWDED / held);
+            nudge(step, p);
+        }
+    }
+    p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
+}
+
+static void integrate_elastic(const RefStep *step, RefParticle *p, const double D[9])
+{
+    double next[9] = {0};
+    advance(step->dimension, D, p->deformation, next);
+    if (!reference_limit_strain(step->dimension, &p->material, next)) p->status = K_CONDITION;
+    memcpy(p->deformation, next, sizeof next);
+    p->volume_ratio = matrix_determinant(step->dimension, next);
+}
+
+static void move(const RefStep *step, RefParticle *p, const double d[3])
+{
+    double length = 0.0;
+    for (int a = 0; a < step->dimension; a++) length += d[a] * d[a];
+    length = sqrt(length);
+    const double slow = length > step->max_displacement ? step->max_displacement / length : 1.0;
+    for (int a = 0; a < step->dimension; a++) {
+        const double place = p->fraction[a] + slow * d[a], cells = floor(place + 0.5);
+        p->fraction[a] = place - cells;
+        p->cell[a] += (int32_t)cells;
+        if (abs(p->cell[a]) > step->max_cell) p->status = K_OUT_OF_RANGE;
+        p->velocity[a] = slow * d[a] / (step->dt * step->cells_per_metre);
+    }
+}
+
+void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)
+{
+    double d[3], D[9];
+    reference_gather(grid, p, d, D);
+    if (p->material.kind == K_LIQUID)
+        integrate_liquid(step, grid, p, D);
+    else
+        integrate_elastic(step, p, D);
+    move(step, p, d);
+    for (int k = 0; k < 9; k++) p->affine[k] = D[k] / step->dt;
+}

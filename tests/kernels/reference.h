@@ -1,0 +1,90 @@
+/* The kernels once more, as plain scalar code in double precision: the readable form of the maths.
+ *
+ * C. Lewin, "A Position Based Material Point Method", SIGGRAPH 2024 Talks. Transfers: quadratic B-splines
+ * (M. Steffen, R. Kirby, M. Berzins, IJNME 76, 2008) and affine particles (C. Jiang et al., ACM TOG 34(4), 2015).
+ * Lengths are in cells, displacements in cells per substep; the displacement gradient D has no unit. */
+#ifndef PBMPM_TESTS_REFERENCE_H
+#define PBMPM_TESTS_REFERENCE_H
+
+#include <stdbool.h>
+
+#include "kernel_types.h"
+
+/* One particle. Its position is cell + fraction. */
+typedef struct RefParticle {
+    int32_t cell[3];
+    double fraction[3];
+    double velocity[3];  /* [m/s] */
+    double affine[9];    /* [1/s] */
+    double volume_ratio; /* J */
+    double mass;         /* density * rest volume in cells */
+    double deformation[9];
+    int32_t status;
+    uint32_t identity; /* index of its identifier */
+    KernelMaterial material;
+} RefParticle;
+
+/* What one substep shares. */
+typedef struct RefStep {
+    int dimension;
+    double dt, cells_per_metre;
+    double gravity[3]; /* g dt^2 / dx */
+    double max_displacement;
+    int32_t max_cell;
+    uint32_t salt; /* of the nudges */
+    bool with_volume;
+} RefStep;
+
+/* The nodes a particle touches: 3 per axis around its nearest node. */
+typedef struct RefStencil {
+    int count; /* 3^d */
+    int32_t node[27][3];
+    double weight[27];
+    double offset[27][3]; /* of the node from the particle */
+} RefStencil;
+
+RefStencil reference_stencil(int dimension, const RefParticle *p);
+
+/* A node's sums, or, for a grid of displacements, its displacement. */
+typedef struct RefNode {
+    double u[3];
+    double mass;
+    double volume; /* rest volume per cell */
+} RefNode;
+
+/* A dense box of nodes. */
+typedef struct RefGrid {
+    int dimension;
+    int32_t low[3], size[3];
+    RefNode *node;
+} RefGrid;
+
+RefGrid reference_grid(int dimension, const int32_t low[3], const int32_t high[3]); /* all zero; high is inside */
+void reference_grid_free(RefGrid *grid);
+int64_t reference_index(const RefGrid *grid, const int32_t node[3]); /* -1: outside */
+
+/* D and d as the last substep left them: velocity and affine velocity times dt. */
+void reference_start(const RefStep *step, const RefParticle *p, double d[3], double D[9]);
+
+/* Adds a particle's mass, rest volume and momentum m (d + D (x_i - x_p)) to the nodes. */
+void reference_scatter(RefGrid *grid, const RefParticle *p, const double d[3], const double D[9]);
+
+/* d = sum w u and D = 4 sum w u (x_i - x_p)^T. */
+void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], double D[9]);
+
+/* Moves D towards what the particle's material allows. */
+void reference_project(int dimension, const RefParticle *p, double D[9]);
+
+/* Brings F into the material's range; false where the particle has to go instead. */
+bool reference_limit_strain(int dimension, const KernelMaterial *material, double F[9]);
+
+/* Moves the particle by what the nodes say and updates v, affine, J and F. */
+void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p);
+
+/* Rest volume per cell where a liquid counts as compressed, and as crowded. */
+static const double REF_COMPRESSED = 1.05, REF_CROWDED = 1.5;
+
+/* The rest volume per cell around the particle. */
+double reference_compression(const RefGrid *grid, const RefParticle *p);
+
+#endif

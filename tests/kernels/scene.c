@@ -1,0 +1,262 @@
+#include "scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+#include "check.h"
+#include "cpu.h"
+#include "solver.h"
+
+static const float CELL_SIZE = 0.05f, TIME_STEP = 0.004f;
+
+pbmpm_material_def scene_material(pbmpm_material_kind kind)
+{
+    pbmpm_material_def def = material_defaults();
+    def.kind = kind;
+    return def;
+}
+
+/* ---- Particles ---- */
+
+/* Mostly anywhere in the cell, sometimes on its borders or in its middle. */
+static float random_fraction(Random *random)
+{
+    static const float special[] = {-0.5f, 0.49999997f, 0.0f, 1e-20f};
+    if (random_below(random, 10) == 0) return special[random_below(random, 4)];
+    return fminf((float)random_in(random, -0.5, 0.5), 0.49999997f);
+}
+
+static void near_identity(Random *random, int dimension, double *F)
+{
+    (void)dimension;
+    random_array(random, F, 9, -0.3, 0.3);
+    for (int a = 0; a < 3; a++) F[a * 4] += 1.0;
+}
+
+static void add_particle(Scene *scene, const SceneSpec *spec, Random *random, const int32_t cell[3])
+{
+    Particles *p = &scene->world->particles;
+    const uint32_t row = p->count, slot = random_below(random, (uint32_t)spec->materials);
+    const double to_velocity = 1.0 / (scene->step.dt * scene->step.cells_per_metre);
+    NewParticle particle = {.mass = spec->material[slot].density * (float)random_in(random, 0.02, 0.5), .material = slot};
+    double F[9];
+    particles_append(p, &particle, row + 1);
+    (spec->deform ? spec->deform : near_identity)(random, p->dimension, F);
+    for (int a = 0; a < p->dimension; a++) {
+        p->cell[a][row] = cell[a];
+        p->fraction[a][row] = random_fraction(random);
+        p->velocity[a][row] = (float)(random_in(random, -spec->speed, spec->speed) * to_velocity);
+        for (int b = 0; b < p->dimension; b++) {
+            const int k = a * 3 + b;
+            p->affine[k][row] = (float)(random_in(random, -spec->gradient, spec->gradient) / scene->step.dt);
+            if (p->deformation[0]) p->deformation[k][row] = (float)F[k];
+        }
+    }
+    p->volume_ratio[row] = (float)random_in(random, spec->ratio_min, spec->ratio_max);
+}
+
+static void add_particles(Scene *scene, const SceneSpec *spec, uint32_t seed)
+{
+    Random random = {seed};
+    if (spec->anchor) add_particle(scene, spec, &random, spec->anchor);
+    for (uint32_t i = 0; i < spec->cells; i++) {
+        int32_t cell[3] = {0};
+        for (int a = 0; a < scene->step.dimension; a++)
+            cell[a] = spec->centre[a] + (int32_t)random_below(&random, (uint32_t)(2 * spec->spread + 1)) - spec->spread;
+        for (uint32_t n = 1 + random_below(&random, spec->most_per_cell); n > 0; n--) add_particle(scene, spec, &random, cell);
+    }
+}
+
+/* ---- Opening and closing ---- */
+
+static void add_materials(World *world, const SceneSpec *spec)
+{
+    for (int i = 0; i < spec->materials; i++) {
+        pbmpm_material_id id;
+        TEST_ASSERT_NULL(material_problem(&spec->material[i]));
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &spec->material[i], (uint32_t)i + 1, &id));
+        if (spec->material[i].kind == PBMPM_ELASTIC)
+            TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&world->particles, &world->memory));
+    }
+}
+
+Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
+{
+    pbmpm_world_def def = world_def_defaults();
+    Scene scene = {.kernels = kernels_for(isa, dimension)};
+    def.dimension = dimension;
+    def.cell_size = CELL_SIZE;
+    def.particle_capacity = spec->cells * spec->most_per_cell + 1;
+    def.thread_count = 1;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &scene.world));
+    if (spec->max_displacement > 0.0f) scene.world->settings.max_displacement = spec->max_displacement;
+    for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
+    add_materials(scene.world, spec);
+    scene.step = (RefStep){.dimension = dimension, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
+    add_particles(&scene, spec, seed);
+    scene_bind(&scene, spec->check_strain);
+    return scene;
+}
+
+void scene_close(Scene *scene)
+{
+    world_destroy(scene->world);
+    *scene = (Scene){0};
+}
+
+/* Nodes are what particles of these cells touch. */
+static void find_extent(Scene *scene)
+{
+    const Particles *p = &scene->world->particles;
+    for (int a = 0; a < p->dimension; a++) {
+        scene->low[a] = INT32_MAX;
+        scene->high[a] = INT32_MIN;
+        for (uint32_t i = 0; i < p->count; i++) {
+            if (p->cell[a][i] - 1 < scene->low[a]) scene->low[a] = p->cell[a][i] - 1;
+            if (p->cell[a][i] + 1 > scene->high[a]) scene->high[a] = p->cell[a][i] + 1;
+        }
+    }
+}
+
+void scene_bind(Scene *scene, bool check_strain)
+{
+    World *world = scene->world;
+    const bool with_volume = materials_want_volume(&world->materials);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
+    world->strain_unchecked = check_strain;
+    solver_bind(world, TIME_STEP, with_volume);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) /* as the test wants them, not as the solver tempers them */
+        if (world->materials.generation[slot]) materials_set(&world->materials, slot, &world->materials.def[slot]);
+    const KernelArgs *args = &world->args;
+    scene->step.dt = (double)args->dt;
+    scene->step.cells_per_metre = (double)args->cells_per_metre;
+    scene->step.max_displacement = (double)args->max_displacement;
+    scene->step.max_cell = args->max_cell;
+    scene->step.salt = args->salt;
+    scene->step.with_volume = with_volume;
+    for (int a = 0; a < 3; a++) scene->step.gravity[a] = (double)args->gravity[a];
+    find_extent(scene);
+}
+
+/* ---- Reading ---- */
+
+RefParticle scene_particle(const Scene *scene, uint32_t row)
+{
+    const Particles *p = &scene->world->particles;
+    RefParticle o = {.volume_ratio = (double)p->volume_ratio[row],
+                     .mass = (double)p->mass[row],
+                     .status = p->status[row],
+                     .identity = p->id[row].index,
+                     .material = scene->world->materials.kernel[p->material[row]]};
+    for (int a = 0; a < p->dimension; a++) {
+        o.cell[a] = p->cell[a][row];
+        o.fraction[a] = (double)p->fraction[a][row];
+        o.velocity[a] = (double)p->velocity[a][row];
+        for (int b = 0; b < p->dimension; b++) {
+            o.affine[a * 3 + b] = (double)p->affine[a * 3 + b][row];
+            if (p->deformation[0]) o.deformation[a * 3 + b] = (double)p->deformation[a * 3 + b][row];
+        }
+    }
+    return o;
+}
+
+RefParticle *scene_particles(const Scene *scene)
+{
+    const uint32_t count = scene->world->particles.count;
+    RefParticle *particles = malloc(count * sizeof *particles);
+    for (uint32_t row = 0; row < count; row++) particles[row] = scene_particle(scene, row);
+    return particles;
+}
+
+void scene_run_particles(Scene *scene, Kernel *kernel)
+{
+    const uint32_t mode = float_mode_enter();
+    kernel(&scene->world->args, 0, scene->world->grid.particle_blocks);
+    float_mode_leave(mode);
+}
+
+void scene_run_nodes(Scene *scene, Kernel *kernel)
+{
+    const uint32_t mode = float_mode_enter();
+    kernel(&scene->world->args, 0, scene->world->grid.node_blocks);
+    float_mode_leave(mode);
+}
+
+/* The node with local index i of a box of `axis` nodes per axis whose first node is `corner`. */
+static void node_at(const int32_t corner[3], int axis, int i, int32_t node[3])
+{
+    node[0] = corner[0] + i % axis;
+    node[1] = corner[1] + i / axis % axis;
+    node[2] = corner[2] + i / axis / axis;
+}
+
+/* The first node of a block, or of its tile: one below. */
+static void corner_of(const Scene *scene, int32_t block, int32_t below, int32_t corner[3])
+{
+    const Grid *grid = &scene->world->grid;
+    const int32_t *coordinate = (const int32_t *)grid->coordinate.data + 3 * block;
+    for (int a = 0; a < 3; a++) corner[a] = a < scene->step.dimension ? grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS - below : 0;
+}
+
+RefGrid scene_nodes(const Scene *scene)
+{
+    const KernelArgs *args = &scene->world->args;
+    const Grid *grid = &scene->world->grid;
+    RefGrid out = reference_grid(scene->step.dimension, scene->low, scene->high);
+    for (int32_t block = 0; block < grid->node_blocks; block++) {
+        int32_t corner[3], at[3];
+        corner_of(scene, block, 0, corner);
+        for (int i = 0; i < grid->block_cells; i++) {
+            const size_t index = (size_t)block * (size_t)grid->block_cells + (size_t)i;
+            const float *node = args->node + index * K_NODE_WIDTH;
+            node_at(corner, K_BLOCK_AXIS, i, at);
+            const int64_t to = reference_index(&out, at);
+            if (to < 0) {
+                check_true(node[0] == 0.0f && node[1] == 0.0f && node[2] == 0.0f && node[3] == 0.0f, "untouched node is 0", i);
+                continue;
+            }
+            out.node[to] = (RefNode){{(double)node[0], (double)node[1], (double)node[2]}, (double)node[3], 0.0};
+            if (args->node_volume) out.node[to].volume = (double)args->node_volume[index];
+        }
+    }
+    return out;
+}
+
+static void add_tile_node(RefNode *sum, RefNode *size, const float *values, double volume)
+{
+    for (int a = 0; a < 3; a++) {
+        sum->u[a] += (double)values[a];
+        size->u[a] += fabs((double)values[a]);
+    }
+    sum->mass += (double)values[3];
+    sum->volume += volume;
+    size->mass += fabs((double)values[3]);
+    size->volume += fabs(volume);
+}
+
+RefGrid scene_tiles(const Scene *scene, RefGrid *sizes)
+{
+    const KernelArgs *args = &scene->world->args;
+    const Grid *grid = &scene->world->grid;
+    const size_t floats = (size_t)grid->tile_nodes * K_NODE_WIDTH + K_TILE_PAD, scalars = (size_t)grid->tile_nodes + K_TILE_PAD;
+    RefGrid sum = reference_grid(scene->step.dimension, scene->low, scene->high);
+    *sizes = reference_grid(scene->step.dimension, scene->low, scene->high);
+    for (int32_t block = 0; block < grid->particle_blocks; block++) {
+        int32_t corner[3], at[3];
+        corner_of(scene, block, 1, corner);
+        for (int i = 0; i < grid->tile_nodes; i++) {
+            const float *values = args->tile + (size_t)block * floats + (size_t)i * K_NODE_WIDTH;
+            const double volume = args->tile_volume ? (double)args->tile_volume[(size_t)block * scalars + (size_t)i] : 0.0;
+            node_at(corner, K_TILE_AXIS, i, at);
+            const int64_t to = reference_index(&sum, at);
+            if (to >= 0)
+                add_tile_node(&sum.node[to], &sizes->node[to], values, volume);
+            else
+                check_true(values[0] == 0.0f && values[1] == 0.0f && values[2] == 0.0f && values[3] == 0.0f && volume == 0.0,
+                           "a tile is 0 where no particle reaches", i);
+        }
+    }
+    return sum;
+}

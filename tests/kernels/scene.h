@@ -1,0 +1,58 @@
+/* A world full of random particles, whose kernels run one by one. */
+#ifndef PBMPM_TESTS_SCENE_H
+#define PBMPM_TESTS_SCENE_H
+
+#include "random.h"
+#include "reference.h"
+#include "world.h"
+
+enum { SCENE_MATERIALS = 4 };
+
+/* Makes the deformation gradient of a particle. */
+typedef void MakeDeformation(Random *random, int dimension, double *F);
+
+typedef struct SceneSpec {
+    const char *name;
+    pbmpm_material_def material[SCENE_MATERIALS];
+    int materials;
+    uint32_t cells;         /* cells with particles; some are drawn twice */
+    uint32_t most_per_cell; /* each cell has 1 to this many */
+    int32_t centre[3], spread; /* cells are within `spread` of the centre */
+    const int32_t *anchor;  /* cell of one more particle, or null; the lowest cell of all is where blocks begin */
+    double speed;           /* displacements up to this many cells per substep and axis */
+    double gradient;        /* entries of the displacement gradient up to this */
+    double ratio_min, ratio_max; /* of J */
+    MakeDeformation *deform; /* null: the identity with entries up to 0.3 added */
+    float max_displacement; /* 0: the default */
+    bool check_strain;
+} SceneSpec;
+
+typedef struct Scene {
+    World *world;
+    const Kernels *kernels;
+    RefStep step;
+    int32_t low[3], high[3]; /* nodes that particles touch */
+} Scene;
+
+/* A liquid or elastic material with the defaults, in one line. */
+pbmpm_material_def scene_material(pbmpm_material_kind kind);
+
+/* `seed` chooses the particles; they do not depend on the instruction set. */
+Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed);
+void scene_close(Scene *scene);
+
+/* Sorts the particles and points the kernels' arguments at them; after any change of the particles. */
+void scene_bind(Scene *scene, bool check_strain);
+
+RefParticle scene_particle(const Scene *scene, uint32_t row);
+RefParticle *scene_particles(const Scene *scene); /* all; to be freed */
+
+void scene_run_particles(Scene *scene, Kernel *kernel);
+void scene_run_nodes(Scene *scene, Kernel *kernel);
+
+/* The nodes' values, as displacements and inverse mass (in `mass`), and volumes. */
+RefGrid scene_nodes(const Scene *scene);
+/* The sums over all tiles, and, unless null, the sums of sizes. */
+RefGrid scene_tiles(const Scene *scene, RefGrid *sizes);
+
+#endif

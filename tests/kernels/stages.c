@@ -1,0 +1,323 @@
+#include "stages.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "bounds.h"
+#include "check.h"
+#include "isas.h"
+#include "matrices.h"
+
+static const double NODE_MASS_MIN = 1e-20; /* below this a node counts as empty */
+
+/* A grid of sums with their bounds. */
+typedef struct Expected {
+    RefGrid grid;
+    BoundNode *bounds;
+} Expected;
+
+static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
+
+static Expected expected_open(const Scene *scene)
+{
+    Expected expected = {.grid = reference_grid(scene->step.dimension, scene->low, scene->high)};
+    expected.bounds = calloc(node_count(&expected.grid), sizeof *expected.bounds);
+    return expected;
+}
+
+static void expected_close(Expected *expected)
+{
+    reference_grid_free(&expected->grid);
+    free(expected->bounds);
+}
+
+static void expected_add(Expected *expected, const RefParticle *p, const double d[3], const double D[9], BoundParticle error)
+{
+    reference_scatter(&expected->grid, p, d, D);
+    bound_scatter(&expected->grid, expected->bounds, p, d, D, error);
+}
+
+static void check_tiles(const Scene *scene, const Expected *expected, bool with_mass)
+{
+    RefGrid sizes, sum = scene_tiles(scene, &sizes);
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const BoundNode *bound = &expected->bounds[i];
+        const RefNode *node = &expected->grid.node[i];
+        const double relative = (TRANSFER_ROUNDINGS + bound->terms) * UNIT_ROUNDOFF;
+        for (int a = 0; a < 3; a++) check_near(node->u[a], sum.node[i].u[a], bound_of_sum(bound, a), "momentum in tiles", (long)i);
+        if (!with_mass) continue;
+        check_near(node->mass, sum.node[i].mass, relative * node->mass + FLUSHED * 1e6 * bound->terms, "mass in tiles", (long)i);
+        if (scene->step.with_volume)
+            check_near(node->volume, sum.node[i].volume, relative * node->volume + FLUSHED * 1e6 * bound->terms, "volume in tiles",
+                       (long)i);
+    }
+    reference_grid_free(&sum);
+    reference_grid_free(&sizes);
+}
+
+/* ---- F ---- */
+
+/* F is compared entry by entry; its singular values, which never move farther than F does, also where the clamp is too
+ * sensitive for that. 1e-5 of the size is what the kernel's singular value decomposition may add. */
+static void check_deformation(const Scene *scene, const RefParticle *expected, const RefParticle *actual, const double *unlimited,
+                              double error, long index)
+{
+    const int n = scene->step.dimension;
+    const double size = matrix_norm(n, expected->deformation), own = 1e-5 * fmax(size, matrix_norm(n, unlimited));
+    const double gain = strain_limit_sensitivity(n, &expected->material, unlimited);
+    double u[9], v[9], s[3], t[3];
+    matrix_decompose(n, expected->deformation, u, s, v);
+    matrix_decompose(n, actual->deformation, u, t, v);
+    for (int a = 0; a < n; a++) check_near(s[a], t[a], error + own, "singular value of F", index);
+    if (gain * (error + own) > size) return;
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) {
+            const int k = r * 3 + c;
+            check_near(expected->deformation[k], actual->deformation[k], gain * (error + own), "F", index);
+        }
+}
+
+/* Where F is so close to the limit of its condition number that either answer is right. */
+static bool condition_is_unclear(int n, const KernelMaterial *material, const double *F, double error)
+{
+    double u[9], s[3], v[9];
+    const double limit = (double)material->condition_max;
+    if (limit == 0.0) return false;
+    matrix_decompose(n, F, u, s, v);
+    const double own = error + 1e-5 * matrix_norm(n, F);
+    return fabs(s[0] - limit * s[n - 1]) <= own * (1.0 + limit) || fabs(s[n - 1]) <= own;
+}
+
+/* ---- The kernels ---- */
+
+void stages_check_scatter(Scene *scene)
+{
+    const bool check_strain = scene->world->args.check_strain;
+    RefParticle *before = scene_particles(scene);
+    Expected expected = expected_open(scene);
+    scene_run_particles(scene, scene->kernels->scatter);
+    for (uint32_t i = 0; i < scene->world->particles.count; i++) {
+        const RefParticle after = scene_particle(scene, i);
+        RefParticle *p = &before[i];
+        double d[3], D[9];
+        if (after.status == K_NOT_FINITE) continue; /* see test_hard_cases.c */
+        reference_start(&scene->step, p, d, D);
+        expected_add(&expected, p, d, D, (BoundParticle){0});
+        if (!check_strain || p->material.kind != K_ELASTIC) continue;
+        const RefParticle unlimited = *p;
+        reference_limit_strain(scene->step.dimension, &p->material, p->deformation);
+        check_deformation(scene, p, &after, unlimited.deformation, 0.0, (long)i);
+    }
+    check_tiles(scene, &expected, true);
+    expected_close(&expected);
+    free(before);
+}
+
+/* A node sums at most 27 tiles. */
+static void check_predicted_node(const Scene *scene, const RefNode *sum, const RefNode *size, const RefNode *node, long index)
+{
+    const double sums = 27.0 * UNIT_ROUNDOFF;
+    check_near(sum->volume, node->volume, sums * size->volume, "volume of a node", index);
+    if (fabs(sum->mass - NODE_MASS_MIN) < 1e-3 * NODE_MASS_MIN) return;
+    if (sum->mass < NODE_MASS_MIN) {
+        check_true(node->mass == 0.0 && node->u[0] == 0.0 && node->u[1] == 0.0 && node->u[2] == 0.0, "a node without mass is 0", index);
+        return;
+    }
+    check_near(1.0 / sum->mass, node->mass, (sums + 4.0 * UNIT_ROUNDOFF) / sum->mass, "inverse mass of a node", index);
+    for (int a = 0; a < scene->step.dimension; a++) {
+        const double u = sum->u[a] / sum->mass, g = scene->step.gravity[a];
+        const double bound = (2.0 * sums + 8.0 * UNIT_ROUNDOFF) * (size->u[a] / sum->mass) + 2.0 * UNIT_ROUNDOFF * fabs(g) + FLUSHED / sum->mass;
+        check_near(u + g, node->u[a], bound, "predictor", index);
+    }
+}
+
+/* The largest displacement in each block, exactly. */
+static void check_reach(const Scene *scene)
+{
+    const KernelArgs *args = &scene->world->args;
+    const Grid *grid = &scene->world->grid;
+    for (int32_t block = 0; block < grid->node_blocks; block++) {
+        float reach = 0.0f;
+        for (int i = 0; i < grid->block_cells; i++)
+            for (int a = 0; a < 3; a++)
+                reach = fmaxf(reach, fabsf(args->node[((size_t)block * (size_t)grid->block_cells + (size_t)i) * K_NODE_WIDTH + (size_t)a]));
+        check_near((double)reach, (double)args->node_reach[block], 0.0, "reach of a block", block);
+    }
+}
+
+void stages_check_predict(Scene *scene)
+{
+    RefGrid sizes, sum = scene_tiles(scene, &sizes);
+    scene_run_nodes(scene, scene->kernels->predict_nodes);
+    RefGrid nodes = scene_nodes(scene);
+    for (size_t i = 0; i < node_count(&sum); i++)
+        check_predicted_node(scene, &sum.node[i], &sizes.node[i], &nodes.node[i], (long)i);
+    check_reach(scene);
+    reference_grid_free(&sum);
+    reference_grid_free(&sizes);
+    reference_grid_free(&nodes);
+}
+
+void stages_check_iterate(Scene *scene)
+{
+    const int n = scene->step.dimension;
+    RefGrid nodes = scene_nodes(scene);
+    Expected expected = expected_open(scene);
+    for (uint32_t i = 0; i < scene->world->particles.count; i++) {
+        const RefParticle p = scene_particle(scene, i);
+        BoundParticle error = bound_gather(&nodes, &p);
+        double d[3], D[9];
+        reference_gather(&nodes, &p, d, D);
+        error.D = bound_project(n, &p, D, error.D);
+        reference_project(n, &p, D);
+        expected_add(&expected, &p, d, D, error);
+    }
+    scene_run_particles(scene, scene->kernels->iterate);
+    check_tiles(scene, &expected, false);
+    expected_close(&expected);
+    reference_grid_free(&nodes);
+}
+
+void stages_check_update(Scene *scene)
+{
+    RefGrid sizes, sum = scene_tiles(scene, &sizes), before = scene_nodes(scene);
+    scene_run_nodes(scene, scene->kernels->update_nodes);
+    RefGrid after = scene_nodes(scene);
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double inverse = before.node[i].mass;
+        check_near(inverse, after.node[i].mass, 0.0, "inverse mass stays", (long)i);
+        for (int a = 0; a < 3; a++)
+            check_near(sum.node[i].u[a] * inverse, after.node[i].u[a], 28.0 * UNIT_ROUNDOFF * sizes.node[i].u[a] * inverse + FLUSHED,
+                       "displacement of a node", (long)i);
+    }
+    reference_grid_free(&sum);
+    reference_grid_free(&sizes);
+    reference_grid_free(&before);
+    reference_grid_free(&after);
+}
+
+static bool uses_volume(const Scene *scene, const RefParticle *p)
+{
+    return scene->step.with_volume && p->material.kind == K_LIQUID && p->material.volume_feedback > 0.0f;
+}
+
+/* Where a liquid particle is so close to counting as compressed or crowded that either answer is right. */
+static bool crowding_is_unclear(const Scene *scene, const RefGrid *nodes, const RefParticle *p)
+{
+    if (!uses_volume(scene, p)) return false;
+    const double held = reference_compression(nodes, p), own = 2.0 * TRANSFER_ROUNDINGS * UNIT_ROUNDOFF;
+    return fabs(held - REF_COMPRESSED) <= own || fabs(held - REF_CROWDED) <= own;
+}
+
+/* J: its error, and with feedback also that of the compression, of which J takes the inverse. */
+static void check_volume_ratio(const Scene *scene, const RefGrid *nodes, const RefParticle *before, const RefParticle *expected,
+                               const RefParticle *actual, double trace, double error, long index)
+{
+    const int n = scene->step.dimension;
+    double bound = before->volume_ratio * (n * error + 8.0 * UNIT_ROUNDOFF * (1.0 + fabs(trace)));
+    if (uses_volume(scene, before))
+        bound += (TRANSFER_ROUNDINGS + 8.0) * UNIT_ROUNDOFF * (2.0 / reference_compression(nodes, before) + fabs(expected->volume_ratio));
+    check_near(expected->volume_ratio, actual->volume_ratio, bound, "J", index);
+}
+
+static void check_elastic(const Scene *scene, const RefParticle *before, const RefParticle *expected, const RefParticle *actual,
+                          const double D[9], double error, long index)
+{
+    const int n = scene->step.dimension;
+    double unlimited[9] = {0};
+    const double F_error = bound_advance(n, before->deformation, D, error);
+    matrix_multiply(n, D, before->deformation, unlimited);
+    for (int k = 0; k < 9; k++) unlimited[k] += before->deformation[k];
+    check_deformation(scene, expected, actual, unlimited, F_error, index);
+    const double size = matrix_norm(n, actual->deformation);
+    check_near(matrix_determinant(n, actual->deformation), actual->volume_ratio, 8.0 * UNIT_ROUNDOFF * pow(size, n) + FLUSHED, "det F", index);
+    if (!condition_is_unclear(n, &before->material, unlimited, F_error))
+        check_true(expected->status == actual->status, "status", index);
+}
+
+static void check_moved(const Scene *scene, const RefParticle *before, const RefParticle *expected, const RefParticle *actual,
+                        const double D[9], BoundParticle error, long index)
+{
+    const RefStep *step = &scene->step;
+    const int n = step->dimension;
+    const double d_error = sqrt(n) * error.d + 8.0 * UNIT_ROUNDOFF * step->max_displacement; /* slowing down mixes the axes */
+    for (int a = 0; a < n; a++) {
+        const double travelled = (actual->cell[a] - before->cell[a]) + actual->fraction[a];
+        const double wanted = (expected->cell[a] - before->cell[a]) + expected->fraction[a];
+        const double bound = (fabs(wanted) <= 2.0 ? error.d * sqrt(n) : d_error) + 4.0 * UNIT_ROUNDOFF * (1.0 + fabs(wanted));
+        check_near(wanted, travelled, bound, "position", index);
+        check_true(fabs(actual->fraction[a]) <= 0.5 + UNIT_ROUNDOFF, "a particle is in its cell", index);
+        check_near(expected->velocity[a], actual->velocity[a],
+                   bound / (step->dt * step->cells_per_metre) + 4.0 * UNIT_ROUNDOFF * fabs(expected->velocity[a]), "velocity", index);
+        for (int c = 0; c < n; c++)
+            check_near(D[a * 3 + c] / step->dt, actual->affine[a * 3 + c],
+                       error.D / step->dt + 4.0 * UNIT_ROUNDOFF * fabs(D[a * 3 + c]) / step->dt, "affine velocity", index);
+    }
+}
+
+/* The counts per block agree with what happened to its particles. */
+static void check_counts(const Scene *scene, const RefParticle *before)
+{
+    const Grid *grid = &scene->world->grid;
+    const uint32_t *begin = grid->block_begin.data;
+    for (int32_t block = 0; block < grid->particle_blocks; block++) {
+        uint32_t moved = 0, lost = 0;
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const RefParticle p = scene_particle(scene, i);
+            moved += p.cell[0] != before[i].cell[0] || p.cell[1] != before[i].cell[1] || p.cell[2] != before[i].cell[2];
+            lost += p.status != K_ALIVE;
+        }
+        check_true(moved == scene->world->args.moved[block], "particles that left their cells", block);
+        check_true(lost == scene->world->args.lost[block], "particles that have to go", block);
+    }
+}
+
+void stages_check_integrate(Scene *scene)
+{
+    RefGrid nodes = scene_nodes(scene);
+    RefParticle *before = scene_particles(scene);
+    scene_run_particles(scene, scene->kernels->integrate);
+    for (uint32_t i = 0; i < scene->world->particles.count; i++) {
+        if (crowding_is_unclear(scene, &nodes, &before[i])) continue;
+        const RefParticle actual = scene_particle(scene, i);
+        const BoundParticle error = bound_gather(&nodes, &before[i]);
+        RefParticle expected = before[i];
+        double d[3], D[9];
+        reference_gather(&nodes, &before[i], d, D);
+        reference_integrate(&scene->step, &nodes, &expected);
+        if (expected.material.kind == K_LIQUID)
+            check_volume_ratio(scene, &nodes, &before[i], &expected, &actual, matrix_trace(scene->step.dimension, D), error.D, (long)i);
+        else
+            check_elastic(scene, &before[i], &expected, &actual, D, error.D, (long)i);
+        check_moved(scene, &before[i], &expected, &actual, D, error, (long)i);
+    }
+    check_counts(scene, before);
+    free(before);
+    reference_grid_free(&nodes);
+}
+
+void stages_check(Scene *scene)
+{
+    stages_check_scatter(scene);
+    stages_check_predict(scene);
+    for (int i = 0; i < 2; i++) {
+        stages_check_iterate(scene);
+        stages_check_update(scene);
+    }
+    stages_check_integrate(scene);
+}
+
+void stages_check_spec(const SceneSpec *spec, int seeds)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            check_subject(spec->name, isa, dimension);
+            for (int seed = 1; seed <= seeds; seed++) {
+                Scene scene = scene_open(spec, isa, dimension, (uint32_t)seed);
+                stages_check(&scene);
+                scene_close(&scene);
+            }
+        }
+    check_report(spec->name);
+}

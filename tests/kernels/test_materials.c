@@ -1,0 +1,160 @@
+/* The constraints of the materials over their parameters, up to strong deformation. */
+#include <math.h>
+#include <unity.h>
+
+#include "check.h"
+#include "isas.h"
+#include "matrices.h"
+#include "stages.h"
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static SceneSpec scene_of(const char *name, pbmpm_material_kind kind)
+{
+    return (SceneSpec){.name = name,
+                       .material = {scene_material(kind)},
+                       .materials = 1,
+                       .cells = 50,
+                       .most_per_cell = 10,
+                       .spread = 4,
+                       .speed = 0.3,
+                       .gradient = 0.2,
+                       .ratio_min = 0.7,
+                       .ratio_max = 1.2};
+}
+
+/* ---- Liquid ---- */
+
+static void test_viscosity(void)
+{
+    static const float viscosities[] = {0.01f, 0.5f, 1.0f};
+    for (int i = 0; i < 3; i++) {
+        SceneSpec spec = scene_of("viscosity", PBMPM_LIQUID);
+        spec.material[0].viscosity = viscosities[i];
+        spec.material[0].relaxation = 0.4f + 0.7f * (float)i;
+        stages_check_spec(&spec, 1);
+    }
+}
+
+/* From crushed to torn: J over all of its range, with a bound on the rebound that cuts in and one that does not. */
+static void test_liquid_at_all_densities(void)
+{
+    for (int i = 0; i < 2; i++) {
+        SceneSpec spec = scene_of("liquid at all densities", PBMPM_LIQUID);
+        spec.ratio_min = 0.05;
+        spec.ratio_max = 2.0;
+        spec.gradient = 0.8;
+        spec.material[0].rebound_max = i ? 10.0f : 0.3f;
+        stages_check_spec(&spec, 1);
+    }
+}
+
+/* Sparse, dense and crowded cells; feedback off, weak and full. */
+static void test_volume_feedback(void)
+{
+    static const float feedbacks[] = {0.0f, 0.1f, 1.0f};
+    for (int i = 0; i < 3; i++) {
+        SceneSpec spec = scene_of("volume feedback", PBMPM_LIQUID);
+        spec.material[0].volume_feedback = feedbacks[i];
+        spec.material[1] = scene_material(PBMPM_LIQUID);
+        spec.material[1].density = 20.0f;
+        spec.materials = 2;
+        spec.most_per_cell = 8;
+        stages_check_spec(&spec, 1);
+    }
+}
+
+/* ---- Elastic ---- */
+
+static void test_elasticity_ratio(void)
+{
+    static const float ratios[] = {0.0f, 0.5f, 1.0f};
+    for (int i = 0; i < 3; i++) {
+        SceneSpec spec = scene_of("elasticity ratio", PBMPM_ELASTIC);
+        spec.material[0].elasticity_ratio = ratios[i];
+        spec.material[0].relaxation = 0.5f + 0.6f * (float)i;
+        stages_check_spec(&spec, 2);
+    }
+}
+
+static void moderate(Random *random, int dimension, double *F)
+{
+    double s[3];
+    random_array(random, s, 3, 0.4, 2.5);
+    matrix_random_with_singular_values(random, dimension, s, F);
+}
+
+static void test_large_strain(void)
+{
+    static const float rebounds[] = {0.05f, 1.0f, 10.0f};
+    for (int i = 0; i < 3; i++) {
+        SceneSpec spec = scene_of("large strain", PBMPM_ELASTIC);
+        spec.deform = moderate;
+        spec.gradient = 0.4;
+        spec.material[0].elasticity_ratio = 0.7f;
+        spec.material[0].rebound_max = rebounds[i];
+        stages_check_spec(&spec, 1);
+    }
+}
+
+static void violent(Random *random, int dimension, double *F)
+{
+    double s[3];
+    for (int a = 0; a < 3; a++) s[a] = pow(10.0, random_in(random, -1.5, 1.5));
+    matrix_random_with_singular_values(random, dimension, s, F);
+}
+
+static void test_strain_is_clamped(void)
+{
+    SceneSpec spec = scene_of("strain is clamped", PBMPM_ELASTIC);
+    spec.deform = violent;
+    spec.gradient = 0.8;
+    spec.check_strain = true;
+    stages_check_spec(&spec, 1);
+}
+
+/* The range may be as narrow as the definition allows. */
+static void test_narrow_range_of_strain(void)
+{
+    SceneSpec spec = scene_of("narrow range of strain", PBMPM_ELASTIC);
+    spec.material[0].strain_min = 0.95f;
+    spec.material[0].strain_max = 1.05f;
+    spec.check_strain = true;
+    stages_check_spec(&spec, 1);
+}
+
+/* With the other policy strained particles are marked, and F is what it is. */
+static void test_strained_particles_are_marked(void)
+{
+    SceneSpec spec = scene_of("strained particles are marked", PBMPM_ELASTIC);
+    spec.deform = violent;
+    spec.material[0].strain_policy = PBMPM_STRAIN_DELETE;
+    spec.material[0].condition_max = 100.0f;
+    stages_check_spec(&spec, 1);
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            Scene scene = scene_open(&spec, isa, dimension, 3);
+            const uint32_t count = scene.world->particles.count;
+            uint32_t marked = 0;
+            stages_check(&scene);
+            for (uint32_t i = 0; i < count; i++) marked += scene_particle(&scene, i).status == K_CONDITION;
+            TEST_ASSERT_TRUE(marked > 0 && marked < count);
+            scene_close(&scene);
+        }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_viscosity);
+    RUN_TEST(test_liquid_at_all_densities);
+    RUN_TEST(test_volume_feedback);
+    RUN_TEST(test_elasticity_ratio);
+    RUN_TEST(test_large_strain);
+    RUN_TEST(test_strain_is_clamped);
+    RUN_TEST(test_narrow_range_of_strain);
+    RUN_TEST(test_strained_particles_are_marked);
+    return UNITY_END();
+}
