@@ -1,0 +1,9 @@
+"""Hard cases: scenes that break simulations, each with a measurable criterion.
+
+The catalogue is defined here once; tests and the command line run it.
+"""
+
+from .case import Check, HardCase, Outcome, Setting
+from .catalogue import CASES, find_case
+
+__all__ = ["CASES", "Check", "HardCase", "Outcome", "Setting", "find_case"]

@@ -1,0 +1,132 @@
+"""What a hard case is, and what running it gives."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+import pbmpm
+
+LIQUID = "liquid"
+ELASTIC = "elastic"
+
+
+@dataclass(frozen=True)
+class Setting:
+    """One way to run a case."""
+
+    material: str  #: LIQUID or ELASTIC
+    dimension: int  #: 2 or 3
+    variant: str  #: one of the case's variants
+    rate_hz: float  #: steps per second
+    iterations: int  #: per step
+    relaxation: float | None = None  #: of the material; None: the library's default
+    threads: int = 1  #: 0: one per core
+
+    @property
+    def dt(self) -> float:
+        """Length of a step [s]."""
+        return 1.0 / self.rate_hz
+
+    def parameters(self, **changes: Any) -> pbmpm.Liquid | pbmpm.Elastic:
+        """The material, with changes of its parameters."""
+        if self.relaxation is not None:
+            changes.setdefault("relaxation", self.relaxation)
+        return pbmpm.Liquid(**changes) if self.material == LIQUID else pbmpm.Elastic(**changes)
+
+    def __str__(self) -> str:
+        return f"{self.variant}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
+
+
+@dataclass(frozen=True)
+class Check:
+    """One figure beside its limit."""
+
+    name: str
+    figure: float
+    limit: float
+    at_least: bool = False  #: whether the limit is a lower one
+
+    @property
+    def passed(self) -> bool:
+        """False for figures that are not finite."""
+        if not math.isfinite(self.figure):
+            return False
+        return self.figure >= self.limit if self.at_least else self.figure <= self.limit
+
+    def __str__(self) -> str:
+        sign = ">=" if self.at_least else "<="
+        return f"{self.name}: {self.figure:.4g} ({'ok' if self.passed else 'FAILED'}, limit {sign} {self.limit:g})"
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What came of a run. `figure` and `limit` are those of the first check that failed, or else of the first check."""
+
+    case: str
+    setting: Setting
+    checks: tuple[Check, ...]
+    seconds: float  #: wall time
+    known_failure: str = ""  #: why the setting is known to fail
+
+    @property
+    def passed(self) -> bool:
+        return all(check.passed for check in self.checks)
+
+    @property
+    def telling(self) -> Check:
+        """The check that says most."""
+        return next((check for check in self.checks if not check.passed), self.checks[0])
+
+    @property
+    def figure(self) -> float:
+        return self.telling.figure
+
+    @property
+    def limit(self) -> float:
+        return self.telling.limit
+
+    @property
+    def description(self) -> str:
+        """All checks, one per line."""
+        return "\n".join(str(check) for check in self.checks)
+
+
+@dataclass(frozen=True)
+class HardCase:
+    """A scene with a criterion. `function` runs it at a setting and returns its checks, the most telling one first."""
+
+    id: str
+    title: str
+    origin: str  #: where the case comes from
+    criterion: str
+    function: Callable[[Setting], list[Check]]
+    materials: tuple[str, ...] = (LIQUID, ELASTIC)
+    dimensions: tuple[int, ...] = (2, 3)
+    variants: tuple[str, ...] = ("plain",)
+    rate_hz: float = 60.0
+    iterations: int = 5
+    #: Settings that do not pass and why: (material, dimension, variant) -> reason.
+    known_failures: dict[tuple[str, int, str], str] = field(default_factory=dict)
+
+    def settings(self, rate_hz: float | None = None, iterations: int | None = None) -> Iterator[Setting]:
+        """All settings of the case, at its own rate and iterations or at others."""
+        for material in self.materials:
+            for dimension in self.dimensions:
+                for variant in self.variants:
+                    yield Setting(material, dimension, variant, rate_hz or self.rate_hz, iterations or self.iterations)
+
+    def known_failure(self, setting: Setting) -> str:
+        """Why a setting is known to fail; empty when it should pass."""
+        return self.known_failures.get((setting.material, setting.dimension, setting.variant), "")
+
+    def run(self, setting: Setting) -> Outcome:
+        """Runs the case once."""
+        if setting.variant not in self.variants or setting.material not in self.materials:
+            raise ValueError(f"{self.id} has no variant '{setting.variant}' for {setting.material}")
+        start = time.perf_counter()
+        checks = tuple(self.function(setting))
+        return Outcome(self.id, setting, checks, time.perf_counter() - start, self.known_failure(setting))

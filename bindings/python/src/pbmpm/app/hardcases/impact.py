@@ -1,0 +1,191 @@
+"""Cases of violent contact: fast matter against walls, and obstacles that trap, cover or race through matter."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import pbmpm
+
+from .case import Check, HardCase, Setting
+from .volume import PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE
+from .watch import Watch, downwards, make_world, vector
+
+CELL = 0.1  # [m]
+#: Rounding of kinetic energy summed in single precision steps.
+ENERGY_ROUNDING = 1e-4
+
+# H08
+
+BALL_CELLS = 6  # diameter
+WALL_HALF_SIZE = 60  # cells
+IMPACT_SECONDS = 1.0
+IMPACTS = {f"{speed:g} cells/step, wall of {wall} cells": (speed, wall) for wall in (2, 1) for speed in (0.5, 1, 5, 50)}
+
+
+def hit_wall(setting: Setting) -> list[Check]:
+    """H08: a ball flies into a thin box. It may not be found behind it, nor gain energy."""
+    d = setting.dimension
+    cells_per_step, thickness = IMPACTS[setting.variant]
+    speed, thickness = cells_per_step * CELL / setting.dt, thickness * CELL
+    with make_world(setting, CELL, max_displacement=64.0) as world:
+        wall = pbmpm.Box(vector(d, 0.5 * thickness), vector(d, 0.5 * thickness, *[WALL_HALF_SIZE * CELL] * 2))
+        collider = world.add_collider(wall)
+        ball = pbmpm.Sphere(vector(d, -(0.5 * BALL_CELLS + 1.3) * CELL), 0.5 * BALL_CELLS * CELL)
+        world.fill(ball, world.add_material(setting.parameters()), velocity=vector(d, speed))
+        watch = Watch(world)
+        energy = 0.5 * float(world.masses.array().sum()) * speed**2
+        peak, through, inside = 0.0, 0, 0
+        for _ in range(round(IMPACT_SECONDS / setting.dt)):
+            peak = max(peak, watch.step(setting.dt).kinetic_energy / energy)
+            positions = world.positions.array()
+            opposite = (np.abs(positions[:, 1:]) < WALL_HALF_SIZE * CELL).all(axis=1)
+            through = max(through, int((opposite & (positions[:, 0] > 0.5 * thickness)).sum()))
+            inside = max(inside, len(collider.query()))
+        return [
+            Check("particles through the wall", through, 0),
+            Check("particles inside the wall", inside, 0),
+            Check("highest kinetic energy over the start's", peak, 1.0 + ENERGY_ROUNDING),
+            *watch.checks(),
+        ]
+
+
+# H16
+
+TANK = (6.4, 3.2, 0.8)  # [m]
+BLOCK = 0.8  # [m]
+OVERLAP = 1.0  # cells
+SETTLE_SECONDS = 1.5
+FAST_CELLS = 100.0  # cells per step
+FAST_STEPS = 20
+
+
+def _tank(setting: Setting) -> pbmpm.World:
+    return make_world(setting, CELL, gravity=True, size=list(TANK))
+
+
+def _recovered(world: pbmpm.World) -> float:
+    ratios = world.volume_ratios.array()
+    return float(((ratios > RECOVERED_RATIOS[0]) & (ratios < RECOVERED_RATIOS[1])).mean())
+
+
+def _free_speed() -> float:
+    """What matter of the tank may reach: the speed bound of the press (H03), with the fall from the tank's top."""
+    return 4.0 * PRESS_SPEED + float(np.sqrt(2.0 * -downwards(2)[1] * TANK[1]))
+
+
+def trap(setting: Setting) -> list[Check]:
+    """Two boxes close on a block until they overlap, stay, and vanish."""
+    d = setting.dimension
+    with _tank(setting) as world:
+        centre = vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2])
+        world.fill(pbmpm.Box(centre, [0.5 * BLOCK] * d), world.add_material(setting.parameters()))
+        watch, half = Watch(world), [1.0, TANK[1], TANK[1]][:d]
+        offset = 0.5 * BLOCK + half[0]
+        boxes = [
+            world.add_collider(pbmpm.Box([centre[0] + s * offset, *centre[1:]], half), kinematic=True) for s in (-1, 1)
+        ]
+        way, steps = 0.5 * (BLOCK + OVERLAP * CELL), round(1.0 / setting.dt)
+        for step in range(steps):
+            for box, side in zip(boxes, (-1, 1), strict=True):
+                box.move([centre[0] + side * (offset - way * (step + 1) / steps), *centre[1:]])
+            watch.step(setting.dt)
+        for box in boxes:
+            box.destroy()
+        watch.forget()
+        watch.run(10 * setting.dt, setting.dt)
+        fastest = watch.fastest
+        watch.run(SETTLE_SECONDS, setting.dt)
+        return [
+            Check("speed in the first 10 steps of release [m/s]", fastest, _free_speed()),
+            Check("share of particles with J in [0.8, 1.2]", _recovered(world), RECOVERED_SHARE, at_least=True),
+            *watch.checks(),
+        ]
+
+
+def _pool(world: pbmpm.World, setting: Setting) -> Watch:
+    half = [0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2]][: setting.dimension]
+    world.fill(pbmpm.Box(half, half), world.add_material(setting.parameters()))
+    return Watch(world)
+
+
+def cover(setting: Setting) -> list[Check]:
+    """A ball appears inside the matter: that leaves it without a burst."""
+    d = setting.dimension
+    with _tank(setting) as world:
+        watch = _pool(world, setting)
+        watch.run(0.5, setting.dt)
+        ball = world.add_collider(pbmpm.Sphere(vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2]), 2.5 * CELL))
+        watch.forget()
+        watch.run(1.0, setting.dt)
+        return [
+            Check("highest speed [m/s]", watch.fastest, _free_speed()),
+            Check("particles left inside", len(ball.query()), 0),
+            *watch.checks(),
+        ]
+
+
+def race(setting: Setting) -> list[Check]:
+    """A ball goes to and fro at 100 cells per step through the matter."""
+    d = setting.dimension
+    with _tank(setting) as world:
+        watch = _pool(world, setting)
+        place = vector(d, 0.0, 0.5 * BLOCK, 0.5 * TANK[2])
+        ball = world.add_collider(pbmpm.Sphere(place, 2.5 * CELL), kinematic=True)
+        for step in range(FAST_STEPS):
+            ball.move([(FAST_CELLS * CELL if step % 2 == 0 else 0.0), *place[1:]])
+            watch.step(setting.dt)
+        ball.destroy()
+        watch.run(SETTLE_SECONDS, setting.dt)
+        return watch.checks()
+
+
+def refuse(setting: Setting) -> list[Check]:
+    """Obstacles without size, turned inside out, or without direction are refused."""
+    d, accepted = setting.dimension, 0
+    shapes = (
+        pbmpm.Box([0.0] * d, [0.0] * d),
+        pbmpm.Box([0.0] * d, [-1.0] * d),
+        pbmpm.Sphere([0.0] * d, 0.0),
+        pbmpm.Sphere([0.0] * d, -1.0),
+        pbmpm.Capsule([0.0] * d, -1.0, 1.0),
+        pbmpm.Plane([0.0] * d, [0.0] * d),
+        pbmpm.Box([0.0] * d, [1.0] * d, rotation=(0.0, 0.0, 0.0, 0.0)),
+    )
+    with _tank(setting) as world:
+        watch = _pool(world, setting)
+        for shape in shapes:
+            try:
+                world.add_collider(shape)
+            except (pbmpm.PbmpmError, ValueError):
+                continue
+            accepted += 1
+        watch.step(setting.dt)
+        return [Check("impossible obstacles accepted", accepted, 0), *watch.checks()]
+
+
+OBSTACLES = {"trapped between boxes": trap, "ball appears": cover, "100 cells/step": race, "impossible shapes": refuse}
+
+
+def obstacles(setting: Setting) -> list[Check]:
+    """H16."""
+    return OBSTACLES[setting.variant](setting)
+
+
+CASES = (
+    HardCase(
+        "H08",
+        "Impact on thin walls at up to 50 cells per step",
+        "high-speed scenes of rigid-body engines and of incremental potential contact",
+        "nothing through or inside the wall, kinetic energy never above the start's",
+        hit_wall,
+        variants=tuple(IMPACTS),
+    ),
+    HardCase(
+        "H16",
+        "Obstacles that trap, appear, race, or cannot be",
+        "C. Lewin, A Position Based Material Point Method, 2024, section 1",
+        "finite, nothing lost or outside; no burst when released; impossible obstacles refused",
+        obstacles,
+        variants=tuple(OBSTACLES),
+    ),
+)

@@ -1,0 +1,185 @@
+"""Cases of impossible strain: deformation gradients that are random, flat, zero, reflected, tiny or huge."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+import pbmpm
+
+from .case import ELASTIC, Check, HardCase, Setting
+from .watch import Watch, make_world
+
+CELL = 0.05  # [m]
+
+# H05
+
+BLOCK_CELLS = {2: 8, 3: 4}
+SCRAMBLE_LIMIT = 2.0
+SCRAMBLE_SECONDS = 3.0
+SCRAMBLE_RESIDUAL = 0.05
+SCRAMBLE_LOST = 0.01  # share of particles
+SCRAMBLE_RANDOM = "random F"
+SCRAMBLE_MOVED = "permuted positions"
+
+
+def strain_residual(world: pbmpm.World) -> float:
+    """Root mean square over particles of |U V^T - F|, F = U S V^T: how far F is from its nearest rotation."""
+    deformations = world.deformations.array().astype(float)
+    u, _, vt = np.linalg.svd(deformations)
+    return float(np.sqrt(((u @ vt - deformations) ** 2).sum(axis=(1, 2)).mean()))
+
+
+def scrambled(variant: str, count: int, dimension: int) -> npt.NDArray[np.float64]:
+    """The deformation gradients of a variant, shape (count, d, d)."""
+    matrices = np.tile(np.eye(dimension), (count, 1, 1))
+    if variant == SCRAMBLE_RANDOM:
+        return np.random.default_rng(1).uniform(-SCRAMBLE_LIMIT, SCRAMBLE_LIMIT, matrices.shape)
+    if variant == "flat F":
+        matrices[:, -1, -1] = 0.0
+    elif variant == "reflected F":
+        matrices[:, 0, 0] = -1.0
+    elif variant == "zero F":
+        matrices[:] = 0.0
+    return matrices
+
+
+def scramble(setting: Setting) -> list[Check]:
+    """H05: a free elastic block whose state has nothing to do with its shape."""
+    d = setting.dimension
+    with make_world(setting, CELL) as world:
+        half = [0.5 * BLOCK_CELLS[d] * CELL] * d
+        world.fill(pbmpm.Box([0.3 * CELL] * d, half), world.add_material(setting.parameters()))
+        if setting.variant == SCRAMBLE_MOVED:
+            world.positions = np.random.default_rng(1).permutation(world.positions.copy())
+        else:
+            world.set(pbmpm.Field.DEFORMATION, scrambled(setting.variant, len(world), d))
+        watch = Watch(world)
+        stats = watch.run(SCRAMBLE_SECONDS, setting.dt)
+        return [
+            Check("rms of |U V^T - F|", strain_residual(world), SCRAMBLE_RESIDUAL),
+            Check("share of particles deleted", stats.deleted_total / watch.start_count, SCRAMBLE_LOST),
+            *watch.checks(),
+        ]
+
+
+# H06
+
+FAR_APART = 12  # cells: particles do not feel each other
+DEGENERATE_SECONDS = 2.0
+#: Of singular values at the bounds of a material, single precision with a Jacobi sweep in between.
+SINGULAR_ROUNDING = 1e-4
+LARGEST_ENTRY = 1e6  # that the library accepts
+
+
+def degenerate_matrices(dimension: int) -> npt.NDArray[np.float64]:
+    """What breaks careless decompositions: zero, equal and repeated singular values, reflections, rank 1, extreme sizes."""
+    identity, ones = np.eye(dimension), np.ones((dimension, dimension))
+    mirror, flat, turn = identity.copy(), identity.copy(), identity.copy()
+    mirror[0, 0], flat[0, 0] = -1.0, 0.0
+    turn[:2, :2] = [[0.0, -1.0], [1.0, 0.0]]
+    shear = identity.copy()
+    shear[0, 1] = 1e3
+    matrices = [
+        *(
+            0.0 * identity,
+            identity,
+            -identity,
+            3.0 * identity,
+            mirror,
+            flat,
+            mirror @ flat,
+            turn,
+            -turn,
+            ones,
+            -ones,
+            shear,
+        ),
+        *(
+            scale * matrix
+            for scale in (1e-30, 1e-38, 1e-45, LARGEST_ENTRY)
+            for matrix in (identity, mirror, turn, ones)
+        ),
+        np.diag([LARGEST_ENTRY, 1e-30, 1.0][:dimension]),
+    ]
+    return np.array(matrices)
+
+
+def _deletion_checks(
+    watch: Watch, ids: pbmpm.world.Ids, matrices: npt.NDArray[np.float64], setting: Setting
+) -> list[Check]:
+    """After two seconds no particle is reflected or flat, and those that began as rotations are alive."""
+    world = watch.world
+    watch.run(DEGENERATE_SECONDS, setting.dt)
+    alive = set(map(tuple, world.ids.array().tolist()))
+    is_rotation = [np.allclose(m @ m.T, np.eye(len(m))) and np.linalg.det(m) > 0 for m in matrices]
+    deleted = sum(rotation and tuple(key) not in alive for rotation, key in zip(is_rotation, ids.tolist(), strict=True))
+    wrong = np.linalg.det(world.deformations.array().astype(float)) <= 0
+    return [
+        Check("particles with det F <= 0 in the end", int(wrong.sum()), 0),
+        Check("rotations deleted", deleted, 0),
+    ]
+
+
+def degenerate(setting: Setting) -> list[Check]:
+    """H06: particles far from each other, each with a degenerate F, one step and then two seconds."""
+    d = setting.dimension
+    matrices = degenerate_matrices(d)
+    deletes = setting.variant == "delete"
+    policy = pbmpm.StrainPolicy.DELETE if deletes else pbmpm.StrainPolicy.CLAMP
+    parameters = setting.parameters(strain_policy=policy)
+    with make_world(setting, CELL) as world:
+        places = np.zeros((len(matrices), d))
+        places[:, 0] = FAR_APART * CELL * np.arange(len(matrices))
+        ids = world.add_particles(world.add_material(parameters), places)
+        world.set(pbmpm.Field.DEFORMATION, matrices, ids)
+        watch = Watch(world)
+        watch.step(setting.dt)
+        if deletes:
+            return [*_deletion_checks(watch, ids, matrices, setting), *watch.checks()]
+        singular = np.linalg.svd(world.deformations.array().astype(float), compute_uv=False)
+        watch.run(DEGENERATE_SECONDS, setting.dt)
+        return [
+            Check(
+                "largest singular value over strain_max",
+                singular.max() / parameters.strain_max,
+                1.0 + SINGULAR_ROUNDING,
+            ),
+            Check(
+                "smallest singular value over strain_min",
+                singular.min() / parameters.strain_min,
+                1.0 - SINGULAR_ROUNDING,
+                at_least=True,
+            ),
+            Check("rms of |U V^T - F| in the end", strain_residual(world), SCRAMBLE_RESIDUAL),
+            Check("particles deleted", world.stats.deleted_total, 0),
+            *watch.checks(),
+        ]
+
+
+_INCOMPATIBLE = (
+    "particles of one cell share one displacement gradient, so strains that differ between them cannot all be undone by "
+    "motion; only particles that have flown apart recover"
+)
+
+CASES = (
+    HardCase(
+        "H05",
+        "Elastic block with scrambled F or scrambled positions",
+        "random vertices and flattened bodies of vertex block descent; invertible finite elements (Irving et al. 2004)",
+        "finite, F is a rotation to 0.05 after 3 s, below 1 % of particles deleted",
+        scramble,
+        materials=(ELASTIC,),
+        variants=(SCRAMBLE_RANDOM, "flat F", "zero F", "reflected F", SCRAMBLE_MOVED),
+        known_failures={(ELASTIC, d, SCRAMBLE_RANDOM): _INCOMPATIBLE for d in (2, 3)},
+    ),
+    HardCase(
+        "H06",
+        "Degenerate singular values",
+        "reports of NaN from det F = 0 and atan2(0, 0) in released solvers",
+        "finite, within the material's bounds after one step and a rotation to 0.05 after 2 s; or deleted with an event",
+        degenerate,
+        materials=(ELASTIC,),
+        variants=("clamp", "delete"),
+    ),
+)

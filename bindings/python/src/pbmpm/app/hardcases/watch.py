@@ -1,0 +1,127 @@
+"""What holds in every hard case, whatever else it asks for: nothing becomes NaN, nothing is lost without an event, nothing
+leaves the domain, nothing is faster than the documented clamp."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import numpy.typing as npt
+
+import pbmpm
+
+from .case import Check, Setting
+
+GRAVITY = 9.81
+#: Rounding of a position in a view, relative to the size of the domain.
+POSITION_ROUNDING = 1e-6
+#: Rounding of a speed at the clamp.
+SPEED_ROUNDING = 1e-4
+
+
+def vector(dimension: int, *components: float) -> list[float]:
+    """The first components of a vector, one per axis; missing ones are 0."""
+    return [*components, 0.0, 0.0, 0.0][:dimension]
+
+
+def downwards(dimension: int) -> list[float]:
+    """Gravity along the second axis."""
+    return vector(dimension, 0.0, -GRAVITY)
+
+
+def make_world(
+    setting: Setting,
+    cell_size: float,
+    *,
+    capacity: int = 40_000,
+    gravity: bool = False,
+    size: list[float] | None = None,
+    max_displacement: float | None = None,
+) -> pbmpm.World:
+    """A world at a setting; with a size [m] it is a closed box without friction from 0 to there."""
+    dimension = setting.dimension
+    return pbmpm.World(
+        dimension,
+        cell_size,
+        capacity=capacity,
+        gravity=downwards(dimension) if gravity else None,
+        domain=None if size is None else ([0.0] * dimension, size[:dimension]),
+        iterations=setting.iterations,
+        max_displacement=max_displacement,
+        threads=setting.threads,
+    )
+
+
+class Watch:
+    """Steps a world and notes what must never happen."""
+
+    def __init__(self, world: pbmpm.World) -> None:
+        self.world = world
+        self.start_count = len(world)
+        self.not_finite = 0
+        self.outside = 0
+        self.clamp_ratio = 0.0
+        self.fastest = 0.0  #: highest speed since the last `forget()` [m/s]
+        self.longest = 0.0  #: highest displacement since then [cells]
+
+    def forget(self) -> None:
+        """Begins anew with the highest speed."""
+        self.fastest = self.longest = 0.0
+
+    def step(self, dt: float) -> pbmpm.Stats:
+        """One step, looked at."""
+        world = self.world
+        world.step(dt)
+        stats = world.stats
+        positions, velocities = world.positions.array(), world.velocities.array()
+        finite = np.isfinite(positions).all(axis=1) & np.isfinite(velocities).all(axis=1)
+        self.not_finite += int((~finite).sum()) + (not math.isfinite(stats.kinetic_energy))
+        self.outside += self._count_outside(positions)
+        clamp = world.max_displacement * world.cell_size * world.substeps / dt
+        self.clamp_ratio = max(self.clamp_ratio, stats.max_speed / clamp)
+        self.fastest = max(self.fastest, stats.max_speed)
+        self.longest = max(self.longest, stats.max_displacement)
+        return stats
+
+    def run(self, seconds: float, dt: float) -> pbmpm.Stats:
+        """Equal steps over some time."""
+        for _ in range(max(1, round(seconds / dt))):
+            stats = self.step(dt)
+        return stats
+
+    def _count_outside(self, positions: npt.NDArray[np.float32]) -> int:
+        domain = self.world.domain
+        if domain is None:
+            return 0
+        low, high = np.array(domain[0]), np.array(domain[1])
+        slack = POSITION_ROUNDING * np.abs(np.stack([low, high])).max()
+        return int(((positions < low - slack) | (positions > high + slack)).any(axis=1).sum())
+
+    def checks(self) -> list[Check]:
+        """The universal checks. Deletions are reported by the library's own count."""
+        world = self.world
+        lost = self.start_count - len(world) - world.stats.deleted_total
+        return [
+            Check("values that are not finite", self.not_finite, 0),
+            Check("particles lost without an event", abs(lost), 0),
+            Check("particles outside the domain", self.outside, 0),
+            Check("highest speed over the clamp", self.clamp_ratio, 1.0 + SPEED_ROUNDING),
+        ]
+
+
+def total_energy(stats: pbmpm.Stats) -> float:
+    """Kinetic and potential energy [J]."""
+    return stats.kinetic_energy + stats.potential_energy
+
+
+def potential_energy(world: pbmpm.World) -> float:
+    """Energy in gravity of a world at rest, relative to its origin [J]."""
+    positions = world.positions.array().astype(float)
+    weights = world.masses.array().astype(float)
+    return -float(weights @ (positions @ np.array(world.gravity)))
+
+
+def occupied_share(world: pbmpm.World, cells: int) -> float:
+    """Number of cells with particles, over the number that the matter fills at rest."""
+    places = np.floor(world.positions.array() / world.cell_size).astype(int)
+    return len(np.unique(places, axis=0)) / cells
