@@ -176,8 +176,11 @@ static void node_position(const ContactFrame *frame, int32_t block, int node, do
         point[a] = a < frame->grid->dimension ? (double)(frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS + local[a]) * frame->cell_size : 0.0;
 }
 
-/* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and a
- * cell for what the iterations add. */
+/* What the iterations may add to the way of a node [cells]. */
+static const double WAY_MARGIN = 1.0;
+
+/* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and
+ * the margin. */
 static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t block, const double centre[3])
 {
     float surface[3];
@@ -185,7 +188,7 @@ static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t blo
     double motion = 0.0;
     for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
     const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
-    return fmin(node, frame->max_displacement) + motion + 1.0;
+    return fmin(node, frame->max_displacement) + motion + WAY_MARGIN;
 }
 
 static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
@@ -196,6 +199,28 @@ static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const do
     for (int a = 0; a < 3; a++) contact.normal[a] = (float)normal[a];
     surface_displacement(o, point, frame->cell_size, frame->max_displacement, contact.surface);
     return contact;
+}
+
+/* Whether the way of a node, as predicted, passes the obstacle at more than the margin: then it needs no contact, which would
+ * brake it although nothing is in its way. All solids are convex, so along the way the distance is a convex function, and
+ * lies above its tangents at both ends. */
+static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], double distance,
+                       const double normal[3])
+{
+    float surface[3];
+    double end[3] = {0}, end_normal[3], leaving = 0.0, arriving = 0.0;
+    if (distance <= WAY_MARGIN) return false;
+    surface_displacement(o, point, frame->cell_size, frame->max_displacement, surface);
+    for (int a = 0; a < frame->grid->dimension; a++) end[a] = point[a] + ((double)u[a] - surface[a]) * frame->cell_size;
+    const double end_distance = solid_distance(&o->start, end, end_normal) / frame->cell_size;
+    for (int a = 0; a < frame->grid->dimension; a++) {
+        leaving += ((double)u[a] - surface[a]) * normal[a];
+        arriving += ((double)u[a] - surface[a]) * end_normal[a];
+    }
+    if (end_distance <= WAY_MARGIN) return false;
+    if (leaving >= 0.0 || arriving <= 0.0) return true; /* nearest at one of the ends */
+    const double crossing = (end_distance - arriving - distance) / (leaving - arriving);
+    return distance + crossing * leaving > WAY_MARGIN;
 }
 
 /* Contacts of one obstacle with one block's nodes; writes them if `out` is not null, and returns their number. */
@@ -209,7 +234,7 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
         double point[3], normal[3];
         node_position(frame, block, i, point);
         const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
-        if (distance > reach) continue;
+        if (distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
         count++;
     }
@@ -322,14 +347,14 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
     if (depth <= 0.0) return;
     if (!o->wall) depth = fmin(depth, 1.0);
     float surface[3];
-    double place[3], inward = 0.0;
+    double way[3], inward = 0.0;
     surface_displacement(o, point, frame->cell_size, frame->max_displacement, surface);
     const double to_velocity = frame->cell_size / (double)dt;
     for (int a = 0; a < p->dimension; a++) {
-        place[a] = particles_coordinate(p, row, a) + depth * normal[a];
+        way[a] = depth * normal[a];
         inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
     }
-    particles_set_position(p, row, place);
+    particles_shift(p, row, way);
     for (int a = 0; a < p->dimension && inward < 0.0; a++) p->velocity[a][row] -= (float)(inward * normal[a]);
 }
 

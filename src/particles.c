@@ -91,18 +91,27 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
     return PBMPM_OK;
 }
 
+/* Sets one coordinate to `cell` + `place`. */
+static void set_coordinate(Particles *p, uint32_t row, int axis, int32_t cell, double place)
+{
+    double node = floor(place + 0.5);
+    float fraction = (float)(place - node);
+    if (fraction >= 0.5f) { /* rounding can reach the far end of [-1/2, 1/2) */
+        fraction -= 1.0f;
+        node += 1.0;
+    }
+    p->cell[axis][row] = cell + (int32_t)node;
+    p->fraction[axis][row] = fraction;
+}
+
 void particles_set_position(Particles *p, uint32_t row, const double position[3])
 {
-    for (int a = 0; a < p->dimension; a++) {
-        double node = floor(position[a] + 0.5);
-        float fraction = (float)(position[a] - node);
-        if (fraction >= 0.5f) { /* rounding can reach the far end of [-1/2, 1/2) */
-            fraction -= 1.0f;
-            node += 1.0;
-        }
-        p->cell[a][row] = (int32_t)node;
-        p->fraction[a][row] = fraction;
-    }
+    for (int a = 0; a < p->dimension; a++) set_coordinate(p, row, a, 0, position[a]);
+}
+
+void particles_shift(Particles *p, uint32_t row, const double way[3])
+{
+    for (int a = 0; a < p->dimension; a++) set_coordinate(p, row, a, p->cell[a][row], (double)p->fraction[a][row] + way[a]);
 }
 
 double particles_coordinate(const Particles *p, uint32_t row, int axis)

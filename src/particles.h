@@ -74,6 +74,8 @@ bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row);
 
 /* Sets the cell and fraction from a position in cells. */
 void particles_set_position(Particles *p, uint32_t row, const double position[3]);
+/* Moves a particle by a few cells: rounds like a number of that size, wherever the particle is. */
+void particles_shift(Particles *p, uint32_t row, const double way[3]);
 double particles_coordinate(const Particles *p, uint32_t row, int axis); /* in cells */
 
 /* d floats [m] per particle, and kilograms, for views; valid until the particles change. They are written into the spares,

@@ -40,11 +40,14 @@ static double gravity_head(const World *world)
  * what the whole column weighs, so b is bounded by p/K with p/rho = 3 |g| H: that carries the column and the impact of what
  * fell from its top, and crushed liquid leaves with at most sqrt(2 p / rho), at any rate and number of iterations.
  * K/rho = w N dx^2 / (4 d dt^2). */
+static const double WEIGHTLESS_REBOUND = 0.3; /* without gravity nothing brings spray back, so crushed matter grows slowly */
+
 static float liquid_rebound(const World *world, const pbmpm_material_def *def, float relaxation, float dt, double head)
 {
     const double cells = (double)dt / (double)world->def.cell_size;
     const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
-    return head > 0.0 ? (float)fmin((double)def->rebound_max, 3.0 * head / stiffness) : def->rebound_max;
+    const double needed = head > 0.0 ? 3.0 * head / stiffness : WEIGHTLESS_REBOUND;
+    return (float)fmin((double)def->rebound_max, needed);
 }
 
 /* ---- Parameters of the substep ---- */
