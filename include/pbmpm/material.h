@@ -49,7 +49,8 @@ typedef struct pbmpm_material_def {
     float rebound_max;          /**< largest strain that the constraint asks for at once (liquid: per substep; elastic: per
                                      iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
                                      this rate instead of exploding. Under gravity a liquid's bound is lower where that
-                                     suffices: it presses with at most 3 * density * |g| * height of the matter. */
+                                     suffices (it presses with at most 3 * density * |g| * height of the matter), and without
+                                     gravity at most 0.3. */
 } pbmpm_material_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -263,7 +263,8 @@ namespace Pbmpm
         /// <summary>largest strain that the constraint asks for at once (liquid: per substep; elastic: per
         /// iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
         /// this rate instead of exploding. Under gravity a liquid's bound is lower where that
-        /// suffices: it presses with at most 3 * density * |g| * height of the matter.</summary>
+        /// suffices (it presses with at most 3 * density * |g| * height of the matter), and without
+        /// gravity at most 0.3.</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>
