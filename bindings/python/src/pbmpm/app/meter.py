@@ -59,7 +59,9 @@ class Meter:
             "cpu_seconds_timed": self.cpu_seconds,
             "ms_per_simulated_second": self.ms_per_simulated_second(dt),
             "million_particle_iterations_per_second": self.work / self.seconds / 1e6 if timed else None,
-            "million_particle_iterations_per_cpu_second": self.work / self.cpu_seconds / 1e6 if self.cpu_seconds else None,
+            "million_particle_iterations_per_cpu_second": self.work / self.cpu_seconds / 1e6
+            if self.cpu_seconds
+            else None,
             "million_particle_iterations_per_second_in_iterate": self.work / iterate / 1e3 if iterate > 0 else None,
             "ms_per_step": 1e3 * self.seconds / self.steps_timed if timed else None,
             "ms_per_step_by_phase": {name: total / self.steps_timed for name, total in self.phase_ms.items()}

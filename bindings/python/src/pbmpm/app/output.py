@@ -1,4 +1,4 @@
-"""Particle files: PLY and VTK sequences with an index for ParaView and a JSON sidecar (NAME_run.json) that explains them.
+"""Particle files: PLY and VTK sequences with an index for ParaView, and a JSON sidecar (NAME_run.json) about them.
 
 Each file appears under its name only when it is complete. The sidecar is written when the run starts and again after
 every frame, so that it always lists exactly the files that are there and says how the run ended.

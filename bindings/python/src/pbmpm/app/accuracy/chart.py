@@ -53,9 +53,13 @@ def _dam_break(figure: Figure, report: dict[str, Any]) -> None:
 
 
 def _column(figure: Figure, report: dict[str, Any]) -> None:
-    left, right = figure.subplots(1, 2)
-    _error_panel(left, report, "height_error", "settled height error (lines: law)", law="height_error_law")
-    _error_panel(right, report, "volume_error_rms", "volume error RMS (lines: law)", law="volume_error_law")
+    axes = figure.subplots(2, 2)
+    for row, (name, key) in enumerate((("settled height error", "height_error"), ("volume error RMS", "volume_error"))):
+        with_feedback = "volume_error_rms" if key == "volume_error" else key
+        _error_panel(axes[row, 0], report, with_feedback, f"{name} (lines: law)", law=f"{key}_law")
+        _error_panel(
+            axes[row, 1], report, f"{key}_without_feedback", f"{name}, without volume feedback", law=f"{key}_law"
+        )
 
 
 def _error_panel(

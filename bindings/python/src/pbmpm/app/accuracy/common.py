@@ -9,7 +9,7 @@ import numpy as np
 import pbmpm
 
 from ..meter import Meter
-from ..scene import FORMAT_NAME, FORMAT_VERSION, Scene, parse_scene
+from ..scene import FORMAT_NAME, FORMAT_VERSION, LiquidPart, Scene, parse_scene
 from ..simulation import RunSettings, Simulation
 from . import laws
 from .stability import StabilityJudge
@@ -17,6 +17,7 @@ from .stability import StabilityJudge
 GRAVITY = 9.81
 PARTICLES_PER_AXIS = 2.0
 WATER = "water"
+DEFAULT_FEEDBACK: float = LiquidPart.model_fields["volume_feedback"].default
 
 
 def water_scene(
@@ -27,6 +28,7 @@ def water_scene(
     body: tuple[float, float],
     seconds: float,
     iterations: int,
+    volume_feedback: float = DEFAULT_FEEDBACK,
 ) -> Scene:
     """Water at rest in the lower left corner of a closed 2D box without friction; sizes are width and height [m]."""
     half = [0.5 * body[0], 0.5 * body[1]]
@@ -43,7 +45,7 @@ def water_scene(
             "seconds": seconds,
             "rate_hz": 240.0,
             "iterations": iterations,
-            "materials": {WATER: {"kind": "liquid"}},
+            "materials": {WATER: {"kind": "liquid", "volume_feedback": volume_feedback}},
             "fills": [
                 {
                     "shape": {"kind": "box", "position": half, "half_extents": half},

@@ -78,8 +78,10 @@ TABLES = {
         ("N", "iterations", "{:d}", 1),
         ("ms/s", "ms_per_simulated_second", "{:.1f}", 1),
         ("height %", "height_error", "{:+.2f}", 100),
+        ("no feedb.", "height_error_without_feedback", "{:+.2f}", 100),
         ("law %", "height_error_law", "{:+.2f}", 100),
         ("volume %", "volume_error_rms", "{:.2f}", 100),
+        ("no feedb.", "volume_error_without_feedback", "{:.2f}", 100),
         ("law %", "volume_error_law", "{:.2f}", 100),
     ],
 }
