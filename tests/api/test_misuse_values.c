@@ -159,6 +159,14 @@ static pbmpm_result use_changed_material(const void *structure)
     return result;
 }
 
+static void test_unknown_kinds_of_material_are_unsupported(void)
+{
+    pbmpm_material_def def = default_material((pbmpm_material_kind)7);
+    pbmpm_material_id material;
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_material_create(good.world, &def, &material));
+    snapshot_expect_same(&before, good.world, "unknown kind");
+}
+
 static void test_materials(void)
 {
     static const rule rules[] = {
@@ -341,6 +349,7 @@ int main(void)
     RUN_TEST(test_half_given_callbacks);
     RUN_TEST(test_settings);
     RUN_TEST(test_lengths_of_step);
+    RUN_TEST(test_unknown_kinds_of_material_are_unsupported);
     RUN_TEST(test_materials);
     RUN_TEST(test_shapes);
     RUN_TEST(test_shapes_of_fills);
