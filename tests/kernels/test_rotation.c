@@ -311,7 +311,7 @@ static void test_nan_and_infinity_come_back(void)
  * others happen to be sorted next to it. */
 static void test_results_do_not_depend_on_the_gang(void)
 {
-    static MakeMatrix *const makers[] = {make_uniform, make_near_identity, make_stretched, make_reflected, make_singular};
+    static MakeMatrix *const makers[] = {make_uniform, make_stretched, make_reflected, make_singular};
     static Batch batch, moved;
     for (int d = 2; d <= 3; d++)
         EACH_ISA(isa)
@@ -321,7 +321,7 @@ static void test_results_do_not_depend_on_the_gang(void)
             batch = (Batch){.dimension = d};
             while (batch.count < BATCH - 16) {
                 double f[9];
-                makers[random_below(&random, 5)](&random, d, f);
+                (random_below(&random, 8) ? make_near_identity : makers[random_below(&random, 4)])(&random, d, f);
                 add_matrix(&batch, f);
             }
             moved = batch;

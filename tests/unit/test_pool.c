@@ -1,0 +1,221 @@
+/* The pool: every item is worked on once, whoever does it. */
+#include <pthread.h>
+#include <stdatomic.h>
+#include <string.h>
+#include <unity.h>
+#include <xmmintrin.h>
+
+#include "books.h"
+#include "pool.h"
+#include "random.h"
+
+void setUp(void) {}
+void tearDown(void) {}
+
+enum { ITEMS = 3000 };
+
+typedef struct Work {
+    atomic_int visits[ITEMS];
+    atomic_int ranges;
+    atomic_uint modes; /* of floating point, of all threads */
+    int32_t largest_allowed;
+    atomic_bool too_large;
+} Work;
+
+static void visit(void *context, int32_t begin, int32_t end)
+{
+    Work *work = context;
+    for (int32_t i = begin; i < end; i++) atomic_fetch_add(&work->visits[i], 1);
+    atomic_fetch_add(&work->ranges, 1);
+    atomic_fetch_or(&work->modes, _mm_getcsr() & ~0x3fu); /* without the sticky flags */
+    if (end - begin > work->largest_allowed) atomic_store(&work->too_large, true);
+}
+
+static void check_loop(Pool *pool, Work *work, int32_t count, int32_t grain, int32_t largest_allowed)
+{
+    memset(work, 0, sizeof *work);
+    work->largest_allowed = largest_allowed;
+    pool_for(pool, count, grain, visit, work);
+    for (int32_t i = 0; i < ITEMS; i++)
+        if (atomic_load(&work->visits[i]) != (i < count)) TEST_FAIL_MESSAGE("an item was left out or done twice");
+    TEST_ASSERT_FALSE(atomic_load(&work->too_large));
+}
+
+static Pool *open_pool(Memory *memory, int threads, const pbmpm_task_hooks *hooks)
+{
+    static const pbmpm_task_hooks none = {0};
+    Pool *pool;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(memory, threads, hooks ? hooks : &none, &pool));
+    TEST_ASSERT_EQUAL_INT(threads, pool_thread_count(pool));
+    return pool;
+}
+
+/* Many rounds of all sizes, more threads than cores too. */
+static void test_every_item_once(void)
+{
+    static const int threads[] = {1, 2, 3, 8};
+    static Work work;
+    for (int k = 0; k < 4; k++) {
+        Books books;
+        Memory memory = books_memory(&books, 0);
+        Pool *pool = open_pool(&memory, threads[k], NULL);
+        Random random = {(uint64_t)k};
+        for (int round = 0; round < 400; round++) {
+            const int32_t count = (int32_t)random_below(&random, ITEMS + 1), grain = 1 + (int32_t)random_below(&random, 64);
+            check_loop(pool, &work, count, grain, threads[k] == 1 ? ITEMS : grain);
+        }
+        pool_destroy(&memory, pool, true);
+        books_expect_closed(&books, &memory);
+    }
+}
+
+static void test_nothing_to_do(void)
+{
+    static Work work;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, 3, NULL);
+    check_loop(pool, &work, 0, 4, 0);
+    TEST_ASSERT_EQUAL_INT(0, atomic_load(&work.ranges));
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+typedef struct Callers {
+    pthread_t self;
+    atomic_int others;
+} Callers;
+
+static void note_caller(void *context, int32_t begin, int32_t end)
+{
+    Callers *callers = context;
+    (void)begin;
+    (void)end;
+    if (!pthread_equal(callers->self, pthread_self())) atomic_fetch_add(&callers->others, 1);
+}
+
+static void test_serial_mode_stays_on_the_caller(void)
+{
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, 4, NULL);
+    Callers callers = {.self = pthread_self()};
+    pool_set_serial(pool, true);
+    for (int round = 0; round < 100; round++) pool_for(pool, 1000, 1, note_caller, &callers);
+    TEST_ASSERT_EQUAL_INT(0, atomic_load(&callers.others));
+    pool_set_serial(pool, false);
+    for (int round = 0; round < 1000 && atomic_load(&callers.others) == 0; round++) pool_for(pool, 1000, 1, note_caller, &callers);
+    TEST_ASSERT_TRUE(atomic_load(&callers.others) > 0);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+/* Denormals flushed, rounding to nearest, exceptions masked, on every thread; the caller's mode comes back. */
+static void test_floating_point_mode_of_parallel_loops(void)
+{
+    enum { WANTED = 0x9fc0, ODD = 0x7f80 }; /* rounding to zero */
+    static Work work;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, 4, NULL);
+    const unsigned before = _mm_getcsr();
+    for (int round = 0; round < 50; round++) {
+        _mm_setcsr(ODD);
+        memset(&work, 0, sizeof work);
+        work.largest_allowed = ITEMS;
+        pool_for(pool, ITEMS, 10, visit, &work);
+        const unsigned after = _mm_getcsr() & ~0x3fu;
+        _mm_setcsr(before);
+        TEST_ASSERT_EQUAL_HEX32(WANTED, atomic_load(&work.modes));
+        TEST_ASSERT_EQUAL_HEX32(ODD, after);
+    }
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+/* ---- Hooks of the host ---- */
+
+typedef struct Host {
+    int enqueued, finished, tasks;
+    int32_t count;
+    bool backwards;
+} Host;
+
+/* Runs the tasks at once, in either order: any order is allowed. */
+static void *enqueue(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    Host *host = user;
+    host->enqueued++;
+    host->count = count;
+    for (int32_t i = 0; i < count; i++) {
+        task(host->backwards ? count - 1 - i : i, context);
+        host->tasks++;
+    }
+    return host;
+}
+
+static void finish(void *handle, void *user)
+{
+    Host *host = user;
+    TEST_ASSERT_EQUAL_PTR(host, handle);
+    host->finished++;
+}
+
+static void test_hooks_do_the_work(void)
+{
+    static Work work;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Host host = {0};
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){enqueue, finish, &host});
+    for (int round = 0; round < 100; round++) {
+        host.backwards = round % 2;
+        check_loop(pool, &work, 10 + round * 29, 3, 3);
+        TEST_ASSERT_EQUAL_INT(5, host.count);
+    }
+    TEST_ASSERT_EQUAL_INT(100, host.enqueued);
+    TEST_ASSERT_EQUAL_INT(100, host.finished);
+    TEST_ASSERT_EQUAL_INT(500, host.tasks);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+/* ---- Failure ---- */
+
+static void test_no_memory_for_a_pool(void)
+{
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = (Pool *)&books;
+    books.fail_at = 1;
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, pool_create(&memory, 4, &(pbmpm_task_hooks){0}, &pool));
+    TEST_ASSERT_NULL(pool);
+    pool_destroy(&memory, pool, true); /* nothing to destroy */
+    books_expect_closed(&books, &memory);
+}
+
+static void test_pools_come_and_go(void)
+{
+    static Work work;
+    for (int i = 0; i < 100; i++) {
+        Books books;
+        Memory memory = books_memory(&books, 0);
+        Pool *pool = open_pool(&memory, 1 + i % 5, NULL);
+        if (i % 3) check_loop(pool, &work, ITEMS, 50, i % 5 ? 50 : ITEMS);
+        pool_destroy(&memory, pool, true);
+        books_expect_closed(&books, &memory);
+    }
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_every_item_once);
+    RUN_TEST(test_nothing_to_do);
+    RUN_TEST(test_serial_mode_stays_on_the_caller);
+    RUN_TEST(test_floating_point_mode_of_parallel_loops);
+    RUN_TEST(test_hooks_do_the_work);
+    RUN_TEST(test_no_memory_for_a_pool);
+    RUN_TEST(test_pools_come_and_go);
+    return UNITY_END();
+}
