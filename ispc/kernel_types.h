@@ -48,7 +48,8 @@ struct KernelMaterial {
     float strain_min;
     float strain_max;
     float condition_max; /* 0: clamp the strain instead of deleting */
-    float rebound_max;
+    float rebound_max;  /* elastic: strain per iteration; liquid: strain per substep */
+    float pressure_max; /* liquid: bound of the pressure, as a multiple of the stiffness */
     float inverse_density;
 };
 #endif

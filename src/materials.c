@@ -50,7 +50,7 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .strain_min = def->strain_min,
         .strain_max = def->strain_max,
         .condition_max = def->strain_policy == PBMPM_STRAIN_DELETE ? def->condition_max : 0.0f,
-        .rebound_max = def->rebound_max,
+        .rebound_max = def->rebound_max, /* of a liquid: set anew for each substep, see solver.c */
         .inverse_density = 1.0f / def->density,
     };
 }

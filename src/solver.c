@@ -1,5 +1,6 @@
 #include "solver.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -36,18 +37,14 @@ static double gravity_head(const World *world)
     return fmax(stands, sqrt(strength) * pow(world->liquid_volume, 1.0 / d));
 }
 
-/* A liquid of stiffness K that asks for the strain b presses with K b. Under gravity no more is ever needed than a few times
- * what the whole column weighs, so b is bounded by p/K with p/rho = 3 |g| H: that carries the column and the impact of what
- * fell from its top, and crushed liquid leaves with at most sqrt(2 p / rho), at any rate and number of iterations.
- * K/rho = w N dx^2 / (4 d dt^2). */
-static const double WEIGHTLESS_REBOUND = 0.3; /* without gravity nothing brings spray back, so crushed matter grows slowly */
-
-static float liquid_rebound(const World *world, const pbmpm_material_def *def, float relaxation, float dt, double head)
+/* Under gravity no more pressure is ever needed than a few times what the whole column weighs: p/rho = 5 |g| H carries it, and
+ * the impact of what fell from its top; crushed liquid leaves with about sqrt(2 p / rho) at most, at any rate and number of
+ * iterations. As a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
+static double pressure_bound(const World *world, float relaxation, float dt, double head)
 {
     const double cells = (double)dt / (double)world->def.cell_size;
     const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
-    const double needed = head > 0.0 ? 3.0 * head / stiffness : WEIGHTLESS_REBOUND;
-    return (float)fmin((double)def->rebound_max, needed);
+    return 5.0 * head / stiffness;
 }
 
 /* ---- Parameters of the substep ---- */
@@ -63,6 +60,9 @@ static float softening(World *world, float dt)
     return (float)(ratio * ratio);
 }
 
+/* Without gravity nothing brings spray back, so crushed matter grows slowly. */
+static const float WEIGHTLESS_REBOUND = 0.3f;
+
 static void set_materials(World *world, float dt)
 {
     if (world->liquid_volume < 0.0) world->liquid_volume = measure_liquid(world);
@@ -73,7 +73,10 @@ static void set_materials(World *world, float dt)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation * soft;
-        if (material->kind == K_LIQUID) material->rebound_max = liquid_rebound(world, def, material->relaxation, dt, head);
+        if (material->kind != K_LIQUID) continue;
+        const bool weightless = head == 0.0;
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
+        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material->relaxation, dt, head);
     }
 }
 

@@ -46,11 +46,9 @@ typedef struct pbmpm_material_def {
     float strain_min;           /**< elastic: lower bound of the singular values of F, in [1e-3, 1]; default 0.1 */
     float strain_max;           /**< elastic: upper bound, in [1, 1e4]; default 20 */
     float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
-    float rebound_max;          /**< largest strain that the constraint asks for at once (liquid: per substep; elastic: per
-                                     iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
-                                     this rate instead of exploding. Under gravity a liquid's bound is lower where that
-                                     suffices (it presses with at most 3 * density * |g| * height of the matter), and without
-                                     gravity at most 0.3. */
+    float rebound_max;          /**< elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
+                                     Matter that was crushed to nothing grows back at this rate instead of exploding. (A
+                                     liquid presses with at most 5 * density * |g| * height of the matter to the same end.) */
 } pbmpm_material_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -1,7 +1,7 @@
 /* The fields of the structures that C and ISPC share, in order; read by both languages. */
 #define KERNEL_MATERIAL_FIELDS(FIELD)                                                                                          \
     FIELD(kind) FIELD(relaxation) FIELD(viscosity) FIELD(volume_feedback) FIELD(elasticity_ratio) FIELD(strain_min)           \
-    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(inverse_density)
+    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(pressure_max) FIELD(inverse_density)
 
 #define KERNEL_ARGS_FIELDS(FIELD)                                                                                             \
     FIELD(fraction) FIELD(cell) FIELD(velocity) FIELD(affine) FIELD(volume_ratio) FIELD(mass) FIELD(deformation)      \

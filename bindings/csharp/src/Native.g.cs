@@ -260,11 +260,9 @@ namespace Pbmpm
         public float StrainMax;
         /// <summary>elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6</summary>
         public float ConditionMax;
-        /// <summary>largest strain that the constraint asks for at once (liquid: per substep; elastic: per
-        /// iteration), in (0, 10]; default 1. Matter that was crushed to nothing grows back at
-        /// this rate instead of exploding. Under gravity a liquid's bound is lower where that
-        /// suffices (it presses with at most 3 * density * |g| * height of the matter), and without
-        /// gravity at most 0.3.</summary>
+        /// <summary>elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
+        /// Matter that was crushed to nothing grows back at this rate instead of exploding. (A
+        /// liquid presses with at most 5 * density * |g| * height of the matter to the same end.)</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>

@@ -38,14 +38,12 @@ class Liquid:
             of iterations * viscosity * cell_size^2 / (8 * substep length).
         volume_feedback: share per substep by which the volume ratio follows the volume measured on the grid where
             that shows compression, in [0, 1].
-        rebound_max: bound of the strain that a correction may add per iteration, in (0, 10].
     """
 
     density: float = _default("density")
     relaxation: float = _default("relaxation")
     viscosity: float = _default("viscosity")
     volume_feedback: float = _default("volume_feedback")
-    rebound_max: float = _default("rebound_max")
 
 
 @dataclass(frozen=True)
@@ -60,7 +58,8 @@ class Elastic:
         strain_min: lower bound of the singular values of F, in [1e-3, 1].
         strain_max: upper bound, in [1, 1e4].
         condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
-        rebound_max: bound of the strain that a correction may add per iteration, in (0, 10].
+        rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]: how fast crushed matter grows
+            back.
     """
 
     density: float = _default("density")

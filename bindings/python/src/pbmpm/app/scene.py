@@ -43,7 +43,6 @@ class LiquidPart(_Part):
     relaxation: Annotated[float, Field(gt=0, lt=2)] = 1.5
     viscosity: Share = 0.0
     volume_feedback: Share = 0.1
-    rebound_max: Annotated[float, Field(gt=0, le=10)] = 0.3
 
 
 class ElasticPart(_Part):
@@ -57,7 +56,7 @@ class ElasticPart(_Part):
     strain_min: Annotated[float, Field(ge=1e-3, le=1)] = 0.1
     strain_max: Annotated[float, Field(ge=1, le=1e4)] = 20.0
     condition_max: Annotated[float, Field(ge=10, le=1e6)] = 1e6
-    rebound_max: Annotated[float, Field(gt=0, le=10)] = 0.3
+    rebound_max: Annotated[float, Field(gt=0, le=10)] = 1.0
 
 
 MaterialPart = Annotated[LiquidPart | ElasticPart, Field(discriminator="kind")]
