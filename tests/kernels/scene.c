@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -85,7 +86,7 @@ static void add_materials(World *world, const SceneSpec *spec)
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
 {
     pbmpm_world_def def = world_def_defaults();
-    Scene scene = {.kernels = kernels_for(isa, dimension)};
+    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = spec->pressure_max > 0.0f ? spec->pressure_max : FLT_MAX};
     def.dimension = dimension;
     def.cell_size = CELL_SIZE;
     def.particle_capacity = spec->cells * spec->most_per_cell + 1;
@@ -104,6 +105,17 @@ void scene_close(Scene *scene)
 {
     world_destroy(scene->world);
     *scene = (Scene){0};
+}
+
+/* Parameters as the test wants them, not as the solver tempers them for a substep. */
+static void set_materials(Scene *scene)
+{
+    Materials *materials = &scene->world->materials;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (!materials->generation[slot]) continue;
+        materials_set(materials, slot, &materials->def[slot]);
+        materials->kernel[slot].pressure_max = scene->pressure_max;
+    }
 }
 
 /* Nodes are what particles of these cells touch. */
@@ -127,8 +139,7 @@ void scene_bind(Scene *scene, bool check_strain)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
     world->strain_unchecked = check_strain;
     solver_bind(world, TIME_STEP, with_volume);
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) /* as the test wants them, not as the solver tempers them */
-        if (world->materials.generation[slot]) materials_set(&world->materials, slot, &world->materials.def[slot]);
+    set_materials(scene);
     const KernelArgs *args = &world->args;
     scene->step.dt = (double)args->dt;
     scene->step.cells_per_metre = (double)args->cells_per_metre;

@@ -24,12 +24,14 @@ typedef struct SceneSpec {
     double ratio_min, ratio_max; /* of J */
     MakeDeformation *deform; /* null: the identity with entries up to 0.3 added */
     float max_displacement; /* 0: the default */
+    float pressure_max;     /* of liquids, see KernelMaterial; 0: none */
     bool check_strain;
 } SceneSpec;
 
 typedef struct Scene {
     World *world;
     const Kernels *kernels;
+    float pressure_max;
     RefStep step;
     int32_t low[3], high[3]; /* nodes that particles touch */
 } Scene;

@@ -37,15 +37,16 @@ static void test_viscosity(void)
     }
 }
 
-/* From crushed to torn: J over all of its range, with a bound on the rebound that cuts in and one that does not. */
+/* From crushed to torn: J over all of its range, with bounds on rebound and pressure that cut in and with none that does. */
 static void test_liquid_at_all_densities(void)
 {
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         SceneSpec spec = scene_of("liquid at all densities", PBMPM_LIQUID);
         spec.ratio_min = 0.05;
         spec.ratio_max = 2.0;
         spec.gradient = 0.8;
-        spec.material[0].rebound_max = i ? 10.0f : 0.3f;
+        spec.material[0].rebound_max = i == 1 ? 0.3f : 10.0f;
+        spec.pressure_max = i == 2 ? 0.8f : 0.0f;
         stages_check_spec(&spec, 1);
     }
 }
