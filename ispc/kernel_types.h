@@ -20,7 +20,7 @@ typedef int32 int32_t;
 
 #define K_BLOCK_AXIS 4  /* cells (and nodes) per block and axis */
 #define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
-#define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass or its inverse */
+#define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass */
 #define K_MAX_GANG 16   /* particle arrays are padded by this many valid elements */
 #define K_TILE_PAD 8    /* floats behind each tile that a full-width add may touch */
 
@@ -78,7 +78,7 @@ struct KernelArgs {
     /* Grid. */
     K_PTR(float) tile;        /* per particle block: what its particles add to the nodes they touch */
     K_PTR(float) tile_volume; /* the same for rest volume, one float per node; null when no material asks for it */
-    K_PTR(float) node;        /* per node block: displacement and inverse mass */
+    K_PTR(float) node;        /* per node block: displacement and mass */
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
     K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */

@@ -257,7 +257,8 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
             const Obstacle *o = &colliders->obstacle[i];
             const double reach = reach_of(frame, o, block, centre);
             if (solid_distance(&o->start, centre, normal) / frame->cell_size > reach + half_diagonal) continue;
-            Contact *out = job->write ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
+            const bool listed = job->write && colliders->contact.data;
+            Contact *out = listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
             if (job->write) ((uint16_t *)colliders->near.data)[near_begin[block] + near] = (uint16_t)i;
             contacts += contacts_with(frame, o, block, reach, out);
             near++;

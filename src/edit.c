@@ -42,14 +42,19 @@ static pbmpm_result no_room(World *world, uint64_t wanted)
 
 static pbmpm_result check_particles(const World *world, const pbmpm_particles_def *def)
 {
-    const int d = world->def.dimension;
     if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "particles.size is unknown: use pbmpm_particles_def_init()");
     if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "particles.material is not of this world");
     if (def->count && !def->positions) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.positions is null");
     if (!def->volumes && !in_range(def->volume, 0.0, 1e27)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be in [0, 1e27]");
-    const double cell = world_cell_volume(world);
-    if (!def->volumes && def->volume > 0.0f && !in_range(def->volume / cell, 1e-6, 1e6))
+    if (!def->volumes && def->volume > 0.0f && !in_range(def->volume / world_cell_volume(world), 1e-6, 1e6))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be between 1e-6 and 1e6 cells");
+    return PBMPM_OK;
+}
+
+static pbmpm_result check_values(const World *world, const pbmpm_particles_def *def)
+{
+    const int d = world->def.dimension;
+    const double cell = world_cell_volume(world);
     for (uint32_t i = 0; i < def->count; i++) {
         if (!position_is_valid(world, def->positions + (size_t)i * d))
             return fail(PBMPM_ERROR_INVALID_ARGUMENT, "position of particle %u is not finite or outside the domain", i);
@@ -63,10 +68,12 @@ static pbmpm_result check_particles(const World *world, const pbmpm_particles_de
 
 pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t generation, pbmpm_particle_id *ids)
 {
-    const pbmpm_result checked = check_particles(world, def);
-    if (checked != PBMPM_OK) return checked;
     Particles *p = &world->particles;
-    if (def->count > p->capacity - p->count) return no_room(world, def->count);
+    pbmpm_result checked = check_particles(world, def);
+    if (checked != PBMPM_OK) return checked;
+    if (def->count > p->capacity - p->count) return no_room(world, def->count); /* before the arrays are read */
+    checked = check_values(world, def);
+    if (checked != PBMPM_OK) return checked;
     const int d = world->def.dimension;
     const double dx = (double)world->def.cell_size, cell = world_cell_volume(world);
     const double usual = def->volume > 0.0f ? def->volume / cell : d == 3 ? 0.125 : 0.25; /* [cells] */
