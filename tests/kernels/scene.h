@@ -52,7 +52,7 @@ RefParticle *scene_particles(const Scene *scene); /* all; to be freed */
 void scene_run_particles(Scene *scene, Kernel *kernel);
 void scene_run_nodes(Scene *scene, Kernel *kernel);
 
-/* The nodes' values, as displacements and inverse mass (in `mass`), and volumes. */
+/* The nodes' displacements, masses and volumes. */
 RefGrid scene_nodes(const Scene *scene);
 /* The sums over all tiles, and, unless null, the sums of sizes. */
 RefGrid scene_tiles(const Scene *scene, RefGrid *sizes);

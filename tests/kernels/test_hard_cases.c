@@ -78,6 +78,7 @@ static void check_finite(const Scene *scene)
 {
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
+        if (p.status == K_NOT_FINITE) continue; /* it has to go */
         double sum = p.mass + p.volume_ratio;
         for (int a = 0; a < 3; a++) sum += p.fraction[a] + p.velocity[a];
         for (int k = 0; k < 9; k++) sum += p.affine[k] + p.deformation[k];
