@@ -29,7 +29,7 @@ typedef struct Batch {
 
 /* The largest errors seen. */
 typedef struct Worst {
-    double orthonormal, determinant, trace, reproduced, factors;
+    double orthonormal, determinant, trace, skew, reproduced, factors;
 } Worst;
 
 static void run_batch(Batch *batch, pbmpm_isa isa)
@@ -63,8 +63,9 @@ static double check_rotation(int d, const float *values, const char *what, long 
     return worst;
 }
 
-/* tr(r^T f) reaches its maximum, the sum of the signed singular values. */
-static double check_maximal(int d, const double *f, const float *values, const double s[3], long index)
+/* tr(r^T f) reaches its maximum, the sum of the signed singular values; and r^T f is symmetric: no turn makes it larger.
+ * The trace alone would let pass a rotation that is off by the root of the tolerance. */
+static double check_maximal(int d, const double *f, const float *values, const double s[3], long index, double *skew)
 {
     double r[9], rt[9], product[9];
     widen(values, r, 9);
@@ -72,6 +73,11 @@ static double check_maximal(int d, const double *f, const float *values, const d
     matrix_multiply(d, rt, f, product);
     const double norm = matrix_norm(d, f), expected = s[0] + s[1] + s[2];
     check_near(expected, matrix_trace(d, product), TOLERANCE * norm, "tr(R^T F)", index);
+    for (int a = 0; a < d; a++)
+        for (int b = 0; b < a; b++) {
+            check_near(product[a * 3 + b], product[b * 3 + a], TOLERANCE * norm, "symmetry of R^T F", index);
+            *skew = fmax(*skew, norm > 0.0 ? fabs(product[a * 3 + b] - product[b * 3 + a]) / norm : 0.0);
+        }
     return norm > 0.0 ? fabs(expected - matrix_trace(d, product)) / norm : 0.0;
 }
 
@@ -107,7 +113,7 @@ static void check_batch(Batch *batch, pbmpm_isa isa, Worst *worst)
         worst->orthonormal = fmax(worst->orthonormal, check_rotation(d, batch->rotation + 9 * i, "R", i, &worst->determinant));
         worst->factors = fmax(worst->factors, check_rotation(d, batch->u + 9 * i, "U", i, &worst->determinant));
         worst->factors = fmax(worst->factors, check_rotation(d, batch->v + 9 * i, "V", i, &worst->determinant));
-        worst->trace = fmax(worst->trace, check_maximal(d, f, batch->rotation + 9 * i, s, i));
+        worst->trace = fmax(worst->trace, check_maximal(d, f, batch->rotation + 9 * i, s, i, &worst->skew));
         worst->reproduced = fmax(worst->reproduced, check_reproduced(d, f, batch->u + 9 * i, batch->s + 3 * i, batch->v + 9 * i, s, i));
     }
 }
@@ -196,8 +202,8 @@ static void check_random(const char *label, MakeMatrix *make)
             }
         }
     }
-    printf("%-14s R^T R - I %.1e, det - 1 %.1e, tr(R^T F) %.1e, U and V %.1e, U S V^T %.1e\n", label, worst.orthonormal,
-           worst.determinant, worst.trace, worst.factors, worst.reproduced);
+    printf("%-14s R^T R - I %.1e, det - 1 %.1e, tr(R^T F) %.1e, its skew part %.1e, U and V %.1e, U S V^T %.1e\n", label, worst.orthonormal,
+           worst.determinant, worst.trace, worst.skew, worst.factors, worst.reproduced);
 }
 
 static void test_uniform_matrices(void) { check_random("uniform", make_uniform); }
