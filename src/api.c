@@ -126,11 +126,8 @@ pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size)
     INIT(settings, size, defaults);
 }
 
-pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *world)
+static pbmpm_result create_world(const pbmpm_world_def *def, pbmpm_world_id *world)
 {
-    REQUIRE(world);
-    *world = (pbmpm_world_id){0, 0};
-    REQUIRE_SIZE(def);
     const char *problem = world_def_problem(def);
     if (problem) return invalid(problem);
     World *created;
@@ -138,6 +135,17 @@ pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *worl
     if (result != PBMPM_OK) return result;
     result = registry_add(created, world);
     if (result != PBMPM_OK) world_destroy(created);
+    return result;
+}
+
+pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *world)
+{
+    REQUIRE(world);
+    *world = (pbmpm_world_id){0, 0};
+    REQUIRE_SIZE(def);
+    const uint32_t float_mode = float_mode_enter();
+    const pbmpm_result result = create_world(def, world);
+    float_mode_leave(float_mode);
     return result;
 }
 
@@ -168,17 +176,17 @@ pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *sett
 pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings)
 {
     REQUIRE_SIZE(settings);
-    const char *problem = settings_problem(settings);
-    if (problem) return invalid(problem);
     HOLD(world);
+    const char *problem = settings_problem(settings, w->def.dimension);
+    if (problem) LET_GO(invalid(problem));
     w->settings = *settings;
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
 {
-    if (!(dt > 0.0f && dt <= 10.0f)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "dt must be in (0, 10] seconds");
     HOLD(world);
+    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
     LET_GO(world_step(w, dt));
 }
 
@@ -211,12 +219,17 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     REQUIRE(material);
     *material = (pbmpm_material_id){0, 0};
     REQUIRE_SIZE(def);
-    const char *problem = material_problem(def);
-    if (problem) return invalid(problem);
     HOLD(world);
-    pbmpm_result result = PBMPM_OK;
-    if (def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
-    if (result == PBMPM_OK) result = materials_add(&w->materials, def, registry_next_generation(), material);
+    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC)
+        LET_GO(fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version"));
+    const char *problem = material_problem(def);
+    if (problem) LET_GO(invalid(problem));
+    pbmpm_result result = materials_add(&w->materials, def, registry_next_generation(), material);
+    if (result == PBMPM_OK && def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
+    if (result == PBMPM_ERROR_OUT_OF_MEMORY) {
+        w->materials.generation[material->index] = 0;
+        *material = (pbmpm_material_id){0, 0};
+    }
     LET_GO(result);
 }
 
@@ -234,9 +247,9 @@ pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material
 pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
 {
     REQUIRE_SIZE(def);
-    const char *problem = material_problem(def);
-    if (problem) return invalid(problem);
     HOLD(world);
+    const char *problem = material_problem(def);
+    if (problem) LET_GO(invalid(problem));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     const pbmpm_material_def *old = &w->materials.def[material.index];
     if (old->kind != def->kind || old->density != def->density)

@@ -72,6 +72,7 @@ void collider_place(Collider *collider, const float position[3], const float *ro
     pbmpm_shape *shape = &collider->def.shape;
     memmove(collider->target_position, position, sizeof collider->target_position);
     memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
+    normalise_quaternion(collider->target_rotation); /* so that poses between two are evenly spaced */
     collider->moving = !at_once;
     if (!at_once) return;
     memcpy(shape->position, collider->target_position, sizeof shape->position);

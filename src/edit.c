@@ -94,6 +94,9 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
 
 /* ---- Filling shapes ---- */
 
+/* A box of points may hold a shape that fills little of it; beyond this a fill is a mistake. */
+static const double LATTICE_LIMIT = 4.0 * PBMPM_MAX_PARTICLES;
+
 /* A lattice centred on the shape, so that a symmetric shape gets a symmetric filling. Lengths in metres. */
 typedef struct Lattice {
     Solid solid;
@@ -112,7 +115,7 @@ static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice 
     for (int a = 0; a < world->def.dimension; a++) {
         const double size = fmax(1.0, floor((high[a] - low[a]) / lattice->spacing + 0.5));
         points *= size;
-        if (points > 1e10) return false;
+        if (points > LATTICE_LIMIT) return false;
         lattice->size[a] = (uint32_t)size;
         lattice->first[a] = 0.5 * (low[a] + high[a]) - 0.5 * (size - 1.0) * lattice->spacing;
     }
@@ -192,7 +195,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     if (checked != PBMPM_OK) return checked;
     Lattice lattice;
     if (!make_lattice(world, def, &lattice))
-        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 1e10 lattice points");
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points");
     const uint64_t count = walk_lattice(world, &lattice, def, 0);
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);

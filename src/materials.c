@@ -22,7 +22,7 @@ pbmpm_material_def material_defaults(void)
 const char *material_problem(const pbmpm_material_def *def)
 {
     if (def->size != sizeof *def) return "material.size is unknown: fill the definition with pbmpm_material_def_init()";
-    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC) return "material.kind is unknown";
+    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC) return "material.kind is not known to this version";
     if (!in_range(def->density, 1e-3, 1e6)) return "material.density must be in [1e-3, 1e6]";
     if (!(def->relaxation > 0.0f && def->relaxation < 2.0f)) return "material.relaxation must be in (0, 2)";
     if (!in_range(def->viscosity, 0.0, 1.0)) return "material.viscosity must be in [0, 1]";

@@ -6,7 +6,11 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-static inline bool in_range(double value, double low, double high) { return value >= low && value <= high; }
+/* The limits are rounded to floats, as the values were: 0.01f is in [0.01, 100]. */
+static inline bool in_range(double value, double low, double high)
+{
+    return value >= (double)(float)low && value <= (double)(float)high;
+}
 
 static inline bool all_in_range(const float *values, size_t count, double low, double high)
 {

@@ -52,6 +52,12 @@ const char *shape_problem(const pbmpm_shape *shape, int dimension)
     return geometry_problem(shape, dimension);
 }
 
+void normalise_quaternion(float q[4])
+{
+    const double length = quaternion_length(q);
+    for (int a = 0; a < 4; a++) q[a] = (float)(q[a] / length);
+}
+
 void rotation_from_quaternion(const float q[4], double r[9])
 {
     const double n = 1.0 / quaternion_length(q);

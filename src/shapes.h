@@ -24,6 +24,7 @@ const char *shape_problem(const pbmpm_shape *shape, int dimension);
 
 Solid solid_of(const pbmpm_shape *shape, int dimension);
 void rotation_from_quaternion(const float q[4], double r[9]);
+void normalise_quaternion(float q[4]);
 
 /* Distance of a point from the surface, negative inside, and the outward unit normal of the nearest surface point. In
  * 2D the third component is neither read nor written to anything but 0. */

@@ -49,13 +49,13 @@ const char *world_def_problem(const pbmpm_world_def *def)
     return def->domain_enabled ? domain_problem(def) : NULL;
 }
 
-const char *settings_problem(const pbmpm_settings *settings)
+const char *settings_problem(const pbmpm_settings *settings, int dimension)
 {
     if (settings->size != sizeof *settings) return "settings.size is unknown: fill the settings with pbmpm_settings_init()";
     if (settings->substeps < 1 || settings->substeps > PBMPM_MAX_SUBSTEPS) return "settings.substeps must be in [1, 256]";
     if (settings->iterations < 1 || settings->iterations > PBMPM_MAX_ITERATIONS)
         return "settings.iterations must be in [1, 1000]";
-    if (!all_in_range(settings->gravity, 3, -1e9, 1e9)) return "settings.gravity must be in [-1e9, 1e9]";
+    if (!all_in_range(settings->gravity, (size_t)dimension, -1e9, 1e9)) return "settings.gravity must be in [-1e9, 1e9]";
     if (!in_range(settings->max_displacement, 0.1, PBMPM_MAX_CELLS_PER_SUBSTEP))
         return "settings.max_displacement must be in [0.1, 64]";
     return NULL;

@@ -53,7 +53,7 @@ pbmpm_settings settings_defaults(void);
 
 /* Null if valid, else what is wrong. */
 const char *world_def_problem(const pbmpm_world_def *def);
-const char *settings_problem(const pbmpm_settings *settings);
+const char *settings_problem(const pbmpm_settings *settings, int dimension);
 
 /* The definition is valid. */
 pbmpm_result world_create(const pbmpm_world_def *def, World **world);
