@@ -7,15 +7,15 @@ import numpy as np
 import pbmpm
 
 from .case import Check, HardCase, Setting
-from .volume import PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE
+from .volume import PRESS_CELL, PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE
 from .watch import Watch, downwards, make_world, vector
 
-CELL = 0.1  # [m]
 #: Rounding of kinetic energy summed in single precision steps.
 ENERGY_ROUNDING = 1e-4
 
 # H08
 
+CELL = 0.1  # [m]
 BALL_CELLS = 6  # diameter
 WALL_HALF_SIZE = 60  # cells
 IMPACT_SECONDS = 1.0
@@ -51,16 +51,19 @@ def hit_wall(setting: Setting) -> list[Check]:
 
 # H16
 
-TANK = (6.4, 3.2, 0.8)  # [m]
-BLOCK = 0.8  # [m]
-OVERLAP = 1.0  # cells
+TANK_CELL = PRESS_CELL  # for the same reason as there
+TANK = (64 * TANK_CELL, 32 * TANK_CELL, 8 * TANK_CELL)
+BLOCK = 8 * TANK_CELL  # side length
+BALL = 2.5 * TANK_CELL  # radius
+OVERLAP = 1.0 * TANK_CELL
+CLOSE_SECONDS = 1.0
 SETTLE_SECONDS = 1.5
 FAST_CELLS = 100.0  # cells per step
 FAST_STEPS = 20
 
 
 def _tank(setting: Setting) -> pbmpm.World:
-    return make_world(setting, CELL, gravity=True, size=list(TANK))
+    return make_world(setting, TANK_CELL, gravity=True, size=list(TANK))
 
 
 def _recovered(world: pbmpm.World) -> float:
@@ -79,12 +82,12 @@ def trap(setting: Setting) -> list[Check]:
     with _tank(setting) as world:
         centre = vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2])
         world.fill(pbmpm.Box(centre, [0.5 * BLOCK] * d), world.add_material(setting.parameters()))
-        watch, half = Watch(world), [1.0, TANK[1], TANK[1]][:d]
+        watch, half = Watch(world), [BLOCK, TANK[1], TANK[1]][:d]
         offset = 0.5 * BLOCK + half[0]
         boxes = [
             world.add_collider(pbmpm.Box([centre[0] + s * offset, *centre[1:]], half), kinematic=True) for s in (-1, 1)
         ]
-        way, steps = 0.5 * (BLOCK + OVERLAP * CELL), round(1.0 / setting.dt)
+        way, steps = 0.5 * (BLOCK + OVERLAP), round(CLOSE_SECONDS / setting.dt)
         for step in range(steps):
             for box, side in zip(boxes, (-1, 1), strict=True):
                 box.move([centre[0] + side * (offset - way * (step + 1) / steps), *centre[1:]])
@@ -114,7 +117,7 @@ def cover(setting: Setting) -> list[Check]:
     with _tank(setting) as world:
         watch = _pool(world, setting)
         watch.run(0.5, setting.dt)
-        ball = world.add_collider(pbmpm.Sphere(vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2]), 2.5 * CELL))
+        ball = world.add_collider(pbmpm.Sphere(vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2]), BALL))
         watch.forget()
         watch.run(1.0, setting.dt)
         return [
@@ -130,9 +133,9 @@ def race(setting: Setting) -> list[Check]:
     with _tank(setting) as world:
         watch = _pool(world, setting)
         place = vector(d, 0.0, 0.5 * BLOCK, 0.5 * TANK[2])
-        ball = world.add_collider(pbmpm.Sphere(place, 2.5 * CELL), kinematic=True)
+        ball = world.add_collider(pbmpm.Sphere(place, BALL), kinematic=True)
         for step in range(FAST_STEPS):
-            ball.move([(FAST_CELLS * CELL if step % 2 == 0 else 0.0), *place[1:]])
+            ball.move([(FAST_CELLS * TANK_CELL if step % 2 == 0 else 0.0), *place[1:]])
             watch.step(setting.dt)
         ball.destroy()
         watch.run(SETTLE_SECONDS, setting.dt)
