@@ -197,15 +197,16 @@ static void nudge(const RefStep *step, RefParticle *p)
         p->fraction[a] += 0.05 * random_looking(p->identity * 0x9e3779b9u + step->salt * 0x85ebca6bu + (uint32_t)a);
 }
 
-/* J follows tr D. With feedback it moves a share of the way down to the room that the grid has, if it claims more, and never
- * exceeds that where matter is crowded. */
+/* J follows tr D. With feedback, where the grid shows compression, it moves a share of the way to the room that the grid has if
+ * it claims more or far less, and never exceeds that where matter is crowded. */
 static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
     double ratio = p->volume_ratio * (1.0 + matrix_trace(step->dimension, D));
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_compression(grid, p);
-        ratio -= feedback * fmax(0.0, ratio - REF_COMPRESSED / held);
+        const double seen = REF_COMPRESSED / held;
+        if (seen < 1.0 && (ratio > seen || ratio < REF_STALE * seen)) ratio += feedback * (seen - ratio);
         if (held > REF_CROWDED) {
             ratio = fmin(ratio, REF_CROWDED / held);
             nudge(step, p);

@@ -82,7 +82,7 @@ bool reference_limit_strain(int dimension, const KernelMaterial *material, doubl
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p);
 
 /* Rest volume per cell where a liquid counts as compressed, and as crowded. */
-static const double REF_COMPRESSED = 1.05, REF_CROWDED = 1.5;
+static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5;
 
 /* The rest volume per cell around the particle. */
 double reference_compression(const RefGrid *grid, const RefParticle *p);
