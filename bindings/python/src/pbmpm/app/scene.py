@@ -15,6 +15,7 @@ from typing import Annotated, Any, Literal, Union
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from ..materials import Elastic, Liquid
 from .errors import InputError
 
 FORMAT_NAME = "pbmpm-scene"
@@ -35,28 +36,31 @@ class _Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
+_LIQUID, _ELASTIC = Liquid(), Elastic()  # the library's defaults
+
+
 class LiquidPart(_Part):
     """A liquid. Fields and defaults are those of ``pbmpm_material_def``."""
 
     kind: Literal["liquid"]
-    density: Annotated[float, Field(ge=1e-3, le=1e6)] = 1000.0
-    relaxation: Annotated[float, Field(gt=0, lt=2)] = 1.5
-    viscosity: Share = 0.0
-    volume_feedback: Share = 0.1
+    density: Annotated[float, Field(ge=1e-3, le=1e6)] = _LIQUID.density
+    relaxation: Annotated[float, Field(gt=0, lt=2)] = _LIQUID.relaxation
+    viscosity: Share = _LIQUID.viscosity
+    volume_feedback: Share = _LIQUID.volume_feedback
 
 
 class ElasticPart(_Part):
     """An elastic solid. Fields and defaults are those of ``pbmpm_material_def``."""
 
     kind: Literal["elastic"]
-    density: Annotated[float, Field(ge=1e-3, le=1e6)] = 1000.0
-    relaxation: Annotated[float, Field(gt=0, lt=2)] = 1.5
-    elasticity_ratio: Share = 1.0
+    density: Annotated[float, Field(ge=1e-3, le=1e6)] = _ELASTIC.density
+    relaxation: Annotated[float, Field(gt=0, lt=2)] = _ELASTIC.relaxation
+    elasticity_ratio: Share = _ELASTIC.elasticity_ratio
     strain_policy: Literal["clamp", "delete"] = "clamp"
-    strain_min: Annotated[float, Field(ge=1e-3, le=1)] = 0.1
-    strain_max: Annotated[float, Field(ge=1, le=1e4)] = 20.0
-    condition_max: Annotated[float, Field(ge=10, le=1e6)] = 1e6
-    rebound_max: Annotated[float, Field(gt=0, le=10)] = 1.0
+    strain_min: Annotated[float, Field(ge=1e-3, le=1)] = _ELASTIC.strain_min
+    strain_max: Annotated[float, Field(ge=1, le=1e4)] = _ELASTIC.strain_max
+    condition_max: Annotated[float, Field(ge=10, le=1e6)] = _ELASTIC.condition_max
+    rebound_max: Annotated[float, Field(gt=0, le=10)] = _ELASTIC.rebound_max
 
 
 MaterialPart = Annotated[LiquidPart | ElasticPart, Field(discriminator="kind")]
