@@ -52,16 +52,19 @@ typedef struct pbmpm_world_id {
     uint32_t generation;
 } pbmpm_world_id;
 
+/** A material of one world. */
 typedef struct pbmpm_material_id {
     uint32_t index;
     uint32_t generation;
 } pbmpm_material_id;
 
+/** A collider of one world. */
 typedef struct pbmpm_collider_id {
     uint32_t index;
     uint32_t generation;
 } pbmpm_collider_id;
 
+/** A particle of one world; it keeps it for life. */
 typedef struct pbmpm_particle_id {
     uint32_t index;
     uint32_t generation;
@@ -78,9 +81,9 @@ PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void
 /** Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
  *  null; `release` gets the size that was asked for. Called from the thread that calls the library. */
 typedef struct pbmpm_allocator {
-    void *(*allocate)(size_t size, size_t alignment, void *user);
-    void (*release)(void *memory, size_t size, void *user);
-    void *user;
+    void *(*allocate)(size_t size, size_t alignment, void *user); /**< aligned to at least `alignment` */
+    void (*release)(void *memory, size_t size, void *user);       /**< null exactly when allocate is */
+    void *user;                                                   /**< passed on unchanged */
 } pbmpm_allocator;
 
 /** One share of parallel work; `index` counts from 0. */
@@ -90,9 +93,9 @@ typedef void pbmpm_task(int32_t index, void *context);
  *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
  *  of them have returned. Null functions: the world's own thread pool is used. */
 typedef struct pbmpm_task_hooks {
-    void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user);
-    void (*finish)(void *handle, void *user);
-    void *user;
+    void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< returns a handle */
+    void (*finish)(void *handle, void *user);                                     /**< null exactly when enqueue is */
+    void *user;                                                                   /**< passed on unchanged */
 } pbmpm_task_hooks;
 
 /** Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
@@ -120,10 +123,10 @@ PBMPM_API const char *pbmpm_isa_name(pbmpm_isa isa);
 /** One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
  *  structure itself (offset 0, size of the whole). */
 typedef struct pbmpm_layout_entry {
-    const char *structure;
-    const char *field;
-    uint32_t offset; /**< bytes from the start of the structure */
-    uint32_t size;   /**< bytes */
+    const char *structure; /**< never null */
+    const char *field;     /**< never null */
+    uint32_t offset;       /**< bytes from the start of the structure */
+    uint32_t size;         /**< bytes */
 } pbmpm_layout_entry;
 
 /** The layouts of all public structures as this library was compiled. Every binding compares it with its own

@@ -8,6 +8,7 @@
 extern "C" {
 #endif
 
+/** Which of the fields of a pbmpm_shape count. */
 typedef enum pbmpm_shape_kind {
     PBMPM_PLANE = 0,   /**< half space behind the plane (2D: behind the line) through `position` with the outward `normal` */
     PBMPM_BOX = 1,     /**< box with `half_extents` (2D: rectangle) */

@@ -60,7 +60,7 @@ typedef enum pbmpm_event_kind {
 
 /** Something that happened which the caller did not ask for. */
 typedef struct pbmpm_event {
-    pbmpm_event_kind kind;
+    pbmpm_event_kind kind;      /**< what happened */
     uint32_t count;             /**< how many particles (deletions: always 1) */
     pbmpm_particle_id particle; /**< the particle, or the first one of several */
     float position[3];          /**< where [m] */

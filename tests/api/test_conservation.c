@@ -94,7 +94,7 @@ static moments moments_of(pbmpm_world_id world, double cell_size)
 /* Gives every particle the velocity of a rigid motion, its neighbourhood included. */
 static void set_rigid_motion(pbmpm_world_id world, const double drift[3], const double spin[3])
 {
-    enum { ROOM = 8192 };
+    enum { ROOM = 24576 };
     static float velocities[3 * ROOM], gradients[9 * ROOM];
     const pbmpm_view x = view_of(world, PBMPM_POSITION);
     const uint32_t d = x.components, count = x.count;
@@ -133,11 +133,13 @@ static void expect_conserved(const moments *first, const moments *now, int step)
     TEST_ASSERT_TRUE_MESSAGE(length(angular) <= 1e-5 * length(first->angular), label);
 }
 
+/* What remains of the drift is round-off: a random walk, mostly from the rounding of the nodes' masses, that falls with the root
+ * of their number. The body has 1,000 to 2,000 cells. */
 static void check_momentum(int32_t dimension)
 {
-    const double cell_size = dimension == 3 ? 0.1 : 0.025, dt = cell_size / 10;
+    const double cell_size = dimension == 3 ? 0.0625 : 0.025, dt = cell_size / 10;
     const double drift[3] = {0.3, -0.2, dimension == 3 ? 0.1 : 0}, spin[3] = {dimension == 3 ? 1.0 : 0, dimension == 3 ? -0.5 : 0, 2.0};
-    const pbmpm_world_def def = default_world(dimension, (float)cell_size, 8192);
+    const pbmpm_world_def def = default_world(dimension, (float)cell_size, 24576);
     const pbmpm_world_id world = create_world(&def);
     const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
     fill_shape(world, jelly, box_shape(0, 0, 0, 0.5f, 0.3f, 0.4f), (const float[3]){0, 0, 0});

@@ -82,9 +82,17 @@ def test_documentation_belongs_to_its_declaration(api: model.Api) -> None:
     assert all(item.doc for item in find(api.enumerations, "pbmpm_event_kind").members[:-1])
 
 
-def test_functions_of_one_paragraph_share_its_documentation(api: model.Api) -> None:
-    get, set_ = (find(api.functions, f"pbmpm_world_{verb}_settings") for verb in ("get", "set"))
-    assert get.doc == set_.doc != ""
+def test_functions_of_one_paragraph_share_its_documentation(tmp_path: Path) -> None:
+    api = parser.parse(headers(tmp_path, "/** Reads and writes. */\nint pbmpm_get(void);\nint pbmpm_set(int value);\n"))
+    assert [function.doc for function in api.functions] == ["Reads and writes.", "Reads and writes."]
+
+
+def test_everything_public_is_documented(api: model.Api) -> None:
+    described = [*api.functions, *api.structures, *api.enumerations]
+    fields = [field for structure in api.structures for field in structure.fields]
+    obvious = {"index", "generation", "user", "material", "shape"}
+    assert [item.name for item in described if not item.doc] == []
+    assert {field.name for field in fields if not field.doc} <= obvious
 
 
 def test_cffi_understands_the_declarations(api: model.Api) -> None:

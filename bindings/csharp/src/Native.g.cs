@@ -89,6 +89,7 @@ namespace Pbmpm
         Delete = 1,
     }
 
+    /// <summary>Which of the fields of a pbmpm_shape count.</summary>
     public enum ShapeKind : int
     {
         /// <summary>half space behind the plane (2D: behind the line) through `position` with the outward `normal`</summary>
@@ -207,6 +208,7 @@ namespace Pbmpm
         public uint Generation;
     }
 
+    /// <summary>A material of one world.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct MaterialId
     {
@@ -214,6 +216,7 @@ namespace Pbmpm
         public uint Generation;
     }
 
+    /// <summary>A collider of one world.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct ColliderId
     {
@@ -221,6 +224,7 @@ namespace Pbmpm
         public uint Generation;
     }
 
+    /// <summary>A particle of one world; it keeps it for life.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct ParticleId
     {
@@ -516,6 +520,7 @@ namespace Pbmpm
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Event
     {
+        /// <summary>what happened</summary>
         public EventKind Kind;
         /// <summary>how many particles (deletions: always 1)</summary>
         public uint Count;
@@ -537,8 +542,11 @@ namespace Pbmpm.Native
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Allocator
     {
+        /// <summary>aligned to at least `alignment`</summary>
         public IntPtr Allocate;
+        /// <summary>null exactly when allocate is</summary>
         public IntPtr Release;
+        /// <summary>passed on unchanged</summary>
         public IntPtr User;
     }
 
@@ -548,8 +556,11 @@ namespace Pbmpm.Native
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
+        /// <summary>returns a handle</summary>
         public IntPtr Enqueue;
+        /// <summary>null exactly when enqueue is</summary>
         public IntPtr Finish;
+        /// <summary>passed on unchanged</summary>
         public IntPtr User;
     }
 
@@ -558,7 +569,9 @@ namespace Pbmpm.Native
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct LayoutEntry
     {
+        /// <summary>never null</summary>
         public IntPtr Structure;
+        /// <summary>never null</summary>
         public IntPtr Field;
         /// <summary>bytes from the start of the structure</summary>
         public uint Offset;

@@ -1,0 +1,34 @@
+"""The examples in the README are the ones that are tested, and run as they stand."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+
+def example(root: Path, language: str) -> str:
+    """The only code block of that language in the README."""
+    text = (root / "README.md").read_text(encoding="utf-8")
+    (block,) = re.findall(rf"```{language}\n(.*?)```", text, re.DOTALL)
+    return block
+
+
+def test_the_c_example_is_the_sample(root: Path) -> None:
+    """samples/minimal.c is compiled and run by CTest."""
+    assert example(root, "c") == (root / "samples" / "minimal.c").read_text(encoding="utf-8")
+
+
+def test_the_python_example_runs(root: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    exec(compile(example(root, "python"), "README.md", "exec"), {})
+    particles, height = capsys.readouterr().out.split()
+    assert int(particles) == 800
+    assert 0.2 < float(height) < 1.0
+
+
+def test_files_that_the_readme_names_exist(root: Path) -> None:
+    text = (root / "README.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"\]\(([\w./-]+)\)", text)) | set(re.findall(r"`((?:samples|tests|bindings|include|src|ispc)/[\w./-]+)`", text))
+    assert named
+    assert [name for name in sorted(named) if not (root / name).exists()] == []
