@@ -37,14 +37,14 @@ static double gravity_head(const World *world)
     return fmax(stands, sqrt(strength) * pow(world->liquid_volume, 1.0 / d));
 }
 
-/* Under gravity no more pressure is ever needed than a few times what the whole column weighs: p/rho = 5 |g| H carries it, and
+/* Under gravity no more pressure is ever needed than a few times what the whole column weighs: p/rho = 3 |g| H carries it, and
  * the impact of what fell from its top; crushed liquid leaves with about sqrt(2 p / rho) at most, at any rate and number of
  * iterations. As a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
 static double pressure_bound(const World *world, float relaxation, float dt, double head)
 {
     const double cells = (double)dt / (double)world->def.cell_size;
     const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
-    return 5.0 * head / stiffness;
+    return 3.0 * head / stiffness;
 }
 
 /* ---- Parameters of the substep ---- */

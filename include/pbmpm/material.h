@@ -36,7 +36,8 @@ typedef struct pbmpm_material_def {
     uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
     pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
     float density;              /**< rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000 */
-    float relaxation;           /**< share of the constraint error removed per iteration, in (0, 2); default 1.5 */
+    float relaxation;           /**< share of the constraint error removed per iteration, in (0, 2); default 1.5. With one
+                                     iteration lone elastic particles tremble above 4/3. */
     float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid: share per substep by which J follows the volume measured on the grid where
@@ -48,7 +49,7 @@ typedef struct pbmpm_material_def {
     float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
     float rebound_max;          /**< elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
                                      Matter that was crushed to nothing grows back at this rate instead of exploding. (A
-                                     liquid presses with at most 5 * density * |g| * height of the matter to the same end.) */
+                                     liquid presses with at most 3 * density * |g| * height of the matter to the same end.) */
 } pbmpm_material_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -246,7 +246,8 @@ namespace Pbmpm
         public MaterialKind Kind;
         /// <summary>rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000</summary>
         public float Density;
-        /// <summary>share of the constraint error removed per iteration, in (0, 2); default 1.5</summary>
+        /// <summary>share of the constraint error removed per iteration, in (0, 2); default 1.5. With one
+        /// iteration lone elastic particles tremble above 4/3.</summary>
         public float Relaxation;
         /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
@@ -266,7 +267,7 @@ namespace Pbmpm
         public float ConditionMax;
         /// <summary>elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
         /// Matter that was crushed to nothing grows back at this rate instead of exploding. (A
-        /// liquid presses with at most 5 * density * |g| * height of the matter to the same end.)</summary>
+        /// liquid presses with at most 3 * density * |g| * height of the matter to the same end.)</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>
