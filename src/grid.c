@@ -55,7 +55,9 @@ static uint64_t pack(const int32_t c[3])
 static size_t hash_slot(const Grid *grid, uint64_t key)
 {
     const size_t slots = grid->table.bytes / sizeof(uint32_t); /* a power of two, see reserve_found() */
-    return (size_t)((key * 0x9e3779b97f4a7c15u) >> 20) & (slots - 1);
+    uint64_t mixed = key * 0x9e3779b97f4a7c15u; /* carries go up only, so fold the high half down and mix again */
+    mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
+    return (size_t)(mixed >> 32) & (slots - 1);
 }
 
 /* The slot of a block, or the free slot where it belongs. */

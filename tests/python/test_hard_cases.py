@@ -19,7 +19,32 @@ def _all_settings() -> Iterator[Any]:
             yield pytest.param(case, setting, id=f"{case.id}: {setting}", marks=marks)
 
 
-@pytest.mark.parametrize(("case", "setting"), list(_all_settings()))
+#: Rates and iterations beside the cases' own, in 2D: from the softest that the law of stiffness lets pass to much stiffer.
+OTHER_RATES = (
+    ("H01", 60, 5),
+    ("H03", 60, 1),
+    ("H03", 120, 10),
+    ("H03", 240, 2),
+    ("H04", 240, 2),
+    ("H08", 30, 1),
+    ("H08", 240, 2),
+    ("H10", 60, 1),
+    ("H16", 120, 10),
+    ("H17", 15, 1),
+    ("H17", 1200, 20),
+    ("H21", 480, 1),
+)
+
+
+def _other_settings() -> Iterator[Any]:
+    for identifier, rate_hz, iterations in OTHER_RATES:
+        case = find_case(identifier)
+        for setting in case.settings(rate_hz, iterations):
+            if setting.dimension == 2:
+                yield pytest.param(case, setting, id=f"{identifier}: {setting}")
+
+
+@pytest.mark.parametrize(("case", "setting"), [*_all_settings(), *_other_settings()])
 def test_hard_case(case: HardCase, setting: Setting) -> None:
     outcome = case.run(setting)
     assert outcome.passed, outcome.description
