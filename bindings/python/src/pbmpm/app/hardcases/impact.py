@@ -25,8 +25,8 @@ IMPACTS = {f"{speed:g} cells/step, wall of {wall} cells": (speed, wall) for wall
 def hit_wall(setting: Setting) -> list[Check]:
     """H08: a ball flies into a thin box. It may not be found behind it, nor gain energy."""
     d = setting.dimension
-    cells_per_step, thickness = IMPACTS[setting.variant]
-    speed, thickness = cells_per_step * CELL / setting.dt, thickness * CELL
+    cells_per_step, wall_cells = IMPACTS[setting.variant]
+    speed, thickness = cells_per_step * CELL / setting.dt, wall_cells * CELL
     with make_world(setting, CELL, max_displacement=64.0) as world:
         wall = pbmpm.Box(vector(d, 0.5 * thickness), vector(d, 0.5 * thickness, *[WALL_HALF_SIZE * CELL] * 2))
         collider = world.add_collider(wall)

@@ -128,6 +128,7 @@ def degenerate(setting: Setting) -> list[Check]:
     deletes = setting.variant == "delete"
     policy = pbmpm.StrainPolicy.DELETE if deletes else pbmpm.StrainPolicy.CLAMP
     parameters = setting.parameters(strain_policy=policy)
+    assert isinstance(parameters, pbmpm.Elastic)  # the case has no other material
     with make_world(setting, CELL) as world:
         places = np.zeros((len(matrices), d))
         places[:, 0] = FAR_APART * CELL * np.arange(len(matrices))
