@@ -6,8 +6,7 @@ A run is stable when, at every step,
 - kinetic plus potential energy (zero level: the floor) is at most ENERGY_TOLERANCE of its start value above it,
 and when at its end the liquid occupies a volume between SETTLED_LOWEST times what the solver's own compressibility
 predicts and SETTLED_HIGHEST times the rest volume. Compression itself is an error, not an instability: it is shown
-as volume error and settled volume. The law leaves out the volume feedback, which softens very soft settings further by
-about a half; the lower bound is there to find liquids that go on losing volume without end.
+as volume error and settled volume. The lower bound is there to find liquids that go on losing volume without end.
 """
 
 from __future__ import annotations
@@ -17,7 +16,7 @@ import math
 import pbmpm
 
 ENERGY_TOLERANCE = 0.02
-SETTLED_LOWEST = 0.25
+SETTLED_LOWEST = 0.5
 SETTLED_HIGHEST = 1.25
 
 DEFINITION = (
