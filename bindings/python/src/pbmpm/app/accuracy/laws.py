@@ -1,9 +1,11 @@
 """What the solver's own compressibility predicts.
 
 After N iterations per substep of length dt with relaxation w on cells of size dx, a liquid acts with the bulk modulus
-K = rho w N dx^2 / (4 d dt^2). A column of rest height h0 then stands so that each layer carries the weight above it:
-1/J - 1 = rho g (h0 - X) / K for the layer at rest height X. For a stiff liquid its mean is the familiar
-rho g h0 / (2 K); the functions below keep the whole profile, so that soft settings are predicted too.
+K = rho w N dx^2 / (4 d dt^2): a strain of 1/J - 1 gives the pressure K (1/J - 1) / J, since the impulse is that of the rest
+volume and its gradient is over the present one. A column of rest height h0 then stands so that each layer carries the
+weight above it: (1/J - 1) / J = q with q = rho g (h0 - X) / K for the layer at rest height X, so 1/J = (1 + sqrt(1 + 4 q)) / 2.
+For a stiff liquid the mean of 1 - J is the familiar rho g h0 / (2 K); the functions below keep the whole profile, so that
+soft settings are predicted too.
 """
 
 from __future__ import annotations
@@ -21,7 +23,8 @@ def bulk_modulus_over_density(dimension: int, cell_size: float, dt: float, itera
 def column_profile(height: float, gravity: float, modulus: float) -> np.ndarray:
     """J of equally thick rest layers of a column at rest, from the bottom to the top."""
     rest_heights = (np.arange(_LAYERS) + 0.5) * height / _LAYERS
-    return 1.0 / (1.0 + gravity * (height - rest_heights) / modulus)
+    load = gravity * (height - rest_heights) / modulus
+    return 2.0 / (1.0 + np.sqrt(1.0 + 4.0 * load))
 
 
 def mean_compression(height: float, gravity: float, modulus: float) -> float:
