@@ -21,7 +21,7 @@ typedef int32 int32_t;
 #define K_BLOCK_AXIS 4  /* cells (and nodes) per block and axis */
 #define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
 #define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass */
-#define K_MAX_GANG 16   /* particle arrays are padded by this many valid elements */
+#define K_MAX_GANG 16   /* particle arrays are padded by this many elements: no mass, at rest volume */
 #define K_TILE_PAD 8    /* floats behind each tile that a full-width add may touch */
 
 /* A run is a stretch of sorted particles of one material in one cell: uniform stencil, uniform parameters. */
@@ -30,6 +30,9 @@ typedef int32 int32_t;
 
 #define K_LIQUID 0
 #define K_ELASTIC 1
+
+#define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
+#define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
 
 #define K_ALIVE 0
 #define K_NOT_FINITE 1
@@ -84,6 +87,8 @@ struct KernelArgs {
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */
     K_PTR(uint32_t) moved;    /* out, per particle block: particles that left their cell */
     K_PTR(uint32_t) lost;     /* out, per particle block: particles whose status is not K_ALIVE */
+
+    K_PTR(float) travel;      /* out, per particle block: largest displacement of a particle */
 
     K_CONST_PTR(struct KernelMaterial) material;
     float dt;               /* [s] */

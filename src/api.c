@@ -114,6 +114,9 @@ __attribute__((destructor)) static void shut_down_at_unload(void) { registry_cle
 
 /* ---- world.h ---- */
 
+/* Shorter substeps leave the range of floats: velocities are displacements divided by them. */
+static const double SHORTEST_SUBSTEP = 1e-20;
+
 pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size)
 {
     const pbmpm_world_def defaults = world_def_defaults();
@@ -186,7 +189,10 @@ pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings
 pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
 {
     HOLD(world);
+    const double part = (double)dt / w->settings.substeps;
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
+    if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)w->def.cell_size)
+        LET_GO(invalid("dt is too short: a substep must last 1e-20 s, and 1e-20 s per metre of cell size"));
     LET_GO(world_step(w, dt));
 }
 

@@ -23,8 +23,6 @@ void colliders_free(Colliders *colliders, Memory *memory)
     memory_give(memory, colliders->obstacle, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
-    array_free(memory, &colliders->near);
-    array_free(memory, &colliders->near_begin);
     *colliders = (Colliders){0};
 }
 
@@ -180,6 +178,12 @@ static void node_position(const ContactFrame *frame, int32_t block, int node, do
 /* What the iterations may add to the way of a node [cells]. */
 static const double WAY_MARGIN = 1.0;
 
+static void block_centre(const ContactFrame *frame, int32_t block, double centre[3])
+{
+    node_position(frame, block, 0, centre);
+    for (int a = 0; a < frame->grid->dimension; a++) centre[a] += 0.5 * (K_BLOCK_AXIS - 1) * frame->cell_size;
+}
+
 /* How close [cells] a node must be to an obstacle to be able to meet it: what it may move, what the obstacle moves, and
  * the margin. */
 static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t block, const double centre[3])
@@ -247,26 +251,21 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
     const FindJob *job = context;
     const ContactFrame *frame = job->frame;
     Colliders *colliders = frame->colliders;
-    uint32_t *contact_begin = colliders->contact_begin.data, *near_begin = colliders->near_begin.data;
+    uint32_t *contact_begin = colliders->contact_begin.data;
     const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
     for (int32_t block = begin; block < end; block++) {
-        uint32_t contacts = 0, near = 0;
+        uint32_t contacts = 0;
         double centre[3], normal[3];
-        node_position(frame, block, 0, centre);
-        for (int a = 0; a < frame->grid->dimension; a++) centre[a] += 1.5 * frame->cell_size;
+        block_centre(frame, block, centre);
         for (int i = 0; i < colliders->obstacle_count; i++) {
             const Obstacle *o = &colliders->obstacle[i];
             const double reach = reach_of(frame, o, block, centre);
             if (solid_distance(&o->start, centre, normal) / frame->cell_size > reach + half_diagonal) continue;
             const bool listed = job->write && colliders->contact.data;
             Contact *out = listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
-            if (job->write) ((uint16_t *)colliders->near.data)[near_begin[block] + near] = (uint16_t)i;
             contacts += contacts_with(frame, o, block, reach, out);
-            near++;
         }
-        if (job->write) continue;
-        contact_begin[block + 1] = contacts;
-        near_begin[block + 1] = near;
+        if (!job->write) contact_begin[block + 1] = contacts;
     }
 }
 
@@ -277,19 +276,14 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     colliders->contacts = 0;
     if (colliders->obstacle_count == 0) return PBMPM_OK;
     const size_t ends = (size_t)blocks + 1;
-    if (!array_reserve(memory, &colliders->contact_begin, ends, sizeof(uint32_t)) ||
-        !array_reserve(memory, &colliders->near_begin, ends, sizeof(uint32_t)))
+    if (!array_reserve(memory, &colliders->contact_begin, ends, sizeof(uint32_t)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the contacts of %d blocks", blocks);
-    uint32_t *contact_begin = colliders->contact_begin.data, *near_begin = colliders->near_begin.data;
+    uint32_t *contact_begin = colliders->contact_begin.data;
     FindJob job = {frame, false};
     pool_for(pool, blocks, 16, find_in_blocks, &job);
-    contact_begin[0] = near_begin[0] = 0;
-    for (int32_t b = 0; b < blocks; b++) {
-        contact_begin[b + 1] += contact_begin[b];
-        near_begin[b + 1] += near_begin[b];
-    }
-    if (!array_reserve(memory, &colliders->contact, contact_begin[blocks], sizeof(Contact)) ||
-        !array_reserve(memory, &colliders->near, near_begin[blocks], sizeof(uint16_t)))
+    contact_begin[0] = 0;
+    for (int32_t b = 0; b < blocks; b++) contact_begin[b + 1] += contact_begin[b];
+    if (!array_reserve(memory, &colliders->contact, contact_begin[blocks], sizeof(Contact)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u contacts", contact_begin[blocks]);
     job.write = true;
     pool_for(pool, blocks, 16, find_in_blocks, &job);
@@ -363,13 +357,17 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
 {
     const Colliders *colliders = frame->colliders;
-    const uint32_t *near_begin = colliders->near_begin.data, *block_begin = frame->grid->block_begin.data;
-    if (colliders->obstacle_count == 0) return;
+    const uint32_t *block_begin = frame->grid->block_begin.data;
+    const float *travel = frame->grid->travel.data;
+    const double half_diagonal = 0.5 * K_BLOCK_AXIS * sqrt((double)frame->grid->dimension);
     for (int32_t block = begin; block < end; block++) {
-        for (uint32_t i = near_begin[block]; i < near_begin[block + 1]; i++) {
-            const Obstacle *o = &colliders->obstacle[((const uint16_t *)colliders->near.data)[i]];
+        double centre[3], normal[3];
+        block_centre(frame, block, centre);
+        for (int i = 0; i < colliders->obstacle_count; i++) {
+            const Obstacle *o = &colliders->obstacle[i];
+            if (solid_distance(&o->end, centre, normal) / frame->cell_size > half_diagonal + (double)travel[block]) continue;
             for (uint32_t row = block_begin[block]; row < block_begin[block + 1]; row++)
-                push_particle(frame, o, particles, row, dt);
+                if (particles->status[row] == K_ALIVE) push_particle(frame, o, particles, row, dt);
         }
     }
 }

@@ -42,8 +42,6 @@ typedef struct Colliders {
 
     Array contact;       /* Contact */
     Array contact_begin; /* uint32_t per node block, and the end */
-    Array near;          /* uint16_t obstacle indices, by block */
-    Array near_begin;    /* uint32_t per node block, and the end */
     uint32_t contacts;
 } Colliders;
 

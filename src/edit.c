@@ -88,7 +88,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
         const pbmpm_particle_id id = particles_append(p, &particle, generation);
         if (ids) ids[i] = id;
     }
-    world_matter_changed(world);
+    world_touch(world);
     return PBMPM_OK;
 }
 
@@ -200,7 +200,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
     walk_lattice(world, &lattice, def, generation);
-    world_matter_changed(world);
+    world_touch(world);
     return PBMPM_OK;
 }
 
@@ -218,7 +218,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     }
     if (count) {
         particles_compact(p);
-        world_matter_changed(world);
+        world_touch(world);
     }
     return PBMPM_OK;
 }
@@ -240,7 +240,7 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
     if (removed) *removed = count;
     if (count) {
         particles_compact(p);
-        world_matter_changed(world);
+        world_touch(world);
     }
     return PBMPM_OK;
 }
@@ -274,8 +274,8 @@ static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t 
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a position is not finite or outside the domain");
     case PBMPM_VOLUME_RATIO:
         if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "the volume ratio of an elastic particle follows from F");
-        if (in_range(*values, 0.01, 100.0)) return PBMPM_OK;
-        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a volume ratio must be in [0.01, 100]");
+        if (in_range(*values, K_LIQUID_RATIO_MIN, K_LIQUID_RATIO_MAX)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a volume ratio must be in [0.05, 1.2]");
     case PBMPM_DEFORMATION:
         if (!is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
         if (all_in_range(values, components, -1e6, 1e6)) return PBMPM_OK;

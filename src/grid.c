@@ -38,7 +38,7 @@ void grid_free(Grid *grid, Memory *memory)
     void *whole[] = {grid->run_begin, grid->run_key, grid->block_of, grid->order, grid->order_scratch};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) memory_give(memory, whole[i], bytes);
     Array *arrays[] = {&grid->coordinate, &grid->neighbour, &grid->block_begin, &grid->block_run,  &grid->tile,   &grid->tile_volume,
-                       &grid->node,       &grid->node_volume, &grid->node_reach, &grid->clamped, &grid->moved, &grid->lost, &grid->found, &grid->sorted, &grid->table};
+                       &grid->node,       &grid->node_volume, &grid->node_reach, &grid->clamped, &grid->moved, &grid->lost, &grid->travel, &grid->found, &grid->sorted, &grid->table};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     *grid = (Grid){0};
 }
@@ -254,7 +254,8 @@ static bool reserve_blocks(Grid *grid, Memory *memory, bool with_volume)
               array_reserve(memory, &grid->node_reach, nodes, sizeof(float)) &&
               array_reserve(memory, &grid->clamped, full, sizeof(uint32_t)) &&
               array_reserve(memory, &grid->moved, full, sizeof(uint32_t)) &&
-              array_reserve(memory, &grid->lost, full, sizeof(uint32_t));
+              array_reserve(memory, &grid->lost, full, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->travel, full, sizeof(float));
     if (ok && with_volume)
         ok = array_reserve(memory, &grid->tile_volume, full * ((size_t)grid->tile_nodes + K_TILE_PAD), sizeof(float)) &&
              array_reserve(memory, &grid->node_volume, nodes * cells, sizeof(float));
@@ -406,7 +407,7 @@ static void build_runs(Grid *grid, Particles *p, Pool *pool)
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
 {
     if (!find_particle_blocks(grid, memory, p) || !find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
-        grid->particle_blocks = grid->node_blocks = 0;
+        grid_clear(grid);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
     }
     SortJob job = {grid, p};

@@ -32,7 +32,7 @@ typedef struct Grid {
     uint32_t runs;
 
     /* What the kernels work on; see KernelArgs. */
-    Array tile, tile_volume, node, node_volume, node_reach, clamped, moved, lost;
+    Array tile, tile_volume, node, node_volume, node_reach, clamped, moved, lost, travel;
 
     /* Scratch of the build. */
     Array found;       /* blocks in order of discovery */
@@ -47,8 +47,15 @@ typedef struct Grid {
 pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capacity);
 void grid_free(Grid *grid, Memory *memory);
 
+/* No blocks, no runs: there are no particles. */
+static inline void grid_clear(Grid *grid)
+{
+    grid->particle_blocks = grid->node_blocks = 0;
+    grid->runs = 0;
+}
+
 /* Sorts the particles by block, cell and material and lists the blocks they touch. `with_volume`: also room for rest
- * volumes. On failure (no memory) particles and grid are as before. */
+ * volumes. On failure (no memory) the particles are as before and the grid is empty. */
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
 
 #endif

@@ -104,9 +104,9 @@ static void add_particle(const World *world, uint32_t row, Sums *sums)
     add_angular(world, row, mass, x, v, sums);
     sums->mass += mass;
     sums->kinetic += 0.5 * mass * speed2;
-    sums->speed2_max = fmax(sums->speed2_max, speed2);
+    if (!(speed2 <= sums->speed2_max)) sums->speed2_max = speed2; /* a NaN stays */
     sums->volume_error2 += volume_error * volume_error;
-    sums->volume_error_max = fmax(sums->volume_error_max, volume_error);
+    if (!(volume_error <= sums->volume_error_max)) sums->volume_error_max = volume_error;
 }
 
 /* Sum over runs of the lanes that their gangs take. */
@@ -141,6 +141,8 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->ms_contacts = (float)record->ms_contacts;
     stats->ms_iterate = (float)record->ms_iterate;
     stats->ms_integrate = (float)record->ms_integrate;
+    stats->max_displacement = record->travel;
+    stats->cell_changes = record->moved;
     stats->deleted_total = world->deleted_total;
     stats->clamped_total = world->clamped_total;
     stats->lane_occupancy = lane_occupancy(world);
@@ -163,8 +165,6 @@ pbmpm_result inspect_stats(World *world, pbmpm_stats *stats)
     stats->volume_error_rms = (float)sqrt(sums.volume_error2 / count);
     stats->volume_error_max = (float)sums.volume_error_max;
     stats->max_speed = (float)sqrt(sums.speed2_max);
-    stats->max_displacement = (float)(sqrt(sums.speed2_max) * (double)world->record.dt / (double)world->def.cell_size);
-    stats->cell_changes = (float)((double)world->record.moved / count);
     return PBMPM_OK;
 }
 

@@ -208,6 +208,22 @@ static void reorder_field(void *context, int32_t begin, int32_t end)
     }
 }
 
+/* The kernels load whole gangs, so behind the last particle there are K_MAX_GANG harmless ones: no mass, no motion, at rest volume.
+ * What the spares held there may have been anything: a cell number of -1 reads as a NaN fraction. */
+static void pad(const Particles *p)
+{
+    for (int i = 0; i < p->field_count; i++) {
+        const Field *field = &p->field[i];
+        const size_t size = element_size(field->class);
+        for (int c = 0; c < class_components(p, field->class); c++)
+            memset((char *)*field->component[c] + p->count * size, 0, K_MAX_GANG * size);
+    }
+    for (uint32_t i = p->count; i < p->count + K_MAX_GANG; i++) {
+        p->volume_ratio[i] = 1.0f;
+        for (int a = 0; a < p->dimension && p->deformation[0]; a++) p->deformation[a * 4][i] = 1.0f;
+    }
+}
+
 void particles_reorder(Particles *p, const uint32_t *order, Pool *pool)
 {
     for (int i = 0; i < p->field_count; i++) {
@@ -219,6 +235,7 @@ void particles_reorder(Particles *p, const uint32_t *order, Pool *pool)
         field->base = sorted;
         bind_field(p, field);
     }
+    pad(p);
     p->rows_valid = false;
     particles_changed(p);
 }

@@ -6,40 +6,85 @@
 
 enum { BLOCK_GRAIN = 2 };
 
-/* ---- The bound of the rebound ---- */
+/* ---- The bound of the pressure ---- */
 
-static double measure_liquid(const World *world)
+/* What all liquid is, in one pass: its rest volume [m^d], and the mean square of its speed [m^2/s^2]. */
+typedef struct LiquidState {
+    double volume, speed2;
+} LiquidState;
+
+static LiquidState measure_liquid(const World *world)
 {
     const Particles *p = &world->particles;
-    double volume = 0.0;
-    for (uint32_t row = 0; row < p->count; row++) {
-        const KernelMaterial *material = &world->materials.kernel[p->material[row]];
-        if (material->kind == K_LIQUID) volume += (double)p->mass[row] * (double)material->inverse_density;
+    double mass = 0.0, volume = 0.0, energy = 0.0;
+    for (uint32_t run = 0; run < world->grid.runs; run++) {
+        const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
+        if (material->kind != K_LIQUID) continue;
+        for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++) {
+            float speed2 = 0.0f;
+            for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
+            if (!(speed2 < FLT_MAX)) continue; /* about to be taken out */
+            mass += (double)p->mass[row];
+            volume += (double)(p->mass[row] * material->inverse_density);
+            energy += (double)(p->mass[row] * speed2);
+        }
     }
-    return volume * world_cell_volume(world);
+    return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0};
 }
 
-/* How high matter stands along gravity, in its particle blocks, or would stand as a cube if that is higher: a column that
- * has collapsed still weighs what it weighs. Returns |g| H [m^2/s^2]. */
-static double gravity_head(const World *world)
+/* How far a block lies along gravity, in blocks times |g|. */
+static double block_depth(const World *world, int32_t block)
 {
-    const float *g = world->settings.gravity;
-    const int d = world->def.dimension;
-    double low = INFINITY, high = -INFINITY, strength = 0.0;
-    for (int a = 0; a < d; a++) strength += (double)g[a] * (double)g[a];
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        double along = 0.0;
-        for (int a = 0; a < d; a++) along += (double)g[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
-        low = fmin(low, along);
-        high = fmax(high, along);
-    }
-    const double stands = (high - low) * K_BLOCK_AXIS * (double)world->def.cell_size;
-    return fmax(stands, sqrt(strength) * pow(world->liquid_volume, 1.0 / d));
+    double along = 0.0;
+    for (int a = 0; a < world->def.dimension; a++)
+        along += (double)world->settings.gravity[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
+    return along;
 }
 
-/* Under gravity no more pressure is ever needed than a few times what the whole column weighs: p/rho = 3 |g| H carries it, and
- * the impact of what fell from its top; crushed liquid leaves with about sqrt(2 p / rho) at most, at any rate and number of
- * iterations. As a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
+/* The depths between which all but a fiftieth of the particles at either end lie: narrowed by histograms, so that a stray particle far
+ * away does not count. */
+static double trimmed_depth(const World *world)
+{
+    enum { BINS = 64, ROUNDS = 4 };
+    const uint32_t *begin = world->grid.block_begin.data;
+    const double trim = 0.02 * world->particles.count;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        low = fmin(low, block_depth(world, block));
+        high = fmax(high, block_depth(world, block));
+    }
+    for (int round = 0; round < ROUNDS && high > low; round++) {
+        double count[BINS] = {0}, below = 0.0;
+        const double width = (high - low) / BINS;
+        for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+            const double bin = (block_depth(world, block) - low) / width;
+            if (bin < 0.0) below += begin[block + 1] - begin[block];
+            if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += begin[block + 1] - begin[block];
+        }
+        int first = 0, last = BINS - 1;
+        double sum = below;
+        while (first < BINS - 1 && sum + count[first] < trim) sum += count[first++];
+        for (sum = below, last = 0; last < BINS - 1 && sum + count[last] < world->particles.count - trim;) sum += count[last++];
+        high = low + (last + 1) * width;
+        low = low + first * width;
+    }
+    return high - low;
+}
+
+/* The pressure over density that the liquid can need [m^2/s^2]: that of the weight of matter as high as it stands (or would stand as
+ * a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is stopped. */
+static double pressure_head(const World *world)
+{
+    const LiquidState liquid = measure_liquid(world);
+    double strength = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    const double stands = trimmed_depth(world) * K_BLOCK_AXIS * (double)world->def.cell_size;
+    const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
+    return weight > 0.0 ? weight + 0.5 * liquid.speed2 : 0.0;
+}
+
+/* Crushed liquid may grow with a few times the pressure that it can need, at any rate and number of iterations. As a multiple of the
+ * stiffness K/rho = w N dx^2 / (4 d dt^2). */
 static double pressure_bound(const World *world, float relaxation, float dt, double head)
 {
     const double cells = (double)dt / (double)world->def.cell_size;
@@ -65,8 +110,7 @@ static const float WEIGHTLESS_REBOUND = 0.3f;
 
 static void set_materials(World *world, float dt)
 {
-    if (world->liquid_volume < 0.0) world->liquid_volume = measure_liquid(world);
-    const double head = gravity_head(world);
+    const double head = pressure_head(world);
     const float soft = softening(world, dt);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
@@ -105,6 +149,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .clamped = grid->clamped.data,
                       .moved = grid->moved.data,
                       .lost = grid->lost.data,
+                      .travel = grid->travel.data,
                       .material = world->materials.kernel,
                       .dt = dt,
                       .cells_per_metre = (float)cells_per_metre,
@@ -119,7 +164,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     memcpy(a->affine, p->affine, sizeof a->affine);
     memcpy(a->deformation, p->deformation, sizeof a->deformation);
     for (int k = 0; k < world->def.dimension; k++)
-        a->gravity[k] = (float)((double)world->settings.gravity[k] * dt * dt * cells_per_metre);
+        a->gravity[k] = (float)fmax(-1e4, fmin(1e4, (double)world->settings.gravity[k] * dt * dt * cells_per_metre));
 }
 
 typedef struct KernelJob {

@@ -71,17 +71,20 @@ static uint32_t fastest_row(const World *world, int32_t block)
 static void collect_events(World *world, uint32_t substep)
 {
     const uint32_t *lost = world->grid.lost.data, *clamped = world->grid.clamped.data, *moved = world->grid.moved.data;
-    uint32_t total_lost = 0, total_clamped = 0;
+    const float *travel = world->grid.travel.data;
+    uint32_t total_lost = 0, total_clamped = 0, total_moved = 0;
     pbmpm_event slowed = {0};
-    world->record.moved = 0;
+    world->record.travel = 0.0f;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        world->record.moved += moved[block];
+        total_moved += moved[block];
+        world->record.travel = travel[block] > world->record.travel ? travel[block] : world->record.travel;
         total_lost += lost[block];
         if (lost[block]) report_lost(world, block, substep);
         if (clamped[block] && total_clamped == 0)
             slowed = particle_event(world, PBMPM_EVENT_SPEED_CLAMPED, fastest_row(world, block), substep);
         total_clamped += clamped[block];
     }
+    world->record.moved = (float)total_moved / (float)world->particles.count;
     if (total_clamped) {
         slowed.count = total_clamped;
         events_add(&world->events, &slowed);
@@ -90,7 +93,7 @@ static void collect_events(World *world, uint32_t substep)
     world->deleted_total += total_lost;
     if (total_lost) {
         particles_compact(&world->particles);
-        world_matter_changed(world);
+        world_touch(world);
         result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
     }
 }
@@ -150,11 +153,12 @@ pbmpm_result world_step(World *world, float dt)
     const double begin = now_ms();
     const int parts = world->settings.substeps;
     const float part_dt = (float)((double)dt / parts);
-    world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations, .dt = part_dt};
+    world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
     world_touch(world);
     pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
+        if (world->particles.count == 0) grid_clear(&world->grid);
         const pbmpm_result result = world->particles.count ? substep(world, part_dt, part) : PBMPM_OK;
         if (result != PBMPM_OK) return result;
         world->simulated_seconds += (double)part_dt;

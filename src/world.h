@@ -18,8 +18,8 @@
 typedef struct StepRecord {
     double ms_total, ms_sort, ms_scatter, ms_contacts, ms_iterate, ms_integrate;
     uint32_t substeps, iterations;
-    uint32_t moved; /* particles that left their cell in the last substep */
-    float dt;       /* of a substep [s] */
+    float moved;  /* share of particles that left their cell in the last substep */
+    float travel; /* the largest displacement in it [cells] */
 } StepRecord;
 
 typedef struct World {
@@ -36,7 +36,6 @@ typedef struct World {
     Colliders colliders;
     Grid grid;
     KernelArgs args;
-    double liquid_volume;  /* rest volume of all liquid [m^d]; below 0: not known */
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
@@ -72,11 +71,5 @@ static inline double world_cell_volume(const World *world)
 /* Expires all views: the particles are not what they were. */
 static inline void world_touch(World *world) { world->generation++; }
 
-/* The same when particles came or went. */
-static inline void world_matter_changed(World *world)
-{
-    world_touch(world);
-    world->liquid_volume = -1.0;
-}
 
 #endif

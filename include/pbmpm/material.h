@@ -23,7 +23,8 @@ typedef enum pbmpm_material_kind {
 /** What happens to an elastic particle that is strained beyond all measure. */
 typedef enum pbmpm_strain_policy {
     PBMPM_STRAIN_CLAMP = 0,  /**< singular values of F are kept in [strain_min, strain_max] */
-    PBMPM_STRAIN_DELETE = 1, /**< deleted, with an event, when the condition number of F exceeds condition_max (the paper's rule) */
+    PBMPM_STRAIN_DELETE = 1, /**< deleted, with an event, when the condition number of F exceeds condition_max (the paper's
+                                     rule), when F is a reflection, or when it stretches by 10,000 */
     PBMPM_STRAIN_POLICY_FORCE32 = 0x7fffffff
 } pbmpm_strain_policy;
 

@@ -61,7 +61,7 @@ typedef enum pbmpm_field {
     PBMPM_POSITION = 0,        /**< d floats [m], relative to the origin */
     PBMPM_VELOCITY = 1,        /**< d floats [m/s] */
     PBMPM_AFFINE_VELOCITY = 2, /**< d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood */
-    PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle; det F of an elastic one as of its last step */
+    PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step */
     PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; needs an elastic material in the world */
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
@@ -87,7 +87,7 @@ typedef struct pbmpm_view {
 PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
 
 /** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
- *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+ *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), DEFORMATION (elastic, any finite matrix
  *  with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
  *  All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
  *  UNSUPPORTED (a particle whose material has no such field); BUSY. */

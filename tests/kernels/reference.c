@@ -112,8 +112,8 @@ double reference_compression(const RefGrid *grid, const RefParticle *p)
 
 /* ---- Materials ---- */
 
-/* J (1 + tr D) = 1, but no more than rebound_max is asked for, and the correction presses with no more than pressure_max. Viscosity
- * takes a share of the deviator of the symmetric part; spin and volume change stay. */
+/* J (1 + tr D) = 1. A compression that goes on is stopped in full; of growth no more than rebound_max is asked for, and it presses
+ * with no more than pressure_max. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
 static void project_liquid(int n, const RefParticle *p, double D[9])
 {
     const KernelMaterial *material = &p->material;
@@ -125,8 +125,8 @@ static void project_liquid(int n, const RefParticle *p, double D[9])
             const double deviator = 0.5 * (old[r * 3 + c] + old[c * 3 + r]) - (r == c ? trace / n : 0.0);
             D[r * 3 + c] -= (double)material->viscosity * deviator;
         }
-    const double wanted = fmin(1.0 / p->volume_ratio - 1.0, (double)material->rebound_max);
-    const double correction = fmin(wanted - trace, (double)material->pressure_max * p->volume_ratio);
+    const double growth = fmin(1.0 / p->volume_ratio - 1.0, (double)material->rebound_max) - fmax(trace, 0.0);
+    const double correction = fmin(growth, (double)material->pressure_max * p->volume_ratio) - fmin(trace, 0.0);
     for (int r = 0; r < n; r++) D[r * 4] += (double)material->relaxation / n * correction;
 }
 
