@@ -39,13 +39,13 @@ static pbmpm_result hold(pbmpm_world_id id, Hold *held)
         registry_leave(id);
         return fail(PBMPM_ERROR_FORKED, "this world belongs to the parent process");
     }
-    held->float_mode = float_mode_enter();
+    held->float_mode = float_mode_enter_from_host();
     return PBMPM_OK;
 }
 
 static pbmpm_result let_go(const Hold *held, pbmpm_result result)
 {
-    float_mode_leave(held->float_mode);
+    float_mode_leave_to_host(held->float_mode);
     registry_leave(held->id);
     return result;
 }
@@ -109,13 +109,13 @@ pbmpm_result pbmpm_shutdown(void)
     return PBMPM_OK;
 }
 
-/* A library that is unloaded must not leave threads in its code. */
-__attribute__((destructor)) static void shut_down_at_unload(void) { registry_clear(); }
+/* A library that is unloaded must not leave threads in its code. Memory stays: the host's functions may be gone by now. */
+__attribute__((destructor)) static void stop_at_unload(void) { registry_stop_threads(); }
 
 /* ---- world.h ---- */
 
 /* Shorter substeps leave the range of floats: velocities are displacements divided by them. */
-static const double SHORTEST_SUBSTEP = 1e-20;
+static const double SHORTEST_SUBSTEP = 1e-25;
 
 pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size)
 {
@@ -146,9 +146,9 @@ pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *worl
     REQUIRE(world);
     *world = (pbmpm_world_id){0, 0};
     REQUIRE_SIZE(def);
-    const uint32_t float_mode = float_mode_enter();
+    const uint32_t float_mode = float_mode_enter_from_host();
     const pbmpm_result result = create_world(def, world);
-    float_mode_leave(float_mode);
+    float_mode_leave_to_host(float_mode);
     return result;
 }
 
@@ -192,7 +192,7 @@ pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
     const double part = (double)dt / w->settings.substeps;
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
     if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)w->def.cell_size)
-        LET_GO(invalid("dt is too short: a substep must last 1e-20 s, and 1e-20 s per metre of cell size"));
+        LET_GO(invalid("dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size"));
     LET_GO(world_step(w, dt));
 }
 

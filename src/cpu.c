@@ -65,3 +65,30 @@ uint32_t float_mode_enter(void)
 }
 
 void float_mode_leave(uint32_t old) { _mm_setcsr(old); }
+
+static _Thread_local uint32_t host_mode;
+static _Thread_local int depth; /* calls of the API that this thread is inside of */
+
+uint32_t float_mode_enter_from_host(void)
+{
+    const uint32_t old = float_mode_enter();
+    host_mode = old;
+    depth++;
+    return old;
+}
+
+void float_mode_leave_to_host(uint32_t old)
+{
+    depth--;
+    host_mode = old;
+    float_mode_leave(old);
+}
+
+uint32_t float_mode_lend(void)
+{
+    const uint32_t ours = _mm_getcsr();
+    if (depth > 0) _mm_setcsr(host_mode);
+    return ours;
+}
+
+void float_mode_take_back(uint32_t lent) { _mm_setcsr(lent); }

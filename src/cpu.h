@@ -14,4 +14,11 @@ int cpu_core_count(void);
 uint32_t float_mode_enter(void);
 void float_mode_leave(uint32_t old);
 
+/* The same at the edge of the API: the mode of the caller is remembered for the thread, so that functions of the host that are called
+ * from inside run in it: float_mode_lend() before, float_mode_take_back() with its result after. */
+uint32_t float_mode_enter_from_host(void);
+void float_mode_leave_to_host(uint32_t old);
+uint32_t float_mode_lend(void);
+void float_mode_take_back(uint32_t lent);
+
 #endif

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cpu.h"
+
 enum { ALIGNMENT = 64 };
 
 static void *default_allocate(size_t size, size_t alignment, void *user)
@@ -29,7 +31,9 @@ void memory_init(Memory *memory, const pbmpm_allocator *allocator, uint64_t budg
 void *memory_take(Memory *memory, size_t size)
 {
     if (memory->budget && (size > memory->budget || memory->used > memory->budget - size)) return NULL;
+    const uint32_t mode = float_mode_lend();
     void *block = memory->allocator.allocate(size, ALIGNMENT, memory->allocator.user);
+    float_mode_take_back(mode);
     if (!block) return NULL;
     memory->used += size;
     memset(block, 0, size);
@@ -40,7 +44,9 @@ void memory_give(Memory *memory, void *block, size_t size)
 {
     if (!block) return;
     memory->used -= size;
+    const uint32_t mode = float_mode_lend();
     memory->allocator.release(block, size, memory->allocator.user);
+    float_mode_take_back(mode);
 }
 
 bool array_reserve(Memory *memory, Array *array, size_t count, size_t size)

@@ -128,15 +128,21 @@ pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *ho
     return PBMPM_OK;
 }
 
+void pool_stop(Pool *pool)
+{
+    pthread_mutex_lock(&pool->lock);
+    atomic_store(&pool->stop, true);
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+    for (int i = 0; i < pool->started; i++) pthread_join(pool->worker[i], NULL);
+    pool->started = 0;
+}
+
 void pool_destroy(Memory *memory, Pool *pool, bool joinable)
 {
     if (!pool) return;
     if (joinable) {
-        pthread_mutex_lock(&pool->lock);
-        atomic_store(&pool->stop, true);
-        pthread_cond_broadcast(&pool->work);
-        pthread_mutex_unlock(&pool->lock);
-        for (int i = 0; i < pool->started; i++) pthread_join(pool->worker[i], NULL);
+        pool_stop(pool);
         pthread_cond_destroy(&pool->done);
         pthread_cond_destroy(&pool->work);
         pthread_mutex_destroy(&pool->lock);
@@ -162,8 +168,10 @@ void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *c
     loop->grain = grain;
     atomic_store(&loop->next, 0);
     if (pool->hooks.enqueue) {
+        const uint32_t mode = float_mode_lend();
         void *handle = pool->hooks.enqueue(host_task, pool->threads, loop, pool->hooks.user);
         pool->hooks.finish(handle, pool->hooks.user);
+        float_mode_take_back(mode);
         return;
     }
     start_round(pool);

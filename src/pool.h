@@ -15,6 +15,8 @@ typedef void RangeTask(void *context, int32_t begin, int32_t end);
 pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *hooks, Pool **pool);
 /* After a fork the threads exist only in the parent: `joinable` false frees without joining. */
 void pool_destroy(Memory *memory, Pool *pool, bool joinable);
+/* Ends the threads; loops run on the caller from then on. */
+void pool_stop(Pool *pool);
 int pool_thread_count(const Pool *pool);
 
 /* Serial mode runs every loop on the caller: cheaper when there is little to do. */

@@ -2,6 +2,7 @@
 
 #include <pthread.h>
 #include <stdatomic.h>
+#include <unistd.h>
 
 #include "result.h"
 
@@ -65,8 +66,18 @@ pbmpm_result registry_remove(pbmpm_world_id id, World **world)
 void registry_clear(void)
 {
     for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
-        World *world;
+        World *world = NULL;
         const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
         if (id.generation != 0 && registry_remove(id, &world) == PBMPM_OK) world_destroy(world);
+    }
+}
+
+void registry_stop_threads(void)
+{
+    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
+        World *world = NULL;
+        const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
+        if (id.generation == 0 || registry_remove(id, &world) != PBMPM_OK) continue;
+        if (world->owner == getpid()) pool_stop(world->pool);
     }
 }

@@ -20,4 +20,7 @@ pbmpm_result registry_remove(pbmpm_world_id id, World **world);
 /* Destroys all worlds. */
 void registry_clear(void);
 
+/* Ends the threads of all worlds and leaves their memory alone: the host's allocator may be gone. */
+void registry_stop_threads(void);
+
 #endif

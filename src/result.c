@@ -3,9 +3,19 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+#include "cpu.h"
+
 static _Thread_local char message[256];
 static pbmpm_log_callback *log_callback;
 static void *log_user;
+
+static void tell(const char *line)
+{
+    if (!log_callback) return;
+    const uint32_t mode = float_mode_lend();
+    log_callback(line, log_user);
+    float_mode_take_back(mode);
+}
 
 pbmpm_result fail(pbmpm_result result, const char *format, ...)
 {
@@ -13,7 +23,7 @@ pbmpm_result fail(pbmpm_result result, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    if (log_callback) log_callback(message, log_user);
+    tell(message);
     return result;
 }
 
@@ -25,7 +35,7 @@ void result_log(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    log_callback(line, log_user);
+    tell(line);
 }
 
 const char *result_message(void) { return message; }

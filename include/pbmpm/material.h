@@ -29,6 +29,10 @@ typedef enum pbmpm_strain_policy {
 } pbmpm_strain_policy;
 
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
+ *  Liquid that was crushed grows back with at most the pressure of four times the height of the matter and of its motion; where the
+ *  grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
+ *  per substep so that they part (unless volume_feedback is 0).
+ *
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
  *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
  *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
@@ -49,8 +53,7 @@ typedef struct pbmpm_material_def {
     float strain_max;           /**< elastic: upper bound, in [1, 1e4]; default 20 */
     float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
     float rebound_max;          /**< elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
-                                     Matter that was crushed to nothing grows back at this rate instead of exploding. (A
-                                     liquid presses with at most 3 * density * |g| * height of the matter to the same end.) */
+                                     Matter that was crushed to nothing grows back at this rate instead of exploding. */
 } pbmpm_material_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -75,7 +75,7 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
 
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
  *  of occupied blocks has stopped growing. `dt` must be in (0, 10], and a
- *  substep at least 1e-20 s and 1e-20 s/m times the cell size.
+ *  substep at least 1e-25 s and 1e-25 s/m times the cell size.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
  *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
  *  was set from outside is brought into its material's range.

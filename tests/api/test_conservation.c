@@ -199,6 +199,42 @@ static void test_scenes_keep_their_mass(void)
     }
 }
 
+/* ---- removal ---- */
+
+/* The kernels load whole gangs: what lies behind the last particle must not matter, wherever the matter is. */
+static void remove_some(int32_t dimension, pbmpm_material_kind kind, float place, uint32_t removed)
+{
+    enum { MOST = 64 };
+    const pbmpm_world_def def = default_world(dimension, 0.125f, 8192);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particle_id ids[MOST];
+    uint32_t found = 0;
+    char label[96];
+    fill_shape(world, create_material(world, kind), box_shape(place, place, place, 0.5f, 0.5f, 0.5f), (const float[3]){0, 0, 0});
+    OK(pbmpm_world_step(world, 1.0f / 60));
+    const pbmpm_shape everything = sphere_shape(place, place, place, 10);
+    OK(pbmpm_query_shape(world, &everything, ids, MOST, &found));
+    OK(pbmpm_particles_remove(world, ids, removed));
+    for (int step = 0; step < 10; step++)
+        OK(pbmpm_world_step(world, 1.0f / 60));
+    snprintf(label, sizeof label, "%dD, kind %d, at %g m, %u removed", (int)dimension, (int)kind, (double)place, removed);
+    TEST_ASSERT_EQUAL_UINT32_MESSAGE(found - removed, world_count(world), label);
+    world_expect_finite(world, label);
+    OK(pbmpm_world_destroy(world));
+}
+
+static void test_removal_does_not_touch_the_others(void)
+{
+    static const uint32_t counts[] = {1, 3, 5, 40};
+    static const float places[] = {-5, 0, 5};
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (size_t c = 0; c < sizeof counts / sizeof *counts; c++)
+            for (size_t p = 0; p < sizeof places / sizeof *places; p++) {
+                remove_some(dimension, PBMPM_LIQUID, places[p], counts[c]);
+                remove_some(dimension, PBMPM_ELASTIC, places[p], counts[c]);
+            }
+}
+
 /* ---- free fall ---- */
 
 /* After the time t the speed is g t, and the way differs from g t^2/2 by no more than g t dt/2. The body keeps its
@@ -335,6 +371,7 @@ int main(void)
     RUN_TEST(test_momentum_of_a_free_elastic_body_in_3d);
     RUN_TEST(test_mass_is_density_times_rest_volume);
     RUN_TEST(test_scenes_keep_their_mass);
+    RUN_TEST(test_removal_does_not_touch_the_others);
     RUN_TEST(test_free_fall);
     RUN_TEST(test_whole_cell_translation_in_2d);
     RUN_TEST(test_whole_cell_translation_in_3d);

@@ -347,7 +347,7 @@ static void test_origin_changes_no_result(void)
 
 static void test_every_length_of_step_in_the_range_is_taken(void)
 {
-    static const float lengths[] = {2e-38f, 1e-20f, 1e-6f, 0.1f, 1.0f, 10.0f};
+    static const float lengths[] = {2e-25f, 1e-12f, 1e-6f, 0.1f, 1.0f, 10.0f};
     for (size_t i = 0; i < sizeof lengths / sizeof *lengths; i++) {
         const pbmpm_world_id world = tank_2d(NULL, NULL);
         const uint32_t before = world_count(world);

@@ -1,6 +1,7 @@
 /* Bit-identical results for any number of threads and any floating-point mode of the caller. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <xmmintrin.h>
 
 #include "scenes.h"
@@ -172,6 +173,75 @@ static void test_refusals_restore_the_mode(void)
     }
 }
 
+/* ---- functions of the host ---- */
+
+static unsigned seen_in_host; /* the mode that the host's functions found, or'd together */
+static int host_calls;
+
+static void note_mode(void)
+{
+    seen_in_host |= _mm_getcsr();
+    host_calls++;
+}
+
+static void *noting_allocate(size_t size, size_t alignment, void *user)
+{
+    (void)user;
+    note_mode();
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void noting_release(void *memory, size_t size, void *user)
+{
+    (void)size;
+    (void)user;
+    note_mode();
+    free(memory);
+}
+
+static void *noting_enqueue(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    (void)user;
+    note_mode();
+    for (int32_t i = 0; i < count; i++)
+        task(i, context);
+    return NULL;
+}
+
+static void noting_finish(void *handle, void *user)
+{
+    (void)handle;
+    (void)user;
+    note_mode();
+}
+
+static void noting_log(const char *message, void *user)
+{
+    (void)message;
+    (void)user;
+    note_mode();
+}
+
+static void test_functions_of_the_host_run_in_its_mode(void)
+{
+    const unsigned own = _mm_getcsr() & ~0x3fu; /* without the sticky flags */
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.allocator = (pbmpm_allocator){noting_allocate, noting_release, NULL};
+    def.tasks = (pbmpm_task_hooks){noting_enqueue, noting_finish, NULL};
+    def.thread_count = 2;
+    seen_in_host = 0;
+    host_calls = 0;
+    OK(pbmpm_set_log_callback(noting_log, NULL));
+    const pbmpm_world_id world = create_world(&def);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, 0, 0, 0.7f, 0.7f, 0), (const float[3]){0, 0, 0});
+    OK(pbmpm_world_step(world, 1.0f / 60));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(world, -1));
+    OK(pbmpm_world_destroy(world));
+    OK(pbmpm_set_log_callback(NULL, NULL));
+    TEST_ASSERT_TRUE(host_calls > 20);
+    TEST_ASSERT_EQUAL_HEX32(own, seen_in_host & ~0x3fu);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -179,5 +249,6 @@ int main(void)
     RUN_TEST(test_any_number_of_threads_gives_the_same_hash);
     RUN_TEST(test_any_mode_of_the_caller_gives_the_same_hash);
     RUN_TEST(test_refusals_restore_the_mode);
+    RUN_TEST(test_functions_of_the_host_run_in_its_mode);
     return UNITY_END();
 }

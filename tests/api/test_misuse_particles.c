@@ -183,8 +183,8 @@ static void test_values_of_setters(void)
 
 static void test_volume_ratio_setter(void)
 {
-    static const float wrong[] = {NAN, INFINITY, 0, -1, 0.0099f, 100.1f};
-    const float position[2] = {0.25f, 0.25f}, ends[2] = {0.01f, 100};
+    static const float wrong[] = {NAN, INFINITY, 0, -1, 0.0499f, 1.21f};
+    const float position[2] = {0.25f, 0.25f}, ends[2] = {0.05f, 1.2f};
     pbmpm_particles_def def;
     pbmpm_particle_id id;
     OK(pbmpm_particles_def_init(&def, sizeof def));

@@ -170,7 +170,7 @@ bool reference_limit_strain(int n, const KernelMaterial *material, double F[9])
 {
     double u[9], s[3], v[9], vt[9];
     matrix_decompose(n, F, u, s, v);
-    if (material->condition_max > 0.0f) return s[n - 1] > 0.0 && s[0] <= (double)material->condition_max * s[n - 1];
+    if (material->condition_max > 0.0f) return s[n - 1] > 0.0 && s[0] <= (double)material->condition_max * s[n - 1] && s[0] < 1e4;
     for (int c = 0; c < n; c++) {
         const double clamped = fmin(fmax(s[c], (double)material->strain_min), (double)material->strain_max);
         for (int r = 0; r < n; r++) u[r * 3 + c] *= clamped;

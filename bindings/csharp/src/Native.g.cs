@@ -85,7 +85,8 @@ namespace Pbmpm
     {
         /// <summary>singular values of F are kept in [strain_min, strain_max]</summary>
         Clamp = 0,
-        /// <summary>deleted, with an event, when the condition number of F exceeds condition_max (the paper's rule)</summary>
+        /// <summary>deleted, with an event, when the condition number of F exceeds condition_max (the paper's
+        /// rule), when F is a reflection, or when it stretches by 10,000</summary>
         Delete = 1,
     }
 
@@ -111,7 +112,7 @@ namespace Pbmpm
         Velocity = 1,
         /// <summary>d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood</summary>
         AffineVelocity = 2,
-        /// <summary>1 float: J of a liquid particle; det F of an elastic one as of its last step</summary>
+        /// <summary>1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step</summary>
         VolumeRatio = 3,
         /// <summary>d*d floats, row-major F; identity for liquids; needs an elastic material in the world</summary>
         Deformation = 4,
@@ -233,6 +234,10 @@ namespace Pbmpm
     }
 
     /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
+    /// Liquid that was crushed grows back with at most the pressure of four times the height of the matter and of its motion; where the
+    /// grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
+    /// per substep so that they part (unless volume_feedback is 0).
+    ///
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
     /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
@@ -266,8 +271,7 @@ namespace Pbmpm
         /// <summary>elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6</summary>
         public float ConditionMax;
         /// <summary>elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
-        /// Matter that was crushed to nothing grows back at this rate instead of exploding. (A
-        /// liquid presses with at most 3 * density * |g| * height of the matter to the same end.)</summary>
+        /// Matter that was crushed to nothing grows back at this rate instead of exploding.</summary>
         public float ReboundMax;
 
         /// <summary>The library's defaults.</summary>
@@ -675,8 +679,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_layout_table(LayoutEntry** entries, uint* count);
 
-        /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library. No other call may be
-        /// under way. Afterwards the library may be used again.</summary>
+        /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library: unloading alone ends the
+        /// threads and leaks the memory of worlds that are left. No other call may be under way. Afterwards the library may be used again.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_shutdown();
 
@@ -739,9 +743,11 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
 
         /// <summary>Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
-        /// of occupied blocks has stopped growing. `dt` must be finite, in (0, 10].
+        /// of occupied blocks has stopped growing. `dt` must be in (0, 10], and a
+        /// substep at least 1e-25 s and 1e-25 s/m times the cell size.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
-        /// needed it is not begun, earlier substeps of the call stay done.
+        /// needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
+        /// was set from outside is brought into its material's range.
         /// Any thread, one at a time per world; different worlds step at the same time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step(WorldId world, float dt);
@@ -794,7 +800,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_view(WorldId world, Field field, View* view);
 
         /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
-        /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.01, 100]), DEFORMATION (elastic, any finite matrix
+        /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), DEFORMATION (elastic, any finite matrix
         /// with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
         /// All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
         /// UNSUPPORTED (a particle whose material has no such field); BUSY.</summary>

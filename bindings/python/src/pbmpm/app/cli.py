@@ -38,6 +38,9 @@ def main() -> None:
     except (InputError, pbmpm.PbmpmError) as error:
         print(f"pbmpm: {error}", file=sys.stderr)
         sys.exit(EXIT_USAGE)
+    except OSError as error:
+        print(f"pbmpm: {error.filename or 'a file'}: {error.strerror or error}", file=sys.stderr)
+        sys.exit(EXIT_USAGE)
     except (click.Abort, KeyboardInterrupt):
         sys.exit(EXIT_INTERRUPTED)
 
