@@ -71,7 +71,7 @@ static double trimmed_depth(const World *world)
     return high - low;
 }
 
-/* The pressure over density that crushed liquid may grow with [m^2/s^2]: four times that of the weight of matter as high as it
+/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
  * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
  * stopped, once: more would feed on the speed that it makes. */
 static double pressure_head(const World *world)
@@ -81,7 +81,7 @@ static double pressure_head(const World *world)
     for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double stands = trimmed_depth(world) * K_BLOCK_AXIS * (double)world->def.cell_size;
     const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
-    return weight > 0.0 ? 4.0 * weight + 0.5 * liquid.speed2 : 0.0;
+    return weight > 0.0 ? 3.0 * weight + 0.5 * liquid.speed2 : 0.0;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */

@@ -51,7 +51,7 @@ def speed_of_release(stray: bool) -> float:
 
 
 def test_crushed_liquid_grows_back_at_a_bounded_speed_whatever_is_far_away() -> None:
-    """The bound of the pressure is four columns of 1 m and the motion once, so about sqrt(8 g h) = 9 m/s and what motion adds; without the
+    """The bound of the pressure is three columns of 1 m and the motion once, so about sqrt(6 g h) = 8 m/s and what motion adds; without the
     bound the clamp of 32 cells per step, 384 m/s, is reached. A particle a kilometre away must not lift it."""
     alone = speed_of_release(stray=False)
     assert alone < 30

@@ -234,7 +234,7 @@ namespace Pbmpm
     }
 
     /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
-    /// Liquid that was crushed grows back with at most the pressure of four times the height of the matter and of its motion; where the
+    /// Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion; where the
     /// grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
     /// per substep so that they part (unless volume_feedback is 0).
     ///

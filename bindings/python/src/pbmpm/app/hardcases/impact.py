@@ -97,10 +97,15 @@ def trap(setting: Setting) -> list[Check]:
         watch.forget()
         watch.run(10 * setting.dt, setting.dt)
         fastest = watch.fastest
-        watch.run(SETTLE_SECONDS, setting.dt)
+        shares = []
+        for _ in range(round(SETTLE_SECONDS / setting.dt)):
+            watch.step(setting.dt)
+            shares.append(_recovered(world))
+        # The median: the released liquid comes back from the tank's walls as a wave, which compresses it for a moment.
+        share = float(np.median(shares[len(shares) // 2 :]))
         return [
             Check("speed in the first 10 steps of release [m/s]", fastest, _free_speed()),
-            Check("share of particles with J in [0.8, 1.2]", _recovered(world), RECOVERED_SHARE, at_least=True),
+            Check("share of particles with J in [0.8, 1.2]", share, RECOVERED_SHARE, at_least=True),
             *watch.checks(),
         ]
 
