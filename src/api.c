@@ -109,8 +109,8 @@ pbmpm_result pbmpm_shutdown(void)
     return PBMPM_OK;
 }
 
-/* A library that is unloaded must not leave threads in its code. Memory stays: the host's functions may be gone by now. */
-__attribute__((destructor)) static void stop_at_unload(void) { registry_stop_threads(); }
+/* A library that is unloaded must not leave threads in its code. */
+__attribute__((destructor)) static void clear_at_unload(void) { registry_clear_at_unload(); }
 
 /* ---- world.h ---- */
 

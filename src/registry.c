@@ -72,12 +72,15 @@ void registry_clear(void)
     }
 }
 
-void registry_stop_threads(void)
+void registry_clear_at_unload(void)
 {
     for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
         World *world = NULL;
         const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
         if (id.generation == 0 || registry_remove(id, &world) != PBMPM_OK) continue;
-        if (world->owner == getpid()) pool_stop(world->pool);
+        if (!world->def.allocator.allocate)
+            world_destroy(world);
+        else if (world->owner == getpid())
+            pool_stop(world->pool);
     }
 }

@@ -20,7 +20,7 @@ pbmpm_result registry_remove(pbmpm_world_id id, World **world);
 /* Destroys all worlds. */
 void registry_clear(void);
 
-/* Ends the threads of all worlds and leaves their memory alone: the host's allocator may be gone. */
-void registry_stop_threads(void);
+/* The same at unloading: worlds with the host's allocator, which may be gone by now, lose their threads alone. */
+void registry_clear_at_unload(void);
 
 #endif
