@@ -134,7 +134,8 @@ typedef struct pbmpm_layout_entry {
 PBMPM_API pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count);
 
 /** Destroys all worlds and joins all threads of the library. For hosts that unload the library: unloading alone does
- *  the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may be under way. Afterwards the library may be used again. */
+ *  the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may
+ *  be under way. Afterwards the library may be used again. */
 PBMPM_API pbmpm_result pbmpm_shutdown(void);
 
 #ifdef __cplusplus

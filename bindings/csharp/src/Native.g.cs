@@ -680,7 +680,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_layout_table(LayoutEntry** entries, uint* count);
 
         /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library: unloading alone does
-        /// the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may be under way. Afterwards the library may be used again.</summary>
+        /// the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may
+        /// be under way. Afterwards the library may be used again.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_shutdown();
 
