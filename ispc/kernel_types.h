@@ -34,6 +34,8 @@ typedef int32 int32_t;
 #define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
 #define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
 
+#define K_INCREMENT_MAX 1e4f /* larger displacements [cells] and gradients are senseless, and their sums could overflow */
+
 #define K_ALIVE 0
 #define K_NOT_FINITE 1
 #define K_OUT_OF_RANGE 2

@@ -41,8 +41,8 @@ static double block_depth(const World *world, int32_t block)
     return along;
 }
 
-/* The depths between which all but a fiftieth of the particles at either end lie: narrowed by histograms, so that a stray particle far
- * away does not count. */
+/* The depths between which all but a fiftieth of the particles at either end lie: narrowed by histograms, so that a stray
+ * particle far away does not count. */
 static double trimmed_depth(const World *world)
 {
     enum { BINS = 64, ROUNDS = 4 };
@@ -61,10 +61,11 @@ static double trimmed_depth(const World *world)
             if (bin < 0.0) below += begin[block + 1] - begin[block];
             if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += begin[block + 1] - begin[block];
         }
-        int first = 0, last = BINS - 1;
+        int first = 0;
         double sum = below;
         while (first < BINS - 1 && sum + count[first] < trim) sum += count[first++];
-        for (sum = below, last = 0; last < BINS - 1 && sum + count[last] < world->particles.count - trim;) sum += count[last++];
+        int last = first;
+        while (last < BINS - 1 && sum + count[last] < world->particles.count - trim) sum += count[last++];
         high = low + (last + 1) * width;
         low = low + first * width;
     }
@@ -73,15 +74,17 @@ static double trimmed_depth(const World *world)
 
 /* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
  * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
- * stopped, once: more would feed on the speed that it makes. */
+ * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
 static double pressure_head(const World *world)
 {
-    const LiquidState liquid = measure_liquid(world);
     double strength = 0.0;
     for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    if (strength == 0.0) return 0.0;
+    const LiquidState liquid = measure_liquid(world);
+    if (liquid.volume == 0.0) return 0.0;
     const double stands = trimmed_depth(world) * K_BLOCK_AXIS * (double)world->def.cell_size;
     const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
-    return weight > 0.0 ? 3.0 * weight + 0.5 * liquid.speed2 : 0.0;
+    return 3.0 * weight + 0.5 * liquid.speed2;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
@@ -163,8 +166,10 @@ void solver_bind(World *world, float dt, bool with_volume)
     memcpy(a->velocity, p->velocity, sizeof a->velocity);
     memcpy(a->affine, p->affine, sizeof a->affine);
     memcpy(a->deformation, p->deformation, sizeof a->deformation);
-    for (int k = 0; k < world->def.dimension; k++)
-        a->gravity[k] = (float)fmax(-1e4, fmin(1e4, (double)world->settings.gravity[k] * dt * dt * cells_per_metre));
+    for (int k = 0; k < world->def.dimension; k++) {
+        const double pull = (double)world->settings.gravity[k] * dt * dt * cells_per_metre;
+        a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
+    }
 }
 
 typedef struct KernelJob {
