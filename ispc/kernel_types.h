@@ -31,6 +31,9 @@ typedef int32 int32_t;
 #define K_LIQUID 0
 #define K_ELASTIC 1
 
+#define K_FIXED_COROTATED 0
+#define K_NEO_HOOKEAN 1
+
 #define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
 #define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
 
@@ -56,6 +59,12 @@ struct KernelMaterial {
     float rebound_max;  /* elastic: strain per iteration; liquid: strain per substep */
     float pressure_max; /* liquid: bound of the pressure, as a multiple of the stiffness */
     float inverse_density;
+    /* Moduli times c = 4 dt^2 / (dx^2 density): the square of twice the Courant number of their waves. */
+    int32_t elastic_model;
+    float shear;              /* elastic: c mu */
+    float dilation;           /* elastic: c lambda; liquid: c K, FLT_MAX if incompressible */
+    float inverse_stiffness;  /* liquid: 1 / (c K); 0 if incompressible */
+    float viscous_share;      /* liquid: share of the deviator that one round of viscosity takes */
 };
 #endif
 
@@ -84,6 +93,7 @@ struct KernelArgs {
     K_PTR(float) tile;        /* per particle block: what its particles add to the nodes they touch */
     K_PTR(float) tile_volume; /* the same for rest volume, one float per node; null when no material asks for it */
     K_PTR(float) node;        /* per node block: displacement and mass */
+    K_PTR(float) node_base;   /* per node block: displacement of the predictor, unconstrained, and mass; not the paper's solver */
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
     K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */

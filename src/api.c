@@ -7,6 +7,7 @@
 #include "colliders.h"
 #include "cpu.h"
 #include "edit.h"
+#include "effective.h"
 #include "inspect.h"
 #include "layout.h"
 #include "numbers.h"
@@ -193,6 +194,8 @@ pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
     if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)w->def.cell_size)
         LET_GO(invalid("dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size"));
+    if (w->settings.solver == PBMPM_SOLVER_EXPLICIT && materials_want_modulus(&w->materials))
+        LET_GO(invalid("the explicit solver needs a bulk_modulus for every liquid"));
     LET_GO(world_step(w, dt));
 }
 
@@ -247,6 +250,16 @@ pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material
     HOLD(world);
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     *def = w->materials.def[material.index];
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id material, float dt, pbmpm_effective *effective)
+{
+    REQUIRE_SIZE(effective);
+    HOLD(world);
+    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
+    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    *effective = effective_modulus(w, &w->materials.def[material.index], (double)dt / w->settings.substeps);
     LET_GO(PBMPM_OK);
 }
 

@@ -32,7 +32,7 @@ typedef struct Grid {
     uint32_t runs;
 
     /* What the kernels work on; see KernelArgs. */
-    Array tile, tile_volume, node, node_volume, node_reach, clamped, moved, lost, travel;
+    Array tile, tile_volume, node, node_base, node_volume, node_reach, clamped, moved, lost, travel;
 
     /* Scratch of the build. */
     Array found;       /* blocks in order of discovery */

@@ -146,6 +146,12 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->deleted_total = world->deleted_total;
     stats->clamped_total = world->clamped_total;
     stats->lane_occupancy = lane_occupancy(world);
+    stats->solver = record->solver;
+    stats->stop = record->stop;
+    stats->iterations_used = record->iterations_used;
+    stats->residual = (float)record->residual;
+    stats->predicted_error = (float)record->predicted_error;
+    stats->energy_checks_failed = record->energy_checks_failed;
 }
 
 pbmpm_result inspect_stats(World *world, pbmpm_stats *stats)

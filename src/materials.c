@@ -16,7 +16,22 @@ pbmpm_material_def material_defaults(void)
                                 .strain_min = 0.1f,
                                 .strain_max = 20.0f,
                                 .condition_max = 1e6f,
-                                .rebound_max = 1.0f};
+                                .rebound_max = 1.0f,
+                                .elastic_model = PBMPM_FIXED_COROTATED,
+                                .young_modulus = 1e5f,
+                                .poisson_ratio = 0.3f};
+}
+
+static const char *modulus_problem(const pbmpm_material_def *def)
+{
+    if (def->bulk_modulus != 0.0f && !in_range(def->bulk_modulus, 1e-3, 1e15))
+        return "material.bulk_modulus must be 0 (incompressible) or in [1e-3, 1e15]";
+    if (!in_range(def->kinematic_viscosity, 0.0, 1e6)) return "material.kinematic_viscosity must be in [0, 1e6]";
+    if (def->elastic_model != PBMPM_FIXED_COROTATED && def->elastic_model != PBMPM_NEO_HOOKEAN)
+        return "material.elastic_model is unknown";
+    if (!in_range(def->young_modulus, 1e-3, 1e15)) return "material.young_modulus must be in [1e-3, 1e15]";
+    if (!in_range(def->poisson_ratio, 0.0, 0.495)) return "material.poisson_ratio must be in [0, 0.495]";
+    return NULL;
 }
 
 const char *material_problem(const pbmpm_material_def *def)
@@ -34,7 +49,7 @@ const char *material_problem(const pbmpm_material_def *def)
     if (!in_range(def->strain_max, 1.0, 1e4)) return "material.strain_max must be in [1, 1e4]";
     if (!in_range(def->condition_max, 10.0, 1e6)) return "material.condition_max must be in [10, 1e6]";
     if (!(def->rebound_max > 0.0f && def->rebound_max <= 10.0f)) return "material.rebound_max must be in (0, 10]";
-    return NULL;
+    return modulus_problem(def);
 }
 
 void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def *def)
@@ -52,6 +67,7 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .condition_max = def->strain_policy == PBMPM_STRAIN_DELETE ? def->condition_max : 0.0f,
         .rebound_max = def->rebound_max, /* of a liquid: set anew for each substep, see solver.c */
         .inverse_density = 1.0f / def->density,
+        .elastic_model = def->elastic_model == PBMPM_NEO_HOOKEAN ? K_NEO_HOOKEAN : K_FIXED_COROTATED,
     };
 }
 
@@ -71,5 +87,13 @@ bool materials_want_volume(const Materials *materials)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (materials->generation[slot] != 0 && materials->kernel[slot].volume_feedback > 0.0f) return true;
+    return false;
+}
+
+bool materials_want_modulus(const Materials *materials)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (materials->generation[slot] != 0 && materials->def[slot].kind == PBMPM_LIQUID && materials->def[slot].bulk_modulus == 0.0f)
+            return true;
     return false;
 }

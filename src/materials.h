@@ -24,6 +24,9 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
 /* Whether any material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials);
 
+/* Whether there is a liquid without a bulk modulus. */
+bool materials_want_modulus(const Materials *materials);
+
 static inline bool material_is_live(const Materials *materials, pbmpm_material_id id)
 {
     return id.index < PBMPM_MAX_MATERIALS && id.generation != 0 && materials->generation[id.index] == id.generation;

@@ -1,11 +1,11 @@
-/* The position based solver: C. Lewin, "A Position Based Material Point Method", SIGGRAPH 2024 Talks.
- *
- * Each iteration gathers the displacements of the nodes to the particles, projects each particle's displacement gradient
- * towards its material's constraint, and scatters the result back as new node displacements. */
+/* What all solvers share: binding the kernels, the predictor, the choice of a solver, stop rules, integration. */
 #ifndef PBMPM_SRC_SOLVER_H
 #define PBMPM_SRC_SOLVER_H
 
 #include "world.h"
+
+/* Chooses the solver of this substep and takes the memory that it needs. The grid is built. */
+pbmpm_result solver_prepare(World *world);
 
 /* Points the kernel arguments at the world's arrays, for substeps of `dt` seconds. */
 void solver_bind(World *world, float dt, bool with_volume);
@@ -13,10 +13,22 @@ void solver_bind(World *world, float dt, bool with_volume);
 /* First P2G and predictor. */
 void solver_predict(World *world);
 
-/* `contacts`: what the nodes obey after every grid update. */
-void solver_iterate(World *world, const ContactFrame *contacts);
+/* Solves for the displacements of the nodes. `contacts`: what they obey. */
+void solver_solve(World *world, const ContactFrame *contacts);
 
 /* Last G2P: moves the particles and updates J and F. */
 void solver_integrate(World *world);
+
+/* ---- For the solvers ---- */
+
+/* Runs a kernel over all particle blocks. */
+void solver_over_particles(World *world, Kernel *kernel);
+
+/* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
+void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts);
+
+/* Whether another iteration is wanted after record.iterations_used of them, with the error that is predicted now [cells].
+ * Records the prediction and, at the end, what ended the iterations. */
+bool solver_may_go_on(World *world, double predicted_error);
 
 #endif

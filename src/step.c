@@ -3,20 +3,13 @@
 #include "step.h"
 
 #include <math.h>
-#include <time.h>
 
+#include "clock.h"
 #include "result.h"
 #include "solver.h"
 
 /* With fewer particles waking threads costs more than it brings. */
 enum { SERIAL_BELOW = 3000 };
-
-static double now_ms(void)
-{
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec * 1e3 + (double)t.tv_nsec * 1e-6;
-}
 
 /* Adds the time since *since to *total and starts anew. */
 static void lap(double *total, double *since)
@@ -124,6 +117,8 @@ static pbmpm_result substep(World *world, float dt, int part)
     lap(&record->ms_sort, &clock);
 
     /* Where they would go if nothing held them. */
+    result = solver_prepare(world);
+    if (result != PBMPM_OK) return result;
     solver_bind(world, dt, with_volume);
     solver_predict(world);
     lap(&record->ms_scatter, &clock);
@@ -136,7 +131,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */
-    solver_iterate(world, &contacts);
+    solver_solve(world, &contacts);
     lap(&record->ms_iterate, &clock);
 
     /* Go. */
@@ -159,6 +154,7 @@ pbmpm_result world_step(World *world, float dt)
     pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
         if (world->particles.count == 0) grid_clear(&world->grid);
+        world->record.deadline_ms = begin + (double)world->settings.time_budget_ms * (part + 1) / parts;
         const pbmpm_result result = world->particles.count ? substep(world, part_dt, part) : PBMPM_OK;
         if (result != PBMPM_OK) return result;
         world->simulated_seconds += (double)part_dt;

@@ -18,6 +18,12 @@
 typedef struct StepRecord {
     double ms_total, ms_sort, ms_scatter, ms_contacts, ms_iterate, ms_integrate;
     uint32_t substeps, iterations;
+    /* Of the last substep. */
+    pbmpm_solver solver;
+    pbmpm_stop stop;
+    uint32_t iterations_used, energy_checks_failed;
+    double residual, predicted_error; /* [cells] */
+    double deadline_ms;               /* of this substep, see now_ms(); with a time budget */
     float moved;  /* share of particles that left their cell in the last substep */
     float travel; /* the largest displacement in it [cells] */
 } StepRecord;

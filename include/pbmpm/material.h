@@ -28,11 +28,21 @@ typedef enum pbmpm_strain_policy {
     PBMPM_STRAIN_POLICY_FORCE32 = 0x7fffffff
 } pbmpm_strain_policy;
 
+/** How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
+ *  Not used by the paper's solver. */
+typedef enum pbmpm_elastic_model {
+    PBMPM_FIXED_COROTATED = 0, /**< energy mu |F - R|^2 + lambda/2 (J - 1)^2, R the rotation of F */
+    PBMPM_NEO_HOOKEAN = 1,     /**< energy mu/2 (|F|^2 - d) - mu ln J + lambda/2 (ln J)^2; below J = 0.1 ln J is continued by its
+                                    second-order expansion, so that inverted matter has a finite stress */
+    PBMPM_ELASTIC_MODEL_FORCE32 = 0x7fffffff
+} pbmpm_elastic_model;
+
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
  *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion; where the
  *  grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
  *  per substep so that they part (unless volume_feedback is 0).
  *
+ *  The other solvers take bulk_modulus, kinematic_viscosity, elastic_model, young_modulus and poisson_ratio.
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
  *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
  *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
@@ -54,7 +64,25 @@ typedef struct pbmpm_material_def {
     float condition_max;        /**< elastic, PBMPM_STRAIN_DELETE: largest condition number of F, in [10, 1e6]; default 1e6 */
     float rebound_max;          /**< elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
                                      Matter that was crushed to nothing grows back at this rate instead of exploding. */
+    float bulk_modulus;         /**< liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
+                                     (default): incompressible */
+    float kinematic_viscosity;  /**< liquid, not the paper's solver: nu [m^2/s], in [0, 1e6]; default 0 */
+    pbmpm_elastic_model elastic_model; /**< elastic, not the paper's solver; default PBMPM_FIXED_COROTATED */
+    float young_modulus;        /**< elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5 */
+    float poisson_ratio;        /**< elastic, not the paper's solver: nu, in [0, 0.495]; default 0.3 */
 } pbmpm_material_def;
+
+/** How stiff a material is with a world's settings and rate. */
+typedef struct pbmpm_effective {
+    uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
+    float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
+                              of young_modulus. Other solvers: the material's own. */
+    float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
+                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. */
+    float kinematic_viscosity; /**< liquid [m^2/s]: paper's solver N viscosity dx^2 / (8 dt), else the material's own; without what
+                                    the transfers add */
+    float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */
+} pbmpm_effective;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size);
@@ -65,6 +93,10 @@ PBMPM_API pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_m
 
 /** Reads a material. `def->size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def);
+
+/** How stiff the material is when the world is stepped by `dt` [s] with its present settings. `effective->size` must be set.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null; dt not in (0, 10]), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id material, float dt, pbmpm_effective *effective);
 
 /** Changes the parameters of a material (not its kind or density); takes effect with the next step.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */

@@ -41,6 +41,14 @@ typedef struct pbmpm_stats {
     float lane_occupancy;         /**< share of SIMD lanes that held a particle; 1 is perfect */
     uint64_t deleted_total;       /**< particles deleted by the library since creation (never by calls) */
     uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
+    pbmpm_solver solver;          /**< that the last substep was solved with (never PBMPM_SOLVER_CONVERGENT) */
+    pbmpm_stop stop;              /**< what ended its iterations */
+    uint32_t iterations_used;     /**< by it; passes over the particles that a line search repeats count as iterations */
+    float residual;               /**< its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver */
+    float predicted_error;        /**< root mean square distance of its displacements from the converged ones [cells], as predicted
+                                       from the residual; 0 where residual is */
+    uint32_t energy_checks_failed; /**< primal: bodies of the last substep whose unfinished solution would have gained energy
+                                        and was replaced */
 } pbmpm_stats;
 
 /** Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over

@@ -38,14 +38,61 @@ typedef struct pbmpm_world_def {
     pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
 } pbmpm_world_def;
 
+/** How the equations of a substep are solved. */
+typedef enum pbmpm_solver {
+    PBMPM_SOLVER_PAPER = 0,      /**< the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt */
+    PBMPM_SOLVER_DUAL = 1,       /**< backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
+                                      liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart. */
+    PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
+                                      preconditioner and a check that no body gains energy. A liquid takes part as a
+                                      compressible one. */
+    PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
+                                      substep. Liquids need a bulk modulus. */
+    PBMPM_SOLVER_CONVERGENT = 4, /**< the dual while the world holds a particle of a liquid, else the primal */
+    PBMPM_SOLVER_FORCE32 = 0x7fffffff
+} pbmpm_solver;
+
+/** Where the dual solver keeps the pressure of a liquid. */
+typedef enum pbmpm_pressure {
+    PBMPM_PRESSURE_PARTICLES = 0, /**< calm: each particle keeps its volume; damps fine motion the more, the better it is solved */
+    PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless */
+    PBMPM_PRESSURE_FORCE32 = 0x7fffffff
+} pbmpm_pressure;
+
+/** How a substep follows from those before it. */
+typedef enum pbmpm_integrator {
+    PBMPM_INTEGRATOR_EULER = 0, /**< backward Euler: first order in dt, damps rotation and oscillation */
+    PBMPM_INTEGRATOR_BDF2 = 1,  /**< second order, primal solver only: hardly damps them */
+    PBMPM_INTEGRATOR_FORCE32 = 0x7fffffff
+} pbmpm_integrator;
+
+/** What ended the iterations of a substep. */
+typedef enum pbmpm_stop {
+    PBMPM_STOP_ITERATIONS = 0, /**< all iterations were done */
+    PBMPM_STOP_ERROR = 1,      /**< the predicted error fell below target_error */
+    PBMPM_STOP_TIME = 2,       /**< time_budget_ms was spent */
+    PBMPM_STOP_FORCE32 = 0x7fffffff
+} pbmpm_stop;
+
 /** What may change between steps. State is kept in physical units, so a change of rate changes nothing in flight. */
 typedef struct pbmpm_settings {
     uint32_t size;          /**< sizeof(pbmpm_settings), set by pbmpm_settings_init() */
     int32_t substeps;       /**< equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1 */
-    int32_t iterations;     /**< N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5 */
+    int32_t iterations;     /**< N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5.
+                                 Ignored by PBMPM_SOLVER_EXPLICIT. */
     float gravity[3];       /**< acceleration [m/s^2]; default 0 */
     float max_displacement; /**< largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
                                  default 32. Faster particles are slowed to it; each time is counted in the events. */
+    pbmpm_solver solver;    /**< default PBMPM_SOLVER_PAPER */
+    pbmpm_pressure pressure;     /**< dual solver; default PBMPM_PRESSURE_PARTICLES */
+    pbmpm_integrator integrator; /**< default PBMPM_INTEGRATOR_EULER */
+    float flip;             /**< share alpha of the motion below the grid's resolution that liquids keep (ASFLIP; not the paper's
+                                 solver), in [0, 1]; default 0. 0.9 is lively. */
+    float target_error;     /**< dual and primal: iterations end when the predicted error of the solution [cells] is below this;
+                                 in [0, 1], 0 (default): off */
+    float time_budget_ms;   /**< dual and primal: no iteration is begun once this much wall time [ms] of the step is spent; each
+                                 substep gets an equal part; in [0, 1e6], 0 (default): off. Results then depend on the machine's
+                                 speed: not deterministic. */
 } pbmpm_settings;
 
 /** Writes the defaults. `size` is the caller's sizeof(*def).

@@ -1,13 +1,14 @@
 /* The fields of the structures that C and ISPC share, in order; read by both languages. */
 #define KERNEL_MATERIAL_FIELDS(FIELD)                                                                                          \
     FIELD(kind) FIELD(relaxation) FIELD(viscosity) FIELD(volume_feedback) FIELD(elasticity_ratio) FIELD(strain_min)           \
-    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(pressure_max) FIELD(inverse_density)
+    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(pressure_max) FIELD(inverse_density)  \
+    FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(viscous_share)
 
 #define KERNEL_ARGS_FIELDS(FIELD)                                                                                             \
     FIELD(fraction) FIELD(cell) FIELD(velocity) FIELD(affine) FIELD(volume_ratio) FIELD(mass) FIELD(deformation)      \
     FIELD(identity) FIELD(status) FIELD(run_begin) FIELD(run_key) FIELD(block_run) FIELD(neighbour) FIELD(particle_blocks) FIELD(tile) FIELD(tile_volume)   \
-    FIELD(node) FIELD(node_volume) FIELD(node_reach) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(material) FIELD(dt)        \
+    FIELD(node) FIELD(node_base) FIELD(node_volume) FIELD(node_reach) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(material) FIELD(dt)        \
     FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
 
 /* The table a probe writes: the size of the structure, then offset and size of each field. */
-enum { LAYOUT_VALUES = 1 + 2 * 32 };
+enum { LAYOUT_VALUES = 1 + 2 * 48 };

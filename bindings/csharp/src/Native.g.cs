@@ -90,6 +90,17 @@ namespace Pbmpm
         Delete = 1,
     }
 
+    /// <summary>How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
+    /// Not used by the paper's solver.</summary>
+    public enum ElasticModel : int
+    {
+        /// <summary>energy mu |F - R|^2 + lambda/2 (J - 1)^2, R the rotation of F</summary>
+        FixedCorotated = 0,
+        /// <summary>energy mu/2 (|F|^2 - d) - mu ln J + lambda/2 (ln J)^2; below J = 0.1 ln J is continued by its
+        /// second-order expansion, so that inverted matter has a finite stress</summary>
+        NeoHookean = 1,
+    }
+
     /// <summary>Which of the fields of a pbmpm_shape count.</summary>
     public enum ShapeKind : int
     {
@@ -101,6 +112,54 @@ namespace Pbmpm
         Sphere = 2,
         /// <summary>all points within `radius` of the segment of half length half_extents[0] along the local first axis</summary>
         Capsule = 3,
+    }
+
+    /// <summary>How the equations of a substep are solved.</summary>
+    public enum Solver : int
+    {
+        /// <summary>the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt</summary>
+        Paper = 0,
+        /// <summary>backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
+        /// liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.</summary>
+        Dual = 1,
+        /// <summary>the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
+        /// preconditioner and a check that no body gains energy. A liquid takes part as a
+        /// compressible one.</summary>
+        Primal = 2,
+        /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
+        /// substep. Liquids need a bulk modulus.</summary>
+        Explicit = 3,
+        /// <summary>the dual while the world holds a particle of a liquid, else the primal</summary>
+        Convergent = 4,
+    }
+
+    /// <summary>Where the dual solver keeps the pressure of a liquid.</summary>
+    public enum Pressure : int
+    {
+        /// <summary>calm: each particle keeps its volume; damps fine motion the more, the better it is solved</summary>
+        Particles = 0,
+        /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless</summary>
+        Cells = 1,
+    }
+
+    /// <summary>How a substep follows from those before it.</summary>
+    public enum Integrator : int
+    {
+        /// <summary>backward Euler: first order in dt, damps rotation and oscillation</summary>
+        Euler = 0,
+        /// <summary>second order, primal solver only: hardly damps them</summary>
+        Bdf2 = 1,
+    }
+
+    /// <summary>What ended the iterations of a substep.</summary>
+    public enum Stop : int
+    {
+        /// <summary>all iterations were done</summary>
+        Iterations = 0,
+        /// <summary>the predicted error fell below target_error</summary>
+        Error = 1,
+        /// <summary>time_budget_ms was spent</summary>
+        Time = 2,
     }
 
     /// <summary>Fields of particles.</summary>
@@ -238,6 +297,7 @@ namespace Pbmpm
     /// grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
     /// per substep so that they part (unless volume_feedback is 0).
     ///
+    /// The other solvers take bulk_modulus, kinematic_viscosity, elastic_model, young_modulus and poisson_ratio.
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
     /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
@@ -273,6 +333,17 @@ namespace Pbmpm
         /// <summary>elastic: largest strain that the constraint asks for per iteration, in (0, 10]; default 1.
         /// Matter that was crushed to nothing grows back at this rate instead of exploding.</summary>
         public float ReboundMax;
+        /// <summary>liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
+        /// (default): incompressible</summary>
+        public float BulkModulus;
+        /// <summary>liquid, not the paper's solver: nu [m^2/s], in [0, 1e6]; default 0</summary>
+        public float KinematicViscosity;
+        /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>
+        public ElasticModel ElasticModel;
+        /// <summary>elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5</summary>
+        public float YoungModulus;
+        /// <summary>elastic, not the paper's solver: nu, in [0, 0.495]; default 0.3</summary>
+        public float PoissonRatio;
 
         /// <summary>The library's defaults.</summary>
         public static MaterialDef Default
@@ -285,6 +356,25 @@ namespace Pbmpm
                 return it;
             }
         }
+    }
+
+    /// <summary>How stiff a material is with a world's settings and rate.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Effective
+    {
+        /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
+        public uint Size;
+        /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
+        /// of young_modulus. Other solvers: the material's own.</summary>
+        public float BulkModulus;
+        /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
+        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own.</summary>
+        public float YoungModulus;
+        /// <summary>liquid [m^2/s]: paper's solver N viscosity dx^2 / (8 dt), else the material's own; without what
+        /// the transfers add</summary>
+        public float KinematicViscosity;
+        /// <summary>cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1.</summary>
+        public float Courant;
     }
 
     /// <summary>A solid shape with its pose. Lengths in metres, positions relative to the world's origin.</summary>
@@ -374,13 +464,30 @@ namespace Pbmpm
         public uint Size;
         /// <summary>equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1</summary>
         public int Substeps;
-        /// <summary>N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5</summary>
+        /// <summary>N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5.
+        /// Ignored by PBMPM_SOLVER_EXPLICIT.</summary>
         public int Iterations;
         /// <summary>acceleration [m/s^2]; default 0</summary>
         public Float3 Gravity;
         /// <summary>largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
         /// default 32. Faster particles are slowed to it; each time is counted in the events.</summary>
         public float MaxDisplacement;
+        /// <summary>default PBMPM_SOLVER_PAPER</summary>
+        public Solver Solver;
+        /// <summary>dual solver; default PBMPM_PRESSURE_PARTICLES</summary>
+        public Pressure Pressure;
+        /// <summary>default PBMPM_INTEGRATOR_EULER</summary>
+        public Integrator Integrator;
+        /// <summary>share alpha of the motion below the grid's resolution that liquids keep (ASFLIP; not the paper's
+        /// solver), in [0, 1]; default 0. 0.9 is lively.</summary>
+        public float Flip;
+        /// <summary>dual and primal: iterations end when the predicted error of the solution [cells] is below this;
+        /// in [0, 1], 0 (default): off</summary>
+        public float TargetError;
+        /// <summary>dual and primal: no iteration is begun once this much wall time [ms] of the step is spent; each
+        /// substep gets an equal part; in [0, 1e6], 0 (default): off. Results then depend on the machine's
+        /// speed: not deterministic.</summary>
+        public float TimeBudgetMs;
 
         /// <summary>The library's defaults.</summary>
         public static Settings Default
@@ -519,6 +626,20 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
+        /// <summary>that the last substep was solved with (never PBMPM_SOLVER_CONVERGENT)</summary>
+        public Solver Solver;
+        /// <summary>what ended its iterations</summary>
+        public Stop Stop;
+        /// <summary>by it; passes over the particles that a line search repeats count as iterations</summary>
+        public uint IterationsUsed;
+        /// <summary>its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver</summary>
+        public float Residual;
+        /// <summary>root mean square distance of its displacements from the converged ones [cells], as predicted
+        /// from the residual; 0 where residual is</summary>
+        public float PredictedError;
+        /// <summary>primal: bodies of the last substep whose unfinished solution would have gained energy
+        /// and was replaced</summary>
+        public uint EnergyChecksFailed;
     }
 
     /// <summary>Something that happened which the caller did not ask for.</summary>
@@ -698,6 +819,11 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_get(WorldId world, MaterialId material, MaterialDef* def);
 
+        /// <summary>How stiff the material is when the world is stepped by `dt` [s] with its present settings. `effective-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null; dt not in (0, 10]), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_effective(WorldId world, MaterialId material, float dt, Effective* effective);
+
         /// <summary>Changes the parameters of a material (not its kind or density); takes effect with the next step.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -876,6 +1002,7 @@ namespace Pbmpm.Native
             TaskHooks(fields);
             LayoutEntry(fields);
             MaterialDef(fields);
+            Effective(fields);
             Shape(fields);
             WorldDef(fields);
             Settings(fields);
@@ -963,7 +1090,23 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_material_def", "strain_max", &it, &it.StrainMax, &it.StrainMax + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "condition_max", &it, &it.ConditionMax, &it.ConditionMax + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "rebound_max", &it, &it.ReboundMax, &it.ReboundMax + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "bulk_modulus", &it, &it.BulkModulus, &it.BulkModulus + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "kinematic_viscosity", &it, &it.KinematicViscosity, &it.KinematicViscosity + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "elastic_model", &it, &it.ElasticModel, &it.ElasticModel + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "young_modulus", &it, &it.YoungModulus, &it.YoungModulus + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "poisson_ratio", &it, &it.PoissonRatio, &it.PoissonRatio + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void Effective(List<MirrorField> fields)
+        {
+            var it = default(Effective);
+            fields.Add(new MirrorField("pbmpm_effective", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_effective", "bulk_modulus", &it, &it.BulkModulus, &it.BulkModulus + 1, false));
+            fields.Add(new MirrorField("pbmpm_effective", "young_modulus", &it, &it.YoungModulus, &it.YoungModulus + 1, false));
+            fields.Add(new MirrorField("pbmpm_effective", "kinematic_viscosity", &it, &it.KinematicViscosity, &it.KinematicViscosity + 1, false));
+            fields.Add(new MirrorField("pbmpm_effective", "courant", &it, &it.Courant, &it.Courant + 1, false));
+            fields.Add(new MirrorField("pbmpm_effective", "", &it, &it, &it + 1, true));
         }
 
         static void Shape(List<MirrorField> fields)
@@ -1006,6 +1149,12 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_settings", "iterations", &it, &it.Iterations, &it.Iterations + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "gravity", &it, &it.Gravity, &it.Gravity + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "max_displacement", &it, &it.MaxDisplacement, &it.MaxDisplacement + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "solver", &it, &it.Solver, &it.Solver + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "pressure", &it, &it.Pressure, &it.Pressure + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "integrator", &it, &it.Integrator, &it.Integrator + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "flip", &it, &it.Flip, &it.Flip + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "target_error", &it, &it.TargetError, &it.TargetError + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "time_budget_ms", &it, &it.TimeBudgetMs, &it.TimeBudgetMs + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "", &it, &it, &it + 1, true));
         }
 
@@ -1092,6 +1241,12 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_stats", "lane_occupancy", &it, &it.LaneOccupancy, &it.LaneOccupancy + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "deleted_total", &it, &it.DeletedTotal, &it.DeletedTotal + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "clamped_total", &it, &it.ClampedTotal, &it.ClampedTotal + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "solver", &it, &it.Solver, &it.Solver + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "stop", &it, &it.Stop, &it.Stop + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "iterations_used", &it, &it.IterationsUsed, &it.IterationsUsed + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "residual", &it, &it.Residual, &it.Residual + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "predicted_error", &it, &it.PredictedError, &it.PredictedError + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "energy_checks_failed", &it, &it.EnergyChecksFailed, &it.EnergyChecksFailed + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "", &it, &it, &it + 1, true));
         }
 

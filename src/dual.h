@@ -1,0 +1,15 @@
+/* The convergent solver for liquids and mixed scenes. */
+#ifndef PBMPM_SRC_DUAL_H
+#define PBMPM_SRC_DUAL_H
+
+#include "solver.h"
+
+/* Takes memory for the blocks and particles of this substep. */
+pbmpm_result dual_prepare(World *world);
+
+void dual_solve(World *world, const ContactFrame *contacts);
+
+/* The share of an elastic material's stiffness that the iterations of a substep can hold. */
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+
+#endif

@@ -1,0 +1,50 @@
+#include "effective.h"
+
+#include <math.h>
+
+#include "dual.h"
+
+/* The laws of the paper's solver: its N rounds remove the share w of a strain error each, which acts like the modulus
+ * rho w N dx^2 / (4 dt^2) against a shape error and like a d-th of it against a volume error. */
+static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *def, double substep)
+{
+    const double cell = (double)world->def.cell_size / substep;
+    const double rounds = world->settings.iterations;
+    const double young = 0.25 * (double)def->density * (double)def->relaxation * rounds * cell * cell;
+    const bool liquid = def->kind == PBMPM_LIQUID;
+    return (pbmpm_effective){.bulk_modulus = (float)(young / world->def.dimension),
+                             .young_modulus = liquid ? 0.0f : (float)young,
+                             .kinematic_viscosity = liquid ? (float)(rounds * (double)def->viscosity * cell * (double)world->def.cell_size / 8.0) : 0.0f};
+}
+
+static pbmpm_effective of_material(const World *world, const pbmpm_material_def *def, double substep)
+{
+    if (def->kind == PBMPM_LIQUID)
+        return (pbmpm_effective){.bulk_modulus = def->bulk_modulus, .kinematic_viscosity = def->kinematic_viscosity};
+    const double share = world->settings.solver == PBMPM_SOLVER_DUAL || world->settings.solver == PBMPM_SOLVER_CONVERGENT
+                             ? dual_stiffness_share(world, def, substep)
+                             : 1.0;
+    const double young = share * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
+    const double shear = 0.5 * young / (1.0 + poisson), lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
+    return (pbmpm_effective){.bulk_modulus = (float)(lambda + 2.0 * shear / world->def.dimension), .young_modulus = (float)young};
+}
+
+/* The pressure wave's modulus: K of a liquid, K + 2 (d - 1) / d mu of an elastic body. */
+static double wave_modulus(const World *world, const pbmpm_material_def *def, const pbmpm_effective *effective)
+{
+    const double bulk = (double)effective->bulk_modulus, young = (double)effective->young_modulus;
+    if (def->kind == PBMPM_LIQUID) return bulk;
+    if (world->settings.solver == PBMPM_SOLVER_PAPER) return young; /* it has no Poisson effect */
+    const double d = world->def.dimension;
+    return bulk + (d - 1.0) / d * young / (1.0 + (double)def->poisson_ratio);
+}
+
+pbmpm_effective effective_modulus(const World *world, const pbmpm_material_def *def, double substep)
+{
+    const bool paper = world->settings.solver == PBMPM_SOLVER_PAPER;
+    pbmpm_effective effective = paper ? of_paper(world, def, substep) : of_material(world, def, substep);
+    effective.size = sizeof effective;
+    const double speed = sqrt(wave_modulus(world, def, &effective) / (double)def->density);
+    effective.courant = (float)(speed * substep / (double)world->def.cell_size);
+    return effective;
+}

@@ -1,0 +1,137 @@
+#include "paper.h"
+
+#include <float.h>
+#include <math.h>
+
+/* ---- The bound of the pressure ---- */
+
+/* What all liquid is, in one pass: its rest volume [m^d], and the mean square of its speed [m^2/s^2]. */
+typedef struct LiquidState {
+    double volume, speed2;
+} LiquidState;
+
+static LiquidState measure_liquid(const World *world)
+{
+    const Particles *p = &world->particles;
+    double mass = 0.0, volume = 0.0, energy = 0.0;
+    for (uint32_t run = 0; run < world->grid.runs; run++) {
+        const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
+        if (material->kind != K_LIQUID) continue;
+        for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++) {
+            float speed2 = 0.0f;
+            for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
+            if (!(speed2 < FLT_MAX)) continue; /* about to be taken out */
+            mass += (double)p->mass[row];
+            volume += (double)(p->mass[row] * material->inverse_density);
+            energy += (double)(p->mass[row] * speed2);
+        }
+    }
+    return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0};
+}
+
+/* How far a block lies along gravity, in blocks times |g|. */
+static double block_depth(const World *world, int32_t block)
+{
+    double along = 0.0;
+    for (int a = 0; a < world->def.dimension; a++)
+        along += (double)world->settings.gravity[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
+    return along;
+}
+
+/* The depths between which all but a fiftieth of the particles at either end lie: narrowed by histograms, so that a stray
+ * particle far away does not count. */
+static double trimmed_depth(const World *world)
+{
+    enum { BINS = 64, ROUNDS = 4 };
+    const uint32_t *begin = world->grid.block_begin.data;
+    const double trim = 0.02 * world->particles.count;
+    double low = INFINITY, high = -INFINITY;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        low = fmin(low, block_depth(world, block));
+        high = fmax(high, block_depth(world, block));
+    }
+    for (int round = 0; round < ROUNDS && high > low; round++) {
+        double count[BINS] = {0}, below = 0.0;
+        const double width = (high - low) / BINS;
+        for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+            const double bin = (block_depth(world, block) - low) / width;
+            if (bin < 0.0) below += begin[block + 1] - begin[block];
+            if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += begin[block + 1] - begin[block];
+        }
+        int first = 0;
+        double sum = below;
+        while (first < BINS - 1 && sum + count[first] < trim) sum += count[first++];
+        int last = first;
+        while (last < BINS - 1 && sum + count[last] < world->particles.count - trim) sum += count[last++];
+        high = low + (last + 1) * width;
+        low = low + first * width;
+    }
+    return high - low;
+}
+
+/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
+ * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
+ * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
+static double pressure_head(const World *world)
+{
+    double strength = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    if (strength == 0.0) return 0.0;
+    const LiquidState liquid = measure_liquid(world);
+    if (liquid.volume == 0.0) return 0.0;
+    const double stands = trimmed_depth(world) * K_BLOCK_AXIS * (double)world->def.cell_size;
+    const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
+    return 3.0 * weight + 0.5 * liquid.speed2;
+}
+
+/* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
+static double pressure_bound(const World *world, float relaxation, float dt, double head)
+{
+    const double cells = (double)dt / (double)world->def.cell_size;
+    const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
+    return head / stiffness;
+}
+
+/* ---- Parameters of the substep ---- */
+
+/* Stiffness goes with 1/dt^2, so a dt that alternates pumps energy like a child on a swing. With the error of a mode shrinking
+ * by r per substep and steps T, t in turn, the product of the two transfer matrices has |trace| <= 1 + det for every r only if
+ * T/t + t/T <= 6. So when dt drops the relaxation is lowered at first: stiffness grows by at most 1/0.8^2 per substep. It drops at
+ * once, and a constant dt is not touched. */
+static float softening(World *world, float dt)
+{
+    world->slow_dt = fmax((double)dt, 0.8 * world->slow_dt);
+    const double ratio = (double)dt / world->slow_dt;
+    return (float)(ratio * ratio);
+}
+
+/* Without gravity nothing brings spray back, so crushed matter grows slowly. */
+static const float WEIGHTLESS_REBOUND = 0.3f;
+
+void paper_set_materials(World *world, float dt)
+{
+    const double head = pressure_head(world);
+    const float soft = softening(world, dt);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (world->materials.generation[slot] == 0) continue;
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        KernelMaterial *material = &world->materials.kernel[slot];
+        material->relaxation = def->relaxation * soft;
+        if (material->kind != K_LIQUID) continue;
+        const bool weightless = head == 0.0;
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
+        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material->relaxation, dt, head);
+    }
+}
+
+/* ---- The iteration ---- */
+
+void paper_solve(World *world, const ContactFrame *contacts)
+{
+    const int count = world->settings.iterations;
+    for (int i = 0; i < count; i++) {
+        solver_over_particles(world, world->kernels->iterate);
+        solver_over_nodes(world, world->kernels->update_nodes, contacts);
+    }
+    world->record.iterations_used = (uint32_t)count;
+}
