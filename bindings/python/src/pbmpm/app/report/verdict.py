@@ -1,0 +1,139 @@
+"""How many times cheaper the accelerated solvers are at equal error, computed from the rows of a sweep.
+
+Accelerated are the dual and the primal solver. Each case gives one comparison per solver to compare with, at one error:
+the lowest that both reach. Beyond it one of the two goes on alone, and the comparison says which.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from .pareto import Point, cost_of, front_of
+
+ACCELERATED = ("dual", "primal")
+#: How many times dearer each solver has to be at equal error.
+WANTED = {"paper": 3.0, "explicit": 10.0}
+NOT_REACHED = "not reached"
+_LEVELS = 6  # at most, in the table of costs
+_ROUND = (1.0, 2.0, 5.0)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The accelerated solvers against one other."""
+
+    other: str
+    wanted: float  #: times cheaper
+    measured: bool  #: whether the sweep holds the other solver at all
+    best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
+    level: float | None = None  #: the lowest error that both reach
+    cost: float | None = None  #: of the accelerated there [ms]
+    other_cost: float | None = None
+    lowest_ratio: float | None = None  #: over all errors that both reach
+    highest_ratio: float | None = None
+
+    @property
+    def ratio(self) -> float | None:
+        """How many times cheaper the accelerated solvers are at the level."""
+        return None if self.cost is None or self.other_cost is None else self.other_cost / self.cost
+
+    @property
+    def reached(self) -> bool:
+        """Whether the wanted ratio is reached; also when the other solver has no stable setting."""
+        if not self.measured:
+            return False
+        return self.best_error is None or (self.ratio is not None and self.ratio >= self.wanted)
+
+
+@dataclass(frozen=True)
+class Level:
+    """What one error costs each solver [ms]; None: not reached."""
+
+    error: float
+    costs: dict[str, float | None]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a case says about the solvers."""
+
+    front: tuple[Point, ...]  #: over all solvers
+    best_error: float | None  #: of the accelerated solvers; None when none of their settings is stable
+    comparisons: tuple[Comparison, ...]
+    levels: tuple[Level, ...]
+
+    @property
+    def solvers_on_front(self) -> tuple[str, ...]:
+        """In the order of their first point."""
+        return tuple(dict.fromkeys(point.solver for point in self.front))
+
+    @property
+    def alone_on_front(self) -> bool:
+        """Whether only accelerated solvers are on the front."""
+        return bool(self.front) and all(point.solver in ACCELERATED for point in self.front)
+
+    @property
+    def passed(self) -> bool:
+        """Alone on the front, and as many times cheaper as wanted."""
+        return self.alone_on_front and all(comparison.reached for comparison in self.comparisons)
+
+
+def judge(points: Sequence[Point], solvers: Sequence[str]) -> Verdict:
+    """The verdict over the stable points of a case; ``solvers``: all that were tried, stable or not."""
+    accelerated = front_of(point for point in points if point.solver in ACCELERATED)
+    fronts = {name: front_of(point for point in points if point.solver == name) for name in solvers}
+    return Verdict(
+        front=tuple(front_of(points)),
+        best_error=accelerated[-1].error if accelerated else None,
+        comparisons=tuple(_compare(accelerated, other, fronts.get(other)) for other in WANTED),
+        levels=tuple(
+            Level(error, {name: cost_of(front, error) for name, front in fronts.items()})
+            for error in round_levels([point.error for point in front_of(points)])
+        ),
+    )
+
+
+def _compare(accelerated: list[Point], other: str, front: list[Point] | None) -> Comparison:
+    if not front:
+        return Comparison(other, WANTED[other], measured=front is not None)
+    best = front[-1].error
+    if not accelerated:
+        return Comparison(other, WANTED[other], measured=True, best_error=best)
+    level = max(best, accelerated[-1].error)
+    ratios = [
+        ratio for error in _corners(accelerated, front, level) if (ratio := _ratio(accelerated, front, error)) is not None
+    ]
+    return Comparison(
+        other,
+        WANTED[other],
+        measured=True,
+        best_error=best,
+        level=level,
+        cost=cost_of(accelerated, level),
+        other_cost=cost_of(front, level),
+        lowest_ratio=min(ratios),
+        highest_ratio=max(ratios),
+    )
+
+
+def _corners(one: list[Point], two: list[Point], level: float) -> set[float]:
+    """Errors at which the ratio of two costs can be extreme: it is monotonous between the corners of the fronts."""
+    return {level, *(point.error for point in (*one, *two) if point.error >= level)}
+
+
+def _ratio(accelerated: list[Point], front: list[Point], error: float) -> float | None:
+    cost, other = cost_of(accelerated, error), cost_of(front, error)
+    return None if cost is None or other is None else other / cost
+
+
+def round_levels(errors: Sequence[float]) -> list[float]:
+    """Round errors (1, 2, 5 times powers of ten) in the range of a front, largest first, thinned out to a handful."""
+    if not errors:
+        return []
+    low, high = min(errors), max(errors)
+    decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
+    inside = [step * 10.0**decade for decade in decades for step in _ROUND if low <= step * 10.0**decade <= high]
+    thinning = math.ceil(len(inside) / _LEVELS) or 1
+    return sorted(inside[::thinning], reverse=True) or [high]
