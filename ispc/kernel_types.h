@@ -102,6 +102,17 @@ struct KernelArgs {
 
     K_PTR(float) travel;      /* out, per particle block: largest displacement of a particle */
 
+    /* The dual solver; null for the others. */
+    K_PTR(float) pressure;      /* liquid: the multiplier */
+    K_PTR(float) pressure_old;  /* liquid: the multiplier one iteration before */
+    K_PTR(float) stress[6];     /* elastic: the multiplier, upper triangle row by row */
+    K_PTR(float) stress_old[6];
+    K_PTR(float) node_push;     /* per node block: sum m w S (x_i - x_p) of the last iteration */
+    K_PTR(float) change2;       /* out, per particle block: how much the multipliers changed, see dual.isph */
+    K_PTR(float) uphill;        /* out, per particle block: positive where the extrapolation overshot */
+    float momentum;             /* beta of the extrapolation */
+    float carried;              /* share of the last substep's pressure to start from */
+
     K_CONST_PTR(struct KernelMaterial) material;
     float dt;               /* [s] */
     float cells_per_metre;  /* 1/dx */

@@ -1,6 +1,7 @@
 // The 2D kernels. Bodies: kernels.isph.
 #define DIM 2
 #include "kernels.isph"
+#include "dual.isph"
 
 export void scatter2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -16,4 +17,13 @@ export void update_nodes2(uniform struct KernelArgs *uniform args, uniform int b
 }
 export void integrate2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     integrate_blocks(*args, begin, end);
+}
+export void dual_begin2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    dual_begin_blocks(*args, begin, end);
+}
+export void dual_iterate2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    dual_iterate_blocks(*args, begin, end);
+}
+export void push_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    push_node_blocks(*args, begin, end);
 }

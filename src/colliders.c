@@ -291,6 +291,54 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     return PBMPM_OK;
 }
 
+/* ---- Open volume ---- */
+
+static const double SUPPORT = 1.5; /* [cells] from a node, per axis */
+
+/* The share of a node's weight that lies outside an obstacle whose surface is at `distance` [cells]: the integral of the quadratic spline
+ * up to there, as the surface is nearly flat over a cell. At least what is left one cell inside, 1/48: behind that nothing is known. */
+static double open_share(double distance)
+{
+    if (distance >= SUPPORT) return 1.0;
+    if (distance <= -1.0) return 1.0 / 48.0;
+    const double rest = SUPPORT - fabs(distance);
+    if (distance > 0.5) return 1.0 - rest * rest * rest / 6.0;
+    if (distance < -0.5) return rest * rest * rest / 6.0;
+    return 0.5 + distance * (0.75 - distance * distance / 3.0);
+}
+
+static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t block)
+{
+    const int cells = frame->grid->block_cells;
+    float *volume = (float *)frame->grid->node_volume.data + (size_t)block * (size_t)cells;
+    for (int i = 0; i < cells; i++) {
+        double point[3], normal[3];
+        if (volume[i] == 0.0f) continue;
+        node_position(frame, block, i, point);
+        volume[i] /= (float)open_share(solid_distance(&o->start, point, normal) / frame->cell_size);
+    }
+}
+
+static void open_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ContactFrame *frame = context;
+    const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension);
+    for (int32_t block = begin; block < end; block++) {
+        double centre[3], normal[3];
+        block_centre(frame, block, centre);
+        for (int i = 0; i < frame->colliders->obstacle_count; i++) {
+            const Obstacle *o = &frame->colliders->obstacle[i];
+            if (solid_distance(&o->start, centre, normal) / frame->cell_size < half_diagonal + SUPPORT) open_block(frame, o, block);
+        }
+    }
+}
+
+void contacts_open_volume(const ContactFrame *frame, Pool *pool)
+{
+    ContactFrame copy = *frame;
+    if (frame->colliders->obstacle_count) pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &copy);
+}
+
 /* ---- Obeying contacts ---- */
 
 /* Relative to the surface the node may approach by the gap and no further: u.n >= -gap. The impulse that this takes limits

@@ -73,6 +73,10 @@ typedef struct ContactFrame {
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
+/* Divides the rest volume of each node by the share of its cell that obstacles leave open, so that it is 1 where matter at rest
+ * fills what is open. */
+void contacts_open_volume(const ContactFrame *frame, Pool *pool);
+
 /* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);
 

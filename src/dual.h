@@ -1,4 +1,5 @@
-/* The convergent solver for liquids and mixed scenes. */
+/* The dual solver: backward Euler with the materials' own moduli, for liquids and for liquids and elastic bodies together.
+ * The equations stand in ispc/dual.isph. */
 #ifndef PBMPM_SRC_DUAL_H
 #define PBMPM_SRC_DUAL_H
 

@@ -200,6 +200,7 @@ uint64_t inspect_hash(const World *world)
         }
     }
     hash = mix(hash, p->volume_ratio, p->count);
+    if (p->pressure) hash = mix(hash, p->pressure, p->count);
     hash = mix(hash, p->material, p->count);
     return mix(hash, p->mass, p->count);
 }

@@ -1,9 +1,19 @@
 #include "kernels.h"
 
-#define DECLARE(suffix)                                                                                                 \
-    Kernel scatter##suffix, predict_nodes##suffix, iterate##suffix, update_nodes##suffix, integrate##suffix;
-#define TABLE(suffix, lanes)                                                                                            \
-    {scatter##suffix, predict_nodes##suffix, iterate##suffix, update_nodes##suffix, integrate##suffix, lanes}
+#define EACH_KERNEL(DO, suffix)                                                                                         \
+    DO(scatter, suffix)                                                                                                 \
+    DO(predict_nodes, suffix)                                                                                           \
+    DO(iterate, suffix)                                                                                                 \
+    DO(update_nodes, suffix)                                                                                            \
+    DO(dual_begin, suffix)                                                                                              \
+    DO(dual_iterate, suffix)                                                                                            \
+    DO(push_nodes, suffix)                                                                                              \
+    DO(integrate, suffix)
+
+#define DECLARE_ONE(name, suffix) Kernel name##suffix;
+#define DECLARE(suffix) EACH_KERNEL(DECLARE_ONE, suffix)
+#define ENTRY(name, suffix) .name = name##suffix,
+#define TABLE(suffix, gang) {EACH_KERNEL(ENTRY, suffix).lanes = gang}
 
 DECLARE(2_sse4)
 DECLARE(3_sse4)

@@ -91,6 +91,12 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
     return PBMPM_OK;
 }
 
+pbmpm_result particles_enable_pressure(Particles *p, Memory *memory)
+{
+    if (p->pressure || add_field(p, memory, CLASS_SCALAR, (void **)&p->pressure)) return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressure of %u particles", p->capacity);
+}
+
 /* Sets one coordinate to `cell` + `place`. */
 static void set_coordinate(Particles *p, uint32_t row, int axis, int32_t cell, double place)
 {
@@ -132,6 +138,7 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
         }
     }
     p->volume_ratio[row] = 1.0f;
+    if (p->pressure) p->pressure[row] = 0.0f;
     p->mass[row] = particle->mass;
     p->material[row] = particle->material;
     p->status[row] = K_ALIVE;

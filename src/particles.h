@@ -8,7 +8,7 @@
 #include "pool.h"
 
 /* Sizes of fields, as multiples of one array: each has a spare, into which a field is written in its new order. */
-enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 12, MAX_COMPONENTS = 9 };
+enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 16, MAX_COMPONENTS = 9 };
 
 /* A quantity of the particles: `components` arrays of equal length in one allocation. */
 typedef struct Field {
@@ -29,6 +29,7 @@ typedef struct Particles {
     float *volume_ratio;
     float *mass; /* density * rest volume in cells [kg/m^d]; kg = mass * dx^d */
     float *deformation[9];
+    float *pressure; /* the dual solver's multiplier; null until it is used */
     uint32_t *material; /* slot */
     int32_t *status;
     pbmpm_particle_id *id;
@@ -51,6 +52,16 @@ void particles_free(Particles *p, Memory *memory);
 
 /* Makes room for F (identity); does nothing the second time. */
 pbmpm_result particles_enable_deformation(Particles *p, Memory *memory);
+
+/* Makes room for the dual solver's multiplier; does nothing the second time. */
+pbmpm_result particles_enable_pressure(Particles *p, Memory *memory);
+
+/* An array of one float per particle and some to pad a gang, free from the end of a reordering to the next: the i-th component of the spare
+ * of a class of fields. */
+static inline float *particles_spare(const Particles *p, int class, int i)
+{
+    return (float *)(void *)(p->spare[class] + (size_t)i * p->array_bytes);
+}
 
 /* What one new particle starts as. */
 typedef struct NewParticle {

@@ -23,7 +23,8 @@ static void set_moduli(World *world, float dt)
         if (world->materials.generation[slot] == 0) continue;
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
-        const double c = 4.0 * cells * cells / (double)def->density;
+        material->relaxation = def->relaxation;
+        double c = 4.0 * cells * cells / (double)def->density;
         if (material->kind == K_LIQUID) {
             const bool incompressible = def->bulk_modulus == 0.0f;
             material->dilation = incompressible ? FLT_MAX : (float)fmin(c * (double)def->bulk_modulus, 1e30);
@@ -31,6 +32,7 @@ static void set_moduli(World *world, float dt)
         } else {
             const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
             const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
+            if (world->record.solver == PBMPM_SOLVER_DUAL) c *= dual_stiffness_share(world, def, (double)dt);
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
         }

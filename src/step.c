@@ -128,6 +128,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result != PBMPM_OK) return result;
+    if (with_volume && record->solver != PBMPM_SOLVER_PAPER) contacts_open_volume(&contacts, world->pool);
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */

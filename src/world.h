@@ -28,6 +28,12 @@ typedef struct StepRecord {
     float travel; /* the largest displacement in it [cells] */
 } StepRecord;
 
+/* What the dual solver keeps. */
+typedef struct DualState {
+    Array node_push, change2, uphill; /* see KernelArgs */
+    double pressure_dt;               /* length [s] of the substep that the particles' pressures belong to */
+} DualState;
+
 typedef struct World {
     pbmpm_world_def def;
     pbmpm_settings settings;
@@ -42,6 +48,7 @@ typedef struct World {
     Colliders colliders;
     Grid grid;
     KernelArgs args;
+    DualState dual;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
