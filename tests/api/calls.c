@@ -63,6 +63,12 @@ static pbmpm_result call_material_get(const target *ids)
     return pbmpm_material_get(ids->world, ids->material, &def);
 }
 
+static pbmpm_result call_material_effective(const target *ids)
+{
+    pbmpm_effective effective = {.size = sizeof effective};
+    return pbmpm_material_effective(ids->world, ids->material, 0.001f, &effective);
+}
+
 static pbmpm_result call_material_set(const target *ids)
 {
     pbmpm_material_def def;
@@ -194,6 +200,7 @@ const world_call world_calls[] = {
     {"pbmpm_world_events", call_events, 0},
     {"pbmpm_material_create", call_material_create, 0},
     {"pbmpm_material_get", call_material_get, USES_MATERIAL},
+    {"pbmpm_material_effective", call_material_effective, USES_MATERIAL},
     {"pbmpm_material_set", call_material_set, USES_MATERIAL},
     {"pbmpm_material_destroy", call_material_destroy, USES_SPARE},
     {"pbmpm_collider_create", call_collider_create, 0},

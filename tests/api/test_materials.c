@@ -34,6 +34,11 @@ static void test_definition_has_the_documented_defaults(void)
     TEST_ASSERT_EQUAL_FLOAT(20.0f, def.strain_max);
     TEST_ASSERT_EQUAL_FLOAT(1e6f, def.condition_max);
     TEST_ASSERT_EQUAL_FLOAT(1.0f, def.rebound_max);
+    TEST_ASSERT_TRUE(def.bulk_modulus == 0.0f);
+    TEST_ASSERT_TRUE(def.kinematic_viscosity == 0.0f);
+    TEST_ASSERT_EQUAL_INT(PBMPM_FIXED_COROTATED, def.elastic_model);
+    TEST_ASSERT_EQUAL_FLOAT(1e5f, def.young_modulus);
+    TEST_ASSERT_EQUAL_FLOAT(0.3f, def.poisson_ratio);
 }
 
 static void test_material_is_read_back_and_changed(void)
@@ -93,6 +98,76 @@ static void test_identifiers_of_materials_are_never_reused(void)
         EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_material_get(world, next, &read));
         last = next;
     }
+}
+
+/* ---- how stiff a material is ---- */
+
+static pbmpm_effective effective_at(pbmpm_material_id material, float dt)
+{
+    pbmpm_effective effective = {.size = sizeof effective};
+    OK(pbmpm_material_effective(world, material, dt, &effective));
+    TEST_ASSERT_EQUAL_UINT32(sizeof effective, effective.size);
+    return effective;
+}
+
+static void use_solver(pbmpm_solver solver, int substeps, int iterations)
+{
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.solver = solver;
+    settings.substeps = substeps;
+    settings.iterations = iterations;
+    OK(pbmpm_world_set_settings(world, &settings));
+}
+
+/* The laws of the header, with dx = 0.1 and a substep of 0.01 s: density w N dx^2 / (4 dt^2) = 1000 * 1.5 * 8 * 25. */
+static void test_stiffness_of_the_papers_solver_follows_from_the_rate(void)
+{
+    pbmpm_material_def def = default_material(PBMPM_LIQUID);
+    pbmpm_material_id water;
+    def.viscosity = 0.5f;
+    OK(pbmpm_material_create(world, &def, &water));
+    const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
+    const float young = 1000.0f * 1.5f * 8 * 25;
+    use_solver(PBMPM_SOLVER_PAPER, 2, 8);
+    const pbmpm_effective liquid = effective_at(water, 0.02f), elastic = effective_at(jelly, 0.02f);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * young, young / 2, liquid.bulk_modulus);
+    TEST_ASSERT_TRUE(liquid.young_modulus == 0.0f);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 8 * 0.5f * 0.01f / (8 * 0.01f), liquid.kinematic_viscosity);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, sqrtf(young / 2 / 1000) * 0.01f / 0.1f, liquid.courant);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * young, young, elastic.young_modulus);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f * young, young / 2, elastic.bulk_modulus);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, sqrtf(1.5f * 8) / 2, elastic.courant); /* half the root of w N cells per substep */
+}
+
+static void test_stiffness_of_the_other_solvers_is_the_materials_own(void)
+{
+    pbmpm_material_def water_def = default_material(PBMPM_LIQUID), jelly_def = default_material(PBMPM_ELASTIC);
+    pbmpm_material_id water, jelly;
+    water_def.bulk_modulus = 4e5f;
+    water_def.kinematic_viscosity = 0.25f;
+    jelly_def.young_modulus = 2.6e6f; /* with nu = 0.3: mu = 1 MPa, lambda = 1.5 MPa */
+    OK(pbmpm_material_create(world, &water_def, &water));
+    OK(pbmpm_material_create(world, &jelly_def, &jelly));
+    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_EXPLICIT};
+    for (int i = 0; i < 2; i++) {
+        use_solver(solvers[i], 1, 8);
+        const pbmpm_effective liquid = effective_at(water, 0.001f), elastic = effective_at(jelly, 0.001f);
+        TEST_ASSERT_EQUAL_FLOAT(4e5f, liquid.bulk_modulus);
+        TEST_ASSERT_EQUAL_FLOAT(0.25f, liquid.kinematic_viscosity);
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, 20 * 0.001f / 0.1f, liquid.courant); /* sqrt(K / rho) = 20 m/s */
+        TEST_ASSERT_EQUAL_FLOAT(2.6e6f, elastic.young_modulus);
+        TEST_ASSERT_FLOAT_WITHIN(1e2f, 1.5e6f + 1e6f, elastic.bulk_modulus);              /* 2D: lambda + mu */
+        TEST_ASSERT_FLOAT_WITHIN(1e-4f, sqrtf(3.5e3f) * 0.001f / 0.1f, elastic.courant); /* lambda + 2 mu */
+    }
+}
+
+static void test_an_incompressible_liquid_has_no_wave(void)
+{
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    use_solver(PBMPM_SOLVER_DUAL, 1, 8);
+    const pbmpm_effective effective = effective_at(water, 0.01f);
+    TEST_ASSERT_TRUE(effective.bulk_modulus == 0.0f && effective.courant == 0.0f && effective.young_modulus == 0.0f);
 }
 
 /* ---- what the parameters do ---- */
@@ -192,6 +267,9 @@ int main(void)
     RUN_TEST(test_kind_and_density_cannot_change);
     RUN_TEST(test_material_in_use_stays);
     RUN_TEST(test_identifiers_of_materials_are_never_reused);
+    RUN_TEST(test_stiffness_of_the_papers_solver_follows_from_the_rate);
+    RUN_TEST(test_stiffness_of_the_other_solvers_is_the_materials_own);
+    RUN_TEST(test_an_incompressible_liquid_has_no_wave);
     RUN_TEST(test_viscosity_takes_shear_away);
     RUN_TEST(test_relaxation_brings_the_volume_back);
     RUN_TEST(test_strain_is_clamped);

@@ -121,6 +121,12 @@ static void test_settings(void)
         {FIELD(pbmpm_settings, gravity[0]), FLOAT32, -INFINITY, INFINITY, false, false},
         {FIELD(pbmpm_settings, gravity[1]), FLOAT32, -INFINITY, INFINITY, false, false},
         {FIELD(pbmpm_settings, max_displacement), FLOAT32, (double)0.1f, PBMPM_MAX_CELLS_PER_SUBSTEP, false, false},
+        {FIELD(pbmpm_settings, solver), INT32, PBMPM_SOLVER_PAPER, PBMPM_SOLVER_CONVERGENT, false, false},
+        {FIELD(pbmpm_settings, pressure), INT32, PBMPM_PRESSURE_PARTICLES, PBMPM_PRESSURE_CELLS, false, false},
+        {FIELD(pbmpm_settings, integrator), INT32, PBMPM_INTEGRATOR_EULER, PBMPM_INTEGRATOR_BDF2, false, false},
+        {FIELD(pbmpm_settings, flip), FLOAT32, 0, 1, false, false},
+        {FIELD(pbmpm_settings, target_error), FLOAT32, 0, 1, false, false},
+        {FIELD(pbmpm_settings, time_budget_ms), FLOAT32, 0, 1e6, false, false},
     };
     const pbmpm_settings settings = default_settings();
     CHECK_RULES(rules, settings, use_settings);
@@ -131,6 +137,8 @@ static void test_lengths_of_step(void)
     static const float wrong[] = {NAN, INFINITY, -INFINITY, 0.0f, -0.0f, -0.01f, -1e-40f, 10.000001f, FLT_MAX};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(good.world, wrong[i]));
+        pbmpm_effective effective = {.size = sizeof effective};
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_material_effective(good.world, good.material, wrong[i], &effective));
         snapshot_expect_same(&before, good.world, "length of step");
     }
 }
@@ -179,15 +187,32 @@ static void test_materials(void)
         {FIELD(pbmpm_material_def, strain_max), FLOAT32, 1, 1e4, false, false},
         {FIELD(pbmpm_material_def, condition_max), FLOAT32, 10, 1e6, false, false},
         {FIELD(pbmpm_material_def, rebound_max), FLOAT32, 0, 10, true, false},
+        {FIELD(pbmpm_material_def, bulk_modulus), FLOAT32, 0, (double)1e15f, false, false},
+        {FIELD(pbmpm_material_def, kinematic_viscosity), FLOAT32, 0, 1e6, false, false},
+        {FIELD(pbmpm_material_def, young_modulus), FLOAT32, (double)1e-3f, (double)1e15f, false, false},
+        {FIELD(pbmpm_material_def, poisson_ratio), FLOAT32, 0, (double)0.495f, false, false},
     };
     static const rule enums[] = {
         {FIELD(pbmpm_material_def, kind), INT32, PBMPM_LIQUID, PBMPM_ELASTIC, false, false},
         {FIELD(pbmpm_material_def, strain_policy), INT32, PBMPM_STRAIN_CLAMP, PBMPM_STRAIN_DELETE, false, false},
+        {FIELD(pbmpm_material_def, elastic_model), INT32, PBMPM_FIXED_COROTATED, PBMPM_NEO_HOOKEAN, false, false},
     };
     const pbmpm_material_def def = default_material(PBMPM_ELASTIC);
     CHECK_RULES(rules, def, use_new_material);
     CHECK_RULES(enums, def, use_new_material);
     check_rules(rules + 1, sizeof rules / sizeof *rules - 1, &def, sizeof def, use_changed_material); /* density cannot change */
+}
+
+/* 0 stands for incompressible; between it and the least modulus there is nothing. */
+static void test_a_bulk_modulus_is_none_or_large_enough(void)
+{
+    pbmpm_material_def def = default_material(PBMPM_LIQUID);
+    pbmpm_material_id material;
+    def.bulk_modulus = 0.9e-3f;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_material_create(good.world, &def, &material));
+    snapshot_expect_same(&before, good.world, "small bulk modulus");
+    def.bulk_modulus = 1e-3f;
+    OK(pbmpm_material_create(good.world, &def, &material));
 }
 
 /* ---- shapes, in all the calls that take one ---- */
@@ -351,6 +376,7 @@ int main(void)
     RUN_TEST(test_lengths_of_step);
     RUN_TEST(test_unknown_kinds_of_material_are_unsupported);
     RUN_TEST(test_materials);
+    RUN_TEST(test_a_bulk_modulus_is_none_or_large_enough);
     RUN_TEST(test_shapes);
     RUN_TEST(test_shapes_of_fills);
     RUN_TEST(test_colliders);

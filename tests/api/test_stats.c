@@ -27,6 +27,33 @@ static void test_before_the_first_step_times_are_zero(void)
     TEST_ASSERT_TRUE(stats.mass > 0 && stats.potential_energy > 0); /* the state is the present one */
     TEST_ASSERT_EQUAL_UINT64(0, stats.deleted_total);
     TEST_ASSERT_EQUAL_UINT64(0, stats.clamped_total);
+    TEST_ASSERT_EQUAL_UINT32(0, stats.iterations_used);
+    TEST_ASSERT_TRUE(stats.residual == 0.0f && stats.predicted_error == 0.0f);
+}
+
+/* The statistics of a tank of liquid after a step with this solver and 7 iterations. */
+static pbmpm_stats stats_of_solver(pbmpm_solver solver)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.solver = solver;
+    settings.iterations = 7;
+    OK(pbmpm_world_set_settings(world, &settings));
+    OK(pbmpm_world_step(world, 0.002f));
+    const pbmpm_stats stats = world_stats(world);
+    OK(pbmpm_world_destroy(world));
+    return stats;
+}
+
+static void test_the_solver_tells_what_it_did(void)
+{
+    const pbmpm_stats paper = stats_of_solver(PBMPM_SOLVER_PAPER);
+    TEST_ASSERT_EQUAL_INT(PBMPM_SOLVER_PAPER, paper.solver);
+    TEST_ASSERT_EQUAL_INT(PBMPM_STOP_ITERATIONS, paper.stop);
+    TEST_ASSERT_EQUAL_UINT32(7, paper.iterations_used);
+    TEST_ASSERT_TRUE(paper.residual == 0.0f && paper.predicted_error == 0.0f);
+    TEST_ASSERT_EQUAL_INT(PBMPM_SOLVER_DUAL, stats_of_solver(PBMPM_SOLVER_CONVERGENT).solver); /* the tank holds liquid */
 }
 
 /* The sums in the statistics are those over the views; the affine part of the angular momentum is that of quadratic
@@ -248,6 +275,7 @@ int main(void)
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_before_the_first_step_times_are_zero);
+    RUN_TEST(test_the_solver_tells_what_it_did);
     RUN_TEST(test_sums_agree_with_the_views);
     RUN_TEST(test_counts_and_shares_are_in_range);
     RUN_TEST(test_memory_is_what_the_allocator_gave);

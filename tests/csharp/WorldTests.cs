@@ -84,6 +84,12 @@ static class WorldTests
             definition.Viscosity = 0.5f;
             world.SetMaterial(material, definition);
             Expect.Equal(0.5f, world.GetMaterial(material).Viscosity, "viscosity");
+            var settings = world.Settings;
+            settings.Solver = Solver.Explicit;
+            world.Settings = settings;
+            definition.BulkModulus = 4e5f;
+            world.SetMaterial(material, definition);
+            Expect.Equal(4e5f, world.EffectiveModulus(material, 0.001f).BulkModulus, "bulk modulus");
             world.RemoveMaterial(material);
             Expect.Refused(Result.ErrorInvalidId, () => world.RemoveMaterial(material), "a second removal");
         }

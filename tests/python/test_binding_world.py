@@ -14,6 +14,7 @@ import pytest
 import pbmpm
 from generator import parser
 from pbmpm._ffi import ffi
+from pbmpm.settings import WorldSettings
 
 
 def test_defaults_are_those_of_the_library() -> None:
@@ -39,6 +40,39 @@ def test_settings_may_change_at_any_time(world: pbmpm.World) -> None:
     world.gravity = [0.5] * world.dimension
     assert (world.substeps, world.iterations, world.max_displacement) == (3, 7, 2.5)
     assert world.gravity == (0.5,) * world.dimension
+
+
+def test_the_solver_may_change_at_any_time(pool: pbmpm.World) -> None:
+    assert (pool.solver, pool.pressure, pool.integrator) == (
+        pbmpm.Solver.PAPER,
+        pbmpm.Pressure.PARTICLES,
+        pbmpm.Integrator.EULER,
+    )
+    assert (pool.flip, pool.target_error, pool.time_budget_ms) == (0, 0, 0)
+    pool.solver, pool.pressure, pool.integrator = pbmpm.Solver.DUAL, pbmpm.Pressure.CELLS, pbmpm.Integrator.BDF2
+    pool.flip, pool.target_error, pool.time_budget_ms = 0.9, 0.01, 2.5
+    assert (pool.solver, pool.pressure, pool.integrator) == (
+        pbmpm.Solver.DUAL,
+        pbmpm.Pressure.CELLS,
+        pbmpm.Integrator.BDF2,
+    )
+    assert (pool.flip, pool.target_error, pool.time_budget_ms) == (0.9, 0.01, 2.5)
+    with pytest.raises(pbmpm.InvalidArgumentError):
+        pool.flip = 1.5
+    with pytest.raises(ValueError):
+        pool.solver = 7  # type: ignore[assignment]
+    assert pool.flip == 0.9 and pool.solver is pbmpm.Solver.DUAL
+
+
+def test_settings_given_to_the_constructor() -> None:
+    with pbmpm.World(2, 0.1, capacity=10, solver=pbmpm.Solver.PRIMAL, integrator=pbmpm.Integrator.BDF2, flip=0.5) as world:
+        assert (world.solver, world.integrator, world.flip) == (pbmpm.Solver.PRIMAL, pbmpm.Integrator.BDF2, 0.5)
+
+
+def test_settings_have_every_field_of_the_header(root: Path) -> None:
+    structures = {item.name: item for item in parser.parse(root / "include").structures}
+    header = {field.name for field in structures["pbmpm_settings"].fields} - {"size"}
+    assert header == {name for name in vars(WorldSettings) if isinstance(vars(WorldSettings)[name], property)}
 
 
 def test_context_manager_closes() -> None:
@@ -92,6 +126,31 @@ def test_strain_policy(world: pbmpm.World) -> None:
 def test_the_kind_of_a_material_cannot_change(water: pbmpm.Material) -> None:
     with pytest.raises(pbmpm.PbmpmError):
         water.parameters = pbmpm.Elastic()
+
+
+def test_effective_modulus_of_the_papers_solver(world: pbmpm.World) -> None:
+    """density w N dx^2 / (4 d dt^2) for a liquid, density w N dx^2 / (4 dt^2) for an elastic body; dt is a substep's."""
+    world.iterations, world.substeps = 10, 2
+    young = 900 * 1.2 * 10 * 0.1**2 / (4 * 0.01**2)
+    water = world.add_material(pbmpm.Liquid(density=900, relaxation=1.2, viscosity=0.25)).effective(0.02)
+    jelly = world.add_material(pbmpm.Elastic(density=900, relaxation=1.2)).effective(0.02)
+    assert water.bulk_modulus == pytest.approx(young / world.dimension, rel=1e-5)
+    assert water.young_modulus == 0 and jelly.young_modulus == pytest.approx(young, rel=1e-5)
+    assert water.kinematic_viscosity == pytest.approx(10 * 0.25 * 0.1**2 / (8 * 0.01), rel=1e-5)
+    assert jelly.bulk_modulus == pytest.approx(young / {2: 2, 3: 3}[world.dimension], rel=1e-5)
+
+
+def test_effective_modulus_of_other_solvers_is_the_materials_own(world: pbmpm.World) -> None:
+    """The wave of pressure in a liquid runs at sqrt(K / rho)."""
+    world.solver = pbmpm.Solver.EXPLICIT
+    soft = world.add_material(pbmpm.Liquid(bulk_modulus=4e5, kinematic_viscosity=1e-3)).effective(0.002)
+    assert (soft.bulk_modulus, soft.kinematic_viscosity) == (4e5, 1e-3)
+    assert soft.courant == pytest.approx((4e5 / 1000) ** 0.5 * 0.002 / 0.1, rel=1e-5)
+    stiff = world.add_material(pbmpm.Liquid()).effective(0.002)
+    assert (stiff.bulk_modulus, stiff.courant) == (0, 0)
+    assert world.add_material(pbmpm.Elastic(young_modulus=2e6)).effective(0.002).young_modulus == 2e6
+    with pytest.raises(pbmpm.InvalidArgumentError):
+        world.add_material(pbmpm.Liquid()).effective(0.0)
 
 
 def test_a_material_in_use_stays(pool: pbmpm.World, water: pbmpm.Material) -> None:
@@ -240,6 +299,11 @@ def test_enumerations_have_every_member_of_the_header(root: Path) -> None:
         "pbmpm_friction": pbmpm.Friction,
         "pbmpm_strain_policy": pbmpm.StrainPolicy,
         "pbmpm_event_kind": pbmpm.EventKind,
+        "pbmpm_solver": pbmpm.Solver,
+        "pbmpm_pressure": pbmpm.Pressure,
+        "pbmpm_integrator": pbmpm.Integrator,
+        "pbmpm_stop": pbmpm.Stop,
+        "pbmpm_elastic_model": pbmpm.ElasticModel,
     }
     for name, mirror in mirrors.items():
         members = enumerations[name].members[:-1]  # the last one only sets the width

@@ -11,9 +11,11 @@ from typing import Any
 import numpy as np
 import pytest
 
+import pbmpm
 from pbmpm.app.errors import InputError
 from pbmpm.app.motion import pose_at, quaternion, rotation_matrix
 from pbmpm.app.scene import MotionPart, load_scene, parse_scene
+from pbmpm.app.simulation import RunSettings, Simulation
 
 VALID: dict[str, Any] = {
     "format": "pbmpm-scene",
@@ -45,6 +47,7 @@ def test_defaults() -> None:
     assert (scene.rate_hz, scene.substeps, scene.iterations) == (60.0, 1, 5)
     assert scene.materials["water"].volume_feedback == 0.1
     assert scene.fills[0].particles_per_axis == 2.0
+    assert (scene.solver.solver, scene.solver.flip, scene.materials["water"].bulk_modulus) == ("paper", 0.0, 0.0)
     assert scene.picture_times(4.0) == [0.0, 1.0, 2.0, 3.0, 4.0]
 
 
@@ -56,6 +59,10 @@ def test_defaults() -> None:
         ("materials.water.density", -3, "materials.water.density", "greater than"),
         ("materials.water.relaxation", 2.0, "materials.water.relaxation", "less than 2"),
         ("materials.water.kind", "sand", "materials.water", "'sand'"),
+        ("materials.water.bulk_modulus", 1e-6, "materials.water.bulk_modulus", "0.001"),
+        ("materials.water.young_modulus", 1e6, "materials.water.young_modulus", "unknown field"),
+        ("solver", {"solver": "newton"}, "solver.solver", "'paper'"),
+        ("solver", {"flip": 1.5}, "solver.flip", "less than or equal to 1"),
         ("gravity", [0, 0, 1], "gravity", "needs 2 numbers"),
         ("gravity", [0, math.nan], "gravity[1]", "finite"),
         ("rate_hz", "60", "rate_hz", "valid number"),
@@ -82,6 +89,17 @@ def test_error_names_the_field(path: str, value: Any, named: str, said: str) -> 
     message = str(caught.value)
     assert f"file.json: {named}: " in message
     assert said in message
+
+
+def test_the_world_gets_what_the_scene_says() -> None:
+    data = changed("materials", {"gel": {"kind": "elastic", "elastic_model": "neo_hookean", "poisson_ratio": 0.4}})
+    data["fills"][0]["material"] = "gel"
+    data["solver"] = {"solver": "primal", "integrator": "bdf2", "target_error": 0.01}
+    scene = parse_scene(data)
+    with Simulation(scene, RunSettings.of(scene, 1, iterations=7)) as simulation:
+        world = simulation.world
+        assert (world.solver, world.integrator) == (pbmpm.Solver.PRIMAL, pbmpm.Integrator.BDF2)
+        assert (world.target_error, world.iterations, world.threads) == (0.01, 7, 1)
 
 
 @pytest.mark.parametrize("field", ["dimension", "cell_size", "gravity", "seconds", "materials", "fills", "name"])

@@ -145,6 +145,15 @@ namespace Pbmpm
             return found;
         }
 
+        /// <summary>How stiff the material is when the world is stepped by <paramref name="seconds"/> with its present
+        /// settings.</summary>
+        public Effective EffectiveModulus(MaterialId material, float seconds)
+        {
+            var found = new Effective { Size = (uint)sizeof(Effective) };
+            Done(Methods.pbmpm_material_effective(Id, material, seconds, &found));
+            return found;
+        }
+
         /// <summary>Changes the parameters of a material (not its kind or density).</summary>
         public void SetMaterial(MaterialId material, MaterialDef definition)
         {

@@ -29,7 +29,8 @@ from .errors import (
     UnsupportedCpuError,
     UnsupportedError,
 )
-from .materials import Elastic, Liquid, Material, StrainPolicy
+from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy
+from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Box, Capsule, Plane, Shape, Sphere
 from .stats import Event, EventKind, Stats
 from .views import Field, View
@@ -51,7 +52,9 @@ __all__ = [
     "CapacityError",
     "ClosedError",
     "Collider",
+    "Effective",
     "Elastic",
+    "ElasticModel",
     "Event",
     "EventKind",
     "ExpiredViewError",
@@ -59,6 +62,7 @@ __all__ = [
     "ForkedError",
     "Friction",
     "InUseError",
+    "Integrator",
     "InvalidArgumentError",
     "InvalidIdError",
     "LibraryError",
@@ -67,9 +71,12 @@ __all__ = [
     "OutOfMemoryError",
     "PbmpmError",
     "Plane",
+    "Pressure",
     "Shape",
+    "Solver",
     "Sphere",
     "Stats",
+    "Stop",
     "StrainPolicy",
     "ThreadError",
     "UnsupportedCpuError",

@@ -3,6 +3,7 @@ infinity are the C library's to judge."""
 
 from __future__ import annotations
 
+import enum
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -49,9 +50,9 @@ def shortest(value: float) -> float:
 
 
 def assign(structure: Any, field: str, value: Any) -> None:
-    """Sets a number in a C structure."""
+    """Sets a number, or the number of a member of an enumeration, in a C structure."""
     try:
-        setattr(structure, field, value)
+        setattr(structure, field, value.value if isinstance(value, enum.Enum) else value)
     except OverflowError:
         raise InvalidArgumentError(f"{field}: {value} is out of range") from None
     except TypeError as problem:

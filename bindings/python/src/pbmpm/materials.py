@@ -27,6 +27,13 @@ class StrainPolicy(enum.Enum):
     DELETE = ffi.integer_const("PBMPM_STRAIN_DELETE")  #: deleted, with an event, beyond condition_max
 
 
+class ElasticModel(enum.Enum):
+    """How the stress of an elastic body follows from F; not used by the paper's solver."""
+
+    FIXED_COROTATED = ffi.integer_const("PBMPM_FIXED_COROTATED")  #: mu |F - R|^2 + lambda/2 (J - 1)^2
+    NEO_HOOKEAN = ffi.integer_const("PBMPM_NEO_HOOKEAN")  #: mu/2 (|F|^2 - d) - mu ln J + lambda/2 (ln J)^2
+
+
 @dataclass(frozen=True)
 class Liquid:
     """Keeps its volume. Defaults are those of the C library.
@@ -38,12 +45,16 @@ class Liquid:
             of iterations * viscosity * cell_size^2 / (8 * substep length).
         volume_feedback: share per substep by which the volume ratio follows the volume measured on the grid where
             that shows compression, in [0, 1].
+        bulk_modulus: K [Pa] (2D: N/m), in [1e-3, 1e15], or 0: incompressible. Not the paper's solver.
+        kinematic_viscosity: [m^2/s], in [0, 1e6]. Not the paper's solver.
     """
 
     density: float = _default("density")
     relaxation: float = _default("relaxation")
     viscosity: float = _default("viscosity")
     volume_feedback: float = _default("volume_feedback")
+    bulk_modulus: float = _default("bulk_modulus")
+    kinematic_viscosity: float = _default("kinematic_viscosity")
 
 
 @dataclass(frozen=True)
@@ -60,6 +71,9 @@ class Elastic:
         condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
         rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]: how fast crushed matter grows
             back.
+        elastic_model: how the stress follows from F. Not the paper's solver, as what follows.
+        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15].
+        poisson_ratio: in [0, 0.495].
     """
 
     density: float = _default("density")
@@ -70,9 +84,29 @@ class Elastic:
     strain_max: float = _default("strain_max")
     condition_max: float = _default("condition_max")
     rebound_max: float = _default("rebound_max")
+    elastic_model: ElasticModel = ElasticModel(_DEFAULTS.elastic_model)
+    young_modulus: float = _default("young_modulus")
+    poisson_ratio: float = _default("poisson_ratio")
 
 
 Parameters = Liquid | Elastic
+
+
+@dataclass(frozen=True)
+class Effective:
+    """How stiff a material is with a world's settings and rate.
+
+    Attributes:
+        bulk_modulus: [Pa]; 0: incompressible.
+        young_modulus: [Pa]; 0 for a liquid.
+        kinematic_viscosity: of a liquid [m^2/s], without what the transfers add.
+        courant: cells that its pressure wave travels per substep; 0: incompressible. The explicit solver needs less than 1.
+    """
+
+    bulk_modulus: float
+    young_modulus: float
+    kinematic_viscosity: float
+    courant: float
 
 _KINDS: dict[type, int] = {
     Liquid: ffi.integer_const("PBMPM_LIQUID"),
@@ -87,8 +121,7 @@ def to_c(parameters: Parameters) -> Any:
     out = initialised("pbmpm_material_def")
     out.kind = _KINDS[type(parameters)]
     for item in fields(parameters):
-        value = getattr(parameters, item.name)
-        assign(out, item.name, value.value if isinstance(value, StrainPolicy) else value)
+        assign(out, item.name, getattr(parameters, item.name))
     return out
 
 
@@ -98,6 +131,7 @@ def from_c(definition: Any) -> Parameters:
     values: dict[str, Any] = {item.name: shortest(getattr(definition, item.name)) for item in fields(kind)}
     if kind is Elastic:
         values["strain_policy"] = StrainPolicy(definition.strain_policy)
+        values["elastic_model"] = ElasticModel(definition.elastic_model)
     return kind(**values)
 
 
@@ -125,6 +159,12 @@ class Material:
     @parameters.setter
     def parameters(self, value: Parameters) -> None:
         self._world._call(lib.pbmpm_material_set, self._id, to_c(value))
+
+    def effective(self, dt: float) -> Effective:
+        """How stiff the material is when the world is stepped by `dt` [s] with its present settings."""
+        out = sized("pbmpm_effective")
+        self._world._call(lib.pbmpm_material_effective, self._id, dt, out)
+        return Effective(**{item.name: shortest(getattr(out, item.name)) for item in fields(Effective)})
 
     def destroy(self) -> None:
         """Removes the material; InUseError while particles refer to it."""

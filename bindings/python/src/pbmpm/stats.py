@@ -8,6 +8,7 @@ from typing import Any
 
 from ._convert import plain
 from ._ffi import ffi
+from .settings import Solver, Stop
 
 
 @dataclass(frozen=True)
@@ -45,6 +46,12 @@ class Stats:
     lane_occupancy: float  #: share of SIMD lanes that held a particle
     deleted_total: int  #: particles deleted by the library since creation
     clamped_total: int  #: times a particle was slowed to max_displacement since creation
+    solver: Solver  #: that the last substep was solved with (never CONVERGENT)
+    stop: Stop  #: what ended its iterations
+    iterations_used: int  #: by it; passes that a line search repeats count as iterations
+    residual: float  #: its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver
+    predicted_error: float  #: root mean square distance from the converged displacements [cells], as predicted from it
+    energy_checks_failed: int  #: primal: bodies whose unfinished solution would have gained energy and was replaced
 
 
 class EventKind(enum.Enum):
@@ -79,7 +86,8 @@ class Event:
 
 
 def stats_from_c(stats: Any) -> Stats:
-    return Stats(**{item.name: plain(getattr(stats, item.name)) for item in fields(Stats)})
+    values = {item.name: plain(getattr(stats, item.name)) for item in fields(Stats)}
+    return Stats(**{**values, "solver": Solver(stats.solver), "stop": Stop(stats.stop)})
 
 
 def event_from_c(event: Any, dimension: int) -> Event:

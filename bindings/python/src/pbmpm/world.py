@@ -16,6 +16,7 @@ from ._library import lib
 from .colliders import Collider, Friction
 from .errors import ClosedError, InvalidArgumentError, check
 from .materials import Material, Parameters
+from .settings import Integrator, Pressure, Solver, WorldSettings
 from .shapes import Shape
 from .stats import Event, Stats, event_from_c, stats_from_c
 from .views import MATRICES, Field, View
@@ -24,7 +25,7 @@ from .views import MATRICES, Field, View
 Ids = npt.NDArray[np.uint32]
 
 
-class World:
+class World(WorldSettings):
     """A world of liquid and elastic matter.
 
     Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one
@@ -44,7 +45,8 @@ class World:
         origin: what positions are relative to [m]; for the caller's own conversion.
         memory_budget: bytes that the world may hold at once; 0: no limit.
         threads: threads that share the work, counting the caller; 0: one per core. Results do not depend on it.
-        substeps, iterations, max_displacement: see the properties.
+        substeps, iterations, max_displacement, solver, pressure, integrator, flip, target_error, time_budget_ms: see the
+            properties.
 
     Arguments left at None take the C library's defaults.
     """
@@ -64,6 +66,12 @@ class World:
         substeps: int | None = None,
         iterations: int | None = None,
         max_displacement: float | None = None,
+        solver: Solver | None = None,
+        pressure: Pressure | None = None,
+        integrator: Integrator | None = None,
+        flip: float | None = None,
+        target_error: float | None = None,
+        time_budget_ms: float | None = None,
     ) -> None:
         self._handle: WorldHandle | None = None
         definition = initialised("pbmpm_world_def")
@@ -89,7 +97,16 @@ class World:
         self._handle = WorldHandle(definition)
         self._dimension: int = definition.dimension
         self._change_settings(
-            gravity=gravity, substeps=substeps, iterations=iterations, max_displacement=max_displacement
+            gravity=gravity,
+            substeps=substeps,
+            iterations=iterations,
+            max_displacement=max_displacement,
+            solver=None if solver is None else Solver(solver),
+            pressure=None if pressure is None else Pressure(pressure),
+            integrator=None if integrator is None else Integrator(integrator),
+            flip=flip,
+            target_error=target_error,
+            time_budget_ms=time_budget_ms,
         )
 
     # Life
@@ -186,58 +203,6 @@ class World:
     def threads(self) -> int:
         """Threads as asked for at creation; 0: one per core."""
         return int(self._definition().thread_count)
-
-    # Settings
-
-    def _settings(self) -> Any:
-        settings = sized("pbmpm_settings")
-        self._call(lib.pbmpm_world_get_settings, settings)
-        return settings
-
-    def _change_settings(self, gravity: Vector | None = None, **numbers: float | None) -> None:
-        settings = self._settings()
-        if gravity is not None:
-            assign_vector(settings, "gravity", gravity, self._dimension)
-        for name, value in numbers.items():
-            if value is not None:
-                assign(settings, name, value)
-        self._call(lib.pbmpm_world_set_settings, settings)
-
-    @property
-    def gravity(self) -> tuple[float, ...]:
-        """Acceleration [m/s^2]. Settings take effect with the next step."""
-        return self._vector(self._settings().gravity)
-
-    @gravity.setter
-    def gravity(self, value: Vector) -> None:
-        self._change_settings(gravity=value)
-
-    @property
-    def substeps(self) -> int:
-        """Equal parts that a step is cut into."""
-        return int(self._settings().substeps)
-
-    @substeps.setter
-    def substeps(self, value: int) -> None:
-        self._change_settings(substeps=value)
-
-    @property
-    def iterations(self) -> int:
-        """Rounds of projection and transfer per substep."""
-        return int(self._settings().iterations)
-
-    @iterations.setter
-    def iterations(self, value: int) -> None:
-        self._change_settings(iterations=value)
-
-    @property
-    def max_displacement(self) -> float:
-        """Largest displacement of a particle per substep [cells]; faster ones are slowed to it, with an event."""
-        return shortest(self._settings().max_displacement)
-
-    @max_displacement.setter
-    def max_displacement(self, value: float) -> None:
-        self._change_settings(max_displacement=value)
 
     # Matter
 

@@ -6,12 +6,14 @@ Exit codes: 0 all is well; 1 a check failed; 2 the command line or a file cannot
 from __future__ import annotations
 
 import sys
+from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import click
 
 from .errors import InputError
+from .names import IntegratorName, PressureName, SolverName
 
 EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
@@ -70,6 +72,30 @@ class TimeList(click.ParamType):
         return times
 
 
+def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say how the equations are solved; None where the scene decides."""
+    options = (
+        click.option("--solver", type=choice_of(SolverName), help="How the equations are solved.  [default: the scene's]"),
+        click.option("--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."),
+        click.option("--integrator", type=choice_of(IntegratorName), help="Primal solver: order in time."),
+        click.option("--flip", type=click.FloatRange(0, 1), help="Share of the finest motion that liquids keep."),
+        click.option("--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."),
+        click.option(
+            "--time-budget-ms",
+            type=click.FloatRange(0, 1e6),
+            help="Iterate for this wall time per step [ms]; 0: off. Not deterministic.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def choice_of(names: Any) -> click.Choice:
+    """The members of a Literal as a choice."""
+    return click.Choice(get_args(names))
+
+
 @cli.command()
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
@@ -78,6 +104,13 @@ class TimeList(click.ParamType):
 @click.option("--rate", type=click.FloatRange(0.1, 1e6), help="Steps per simulated second.  [default: the scene's]")
 @click.option("--iterations", type=click.IntRange(1, 1000), help="Iterations per substep.  [default: the scene's]")
 @click.option("--substeps", type=click.IntRange(1, 256), help="Substeps per step.  [default: the scene's]")
+@solver_options
+@click.option(
+    "--preset",
+    "preset_file",
+    type=click.Path(path_type=Path),
+    help="Settings from a file that 'pbmpm tune' wrote; other options go before it.",
+)
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @click.option(
     "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for files.  [default: NAME-output]"
@@ -126,16 +159,22 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
         sys.exit(EXIT_CHECK_FAILED)
 
 
+_SETTINGS = {"rate": "rate_hz"} | {
+    name: name
+    for name in ("substeps", "iterations", "solver", "pressure", "integrator", "flip", "target_error", "time_budget_ms")
+}
+"""Options and the fields of `RunSettings` that they set."""
+
+
 def _settings(scene, options: dict[str, Any]):
+    from .preset import load_preset
     from .simulation import RunSettings
 
-    settings = RunSettings(
-        options["rate"] or scene.rate_hz,
-        options["substeps"] or scene.substeps,
-        options["iterations"] or scene.iterations,
-        options["threads"],
-    )
-    return settings, options["seconds"] or scene.seconds
+    changes = load_preset(options["preset_file"]).settings.changes() if options["preset_file"] else {}
+    for option, field in _SETTINGS.items():
+        if options[option] is not None:
+            changes[field] = options[option]
+    return RunSettings.of(scene, options["threads"], **changes), options["seconds"] or scene.seconds
 
 
 def _output(scene, settings, seconds: float, options: dict[str, Any]):
@@ -158,7 +197,7 @@ def _summary(report: dict[str, Any]) -> str:
     rate = report["million_particle_iterations_per_second"]
     lines = [
         f"{report['scene']}: {report['particles']} particles, {report['simulated_seconds']:.3f} s in"
-        f" {report['steps']} steps of {report['substeps']} x {report['iterations']} iterations"
+        f" {report['steps']} steps of {report['substeps']} x {report['iterations']} iterations ({report['solver']})"
         + (" (interrupted)" if report["interrupted"] else ""),
         f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
         f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",

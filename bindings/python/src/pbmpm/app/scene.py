@@ -17,6 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ..materials import Elastic, Liquid
 from .errors import InputError
+from .names import IntegratorName, PressureName, SolverName
 
 FORMAT_NAME = "pbmpm-scene"
 FORMAT_VERSION = 1
@@ -25,6 +26,11 @@ DEFAULT_PICTURE_COUNT = 5
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Share = Annotated[float, Field(ge=0, le=1)]
+Modulus = Annotated[float, Field(ge=1e-3, le=1e15)]
+Rate = Annotated[float, Field(ge=0.1, le=1e6)]
+Substeps = Annotated[int, Field(ge=1, le=256)]
+Iterations = Annotated[int, Field(ge=1, le=1000)]
+Milliseconds = Annotated[float, Field(ge=0, le=1e6)]
 Vector = Annotated[list[Finite], Field(min_length=2, max_length=3)]
 PositiveVector = Annotated[list[Positive], Field(min_length=2, max_length=3)]
 Rotation = Union[Finite, Annotated[list[Finite], Field(min_length=4, max_length=4)]]
@@ -47,6 +53,9 @@ class LiquidPart(_Part):
     relaxation: Annotated[float, Field(gt=0, lt=2)] = _LIQUID.relaxation
     viscosity: Share = _LIQUID.viscosity
     volume_feedback: Share = _LIQUID.volume_feedback
+    bulk_modulus: Modulus | Annotated[float, Field(ge=0, le=0)] = _LIQUID.bulk_modulus
+    """0: incompressible."""
+    kinematic_viscosity: Annotated[float, Field(ge=0, le=1e6)] = _LIQUID.kinematic_viscosity
 
 
 class ElasticPart(_Part):
@@ -61,6 +70,9 @@ class ElasticPart(_Part):
     strain_max: Annotated[float, Field(ge=1, le=1e4)] = _ELASTIC.strain_max
     condition_max: Annotated[float, Field(ge=10, le=1e6)] = _ELASTIC.condition_max
     rebound_max: Annotated[float, Field(gt=0, le=10)] = _ELASTIC.rebound_max
+    elastic_model: Literal["fixed_corotated", "neo_hookean"] = "fixed_corotated"
+    young_modulus: Modulus = _ELASTIC.young_modulus
+    poisson_ratio: Annotated[float, Field(ge=0, le=0.495)] = _ELASTIC.poisson_ratio
 
 
 MaterialPart = Annotated[LiquidPart | ElasticPart, Field(discriminator="kind")]
@@ -163,6 +175,17 @@ class CameraPart(_Part):
     field_of_view: Annotated[float, Field(gt=0.05, lt=3.0)] = 0.6
 
 
+class SolverPart(_Part):
+    """How the equations are solved. Fields and defaults are those of ``pbmpm_settings``."""
+
+    solver: SolverName = "paper"
+    pressure: PressureName = "particles"
+    integrator: IntegratorName = "euler"
+    flip: Share = 0.0
+    target_error: Share = 0.0
+    time_budget_ms: Milliseconds = 0.0
+
+
 class PicturesPart(_Part):
     """When to take pictures and how they look."""
 
@@ -185,9 +208,10 @@ class Scene(_Part):
     gravity: Vector
     domain: DomainPart | None = None
     seconds: Positive
-    rate_hz: Annotated[float, Field(ge=0.1, le=1e6)] = 60.0
-    substeps: Annotated[int, Field(ge=1, le=256)] = 1
-    iterations: Annotated[int, Field(ge=1, le=1000)] = 5
+    rate_hz: Rate = 60.0
+    substeps: Substeps = 1
+    iterations: Iterations = 5
+    solver: SolverPart = SolverPart()
     max_displacement: Annotated[float, Field(ge=0.1, le=64)] = 32.0
     materials: Annotated[dict[str, MaterialPart], Field(min_length=1)]
     fills: Annotated[list[FillPart], Field(min_length=1)]
@@ -206,7 +230,7 @@ def load_scene(path: Path) -> Scene:
     """Reads a scene of our own format or of the EA demo's, told apart by their contents."""
     from .ea_scene import import_ea_scene, looks_like_ea_scene
 
-    data = _read_json(path)
+    data = read_json(path)
     if looks_like_ea_scene(data):
         return import_ea_scene(data, path.name)
     return parse_scene(data, str(path))
@@ -219,14 +243,15 @@ def parse_scene(data: Any, source: str = "scene") -> Scene:
     try:
         scene = Scene.model_validate(data)
     except ValidationError as error:
-        raise InputError(_describe(error, data, source)) from None
+        raise InputError(describe_problems(error, data, source)) from None
     problems = _cross_check(scene)
     if problems:
         raise InputError("\n".join(f"{source}: {problem}" for problem in problems))
     return scene
 
 
-def _read_json(path: Path) -> Any:
+def read_json(path: Path) -> Any:
+    """Decodes a file; InputError says what is wrong with it, and where."""
     try:
         text = path.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as error:
@@ -237,7 +262,8 @@ def _read_json(path: Path) -> Any:
         raise InputError(f"{path}:{error.lineno}:{error.colno}: not JSON: {error.msg}") from None
 
 
-def _describe(error: ValidationError, data: Any, source: str) -> str:
+def describe_problems(error: ValidationError, data: Any, source: str) -> str:
+    """One line for each field that is wrong."""
     lines = []
     for item in error.errors():
         message = item["msg"].removeprefix("Value error, ")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ import pbmpm
 from .errors import InputError
 from .frame import Frame
 from .motion import collider_pose
+from .names import IntegratorName, PressureName, SolverName
 from .scene import Scene
 
 DELETIONS = (
@@ -32,6 +33,18 @@ class RunSettings:
     iterations: int
     threads: int = 0
     """0: one per core."""
+    solver: SolverName = "paper"
+    pressure: PressureName = "particles"
+    integrator: IntegratorName = "euler"
+    flip: float = 0.0
+    target_error: float = 0.0
+    time_budget_ms: float = 0.0
+
+    @classmethod
+    def of(cls, scene: Scene, threads: int = 0, **changes: Any) -> RunSettings:
+        """What a scene asks for, but for the changes."""
+        own = {"rate_hz": scene.rate_hz, "substeps": scene.substeps, "iterations": scene.iterations}
+        return cls(**{**own, **scene.solver.model_dump(), "threads": threads, **changes})
 
     @property
     def dt(self) -> float:
@@ -41,11 +54,33 @@ class RunSettings:
     def text(self) -> str:
         """For captions."""
         parts = f" x {self.substeps} substeps" if self.substeps > 1 else ""
-        return f"{self.rate_hz:g} Hz{parts} x {self.iterations} iteration{'s' if self.iterations > 1 else ''}"
+        return (
+            f"{self.solver_text()}, {self.rate_hz:g} Hz{parts} x {self.iterations}"
+            f" iteration{'s' if self.iterations > 1 else ''}"
+        )
+
+    def solver_text(self) -> str:
+        """The solver with its options where they differ from the defaults."""
+        options = [name for name, plain in ((self.pressure, "particles"), (self.integrator, "euler")) if name != plain]
+        return "-".join([self.solver, *options, *([f"flip{self.flip:g}"] if self.flip else [])])
 
     def as_dict(self) -> dict[str, Any]:
-        """For reports."""
-        return {"rate_hz": self.rate_hz, "substeps": self.substeps, "iterations": self.iterations}
+        """For reports: everything but the threads."""
+        return {item.name: getattr(self, item.name) for item in fields(self) if item.name != "threads"}
+
+    def for_world(self) -> dict[str, Any]:
+        """The settings as `pbmpm.World` takes them."""
+        return {
+            "threads": self.threads,
+            "substeps": self.substeps,
+            "iterations": self.iterations,
+            "solver": pbmpm.Solver[self.solver.upper()],
+            "pressure": pbmpm.Pressure[self.pressure.upper()],
+            "integrator": pbmpm.Integrator[self.integrator.upper()],
+            "flip": self.flip,
+            "target_error": self.target_error,
+            "time_budget_ms": self.time_budget_ms,
+        }
 
 
 def versions() -> dict[str, str]:
@@ -206,10 +241,8 @@ def _make_world(scene: Scene, settings: RunSettings) -> pbmpm.World:
         domain=None if domain is None else (domain.min, domain.max),
         domain_friction=None if domain is None else domain.friction,
         origin=scene.origin,
-        threads=settings.threads,
-        substeps=settings.substeps,
-        iterations=settings.iterations,
         max_displacement=scene.max_displacement,
+        **settings.for_world(),
     )
 
 
@@ -229,7 +262,9 @@ def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic:
     values = part.model_dump(exclude={"kind"})
     if part.kind == "liquid":
         return pbmpm.Liquid(**values)
-    return pbmpm.Elastic(**{**values, "strain_policy": pbmpm.StrainPolicy[part.strain_policy.upper()]})
+    values["strain_policy"] = pbmpm.StrainPolicy[part.strain_policy.upper()]
+    values["elastic_model"] = pbmpm.ElasticModel[part.elastic_model.upper()]
+    return pbmpm.Elastic(**values)
 
 
 def _shape(part: Any) -> pbmpm.Shape:

@@ -1,0 +1,163 @@
+"""Settings of a world: what may change between steps."""
+
+from __future__ import annotations
+
+import enum
+from typing import Any
+
+from ._convert import Vector, assign, assign_vector, plain, shortest, sized
+from ._ffi import ffi
+from ._library import lib
+
+
+class Solver(enum.Enum):
+    """How the equations of a substep are solved."""
+
+    #: the paper's; its stiffness follows from iterations and dt
+    PAPER = ffi.integer_const("PBMPM_SOLVER_PAPER")
+    #: backward Euler with the materials' moduli, one stress per particle: for liquids, and liquids with elastic bodies
+    DUAL = ffi.integer_const("PBMPM_SOLVER_DUAL")
+    #: the same equations in the displacements of the nodes: for elastic bodies
+    PRIMAL = ffi.integer_const("PBMPM_SOLVER_PRIMAL")
+    #: explicit MLS-MPM, to compare with; liquids need a bulk modulus
+    EXPLICIT = ffi.integer_const("PBMPM_SOLVER_EXPLICIT")
+    #: the dual while the world holds a particle of a liquid, else the primal
+    CONVERGENT = ffi.integer_const("PBMPM_SOLVER_CONVERGENT")
+
+
+class Pressure(enum.Enum):
+    """Where the dual solver keeps the pressure of a liquid."""
+
+    PARTICLES = ffi.integer_const("PBMPM_PRESSURE_PARTICLES")  #: calm
+    CELLS = ffi.integer_const("PBMPM_PRESSURE_CELLS")  #: lively; costs more, and pools stay restless
+
+
+class Integrator(enum.Enum):
+    """How a substep follows from those before it."""
+
+    EULER = ffi.integer_const("PBMPM_INTEGRATOR_EULER")  #: backward Euler: damps rotation and oscillation
+    BDF2 = ffi.integer_const("PBMPM_INTEGRATOR_BDF2")  #: second order, primal solver only: hardly damps them
+
+
+class Stop(enum.Enum):
+    """What ended the iterations of a substep."""
+
+    ITERATIONS = ffi.integer_const("PBMPM_STOP_ITERATIONS")  #: all were done
+    ERROR = ffi.integer_const("PBMPM_STOP_ERROR")  #: the predicted error fell below target_error
+    TIME = ffi.integer_const("PBMPM_STOP_TIME")  #: time_budget_ms was spent
+
+
+class WorldSettings:
+    """The settings of a `World` as properties. They take effect with the next step."""
+
+    __slots__ = ()
+    _dimension: int
+
+    def _call(self, function: Any, *arguments: Any) -> Any:
+        """Calls a function of the C library with this world."""
+        raise NotImplementedError
+
+    def _settings(self) -> Any:
+        settings = sized("pbmpm_settings")
+        self._call(lib.pbmpm_world_get_settings, settings)
+        return settings
+
+    def _change_settings(self, gravity: Vector | None = None, **values: float | enum.Enum | None) -> None:
+        settings = self._settings()
+        if gravity is not None:
+            assign_vector(settings, "gravity", gravity, self._dimension)
+        for name, value in values.items():
+            if value is not None:
+                assign(settings, name, value)
+        self._call(lib.pbmpm_world_set_settings, settings)
+
+    @property
+    def gravity(self) -> tuple[float, ...]:
+        """Acceleration [m/s^2]."""
+        return tuple(plain(self._settings().gravity)[: self._dimension])
+
+    @gravity.setter
+    def gravity(self, value: Vector) -> None:
+        self._change_settings(gravity=value)
+
+    @property
+    def substeps(self) -> int:
+        """Equal parts that a step is cut into."""
+        return int(self._settings().substeps)
+
+    @substeps.setter
+    def substeps(self, value: int) -> None:
+        self._change_settings(substeps=value)
+
+    @property
+    def iterations(self) -> int:
+        """Rounds of projection and transfer per substep; the explicit solver ignores them."""
+        return int(self._settings().iterations)
+
+    @iterations.setter
+    def iterations(self, value: int) -> None:
+        self._change_settings(iterations=value)
+
+    @property
+    def max_displacement(self) -> float:
+        """Largest displacement of a particle per substep [cells]; faster ones are slowed to it, with an event."""
+        return shortest(self._settings().max_displacement)
+
+    @max_displacement.setter
+    def max_displacement(self, value: float) -> None:
+        self._change_settings(max_displacement=value)
+
+    @property
+    def solver(self) -> Solver:
+        """How the equations of a substep are solved."""
+        return Solver(self._settings().solver)
+
+    @solver.setter
+    def solver(self, value: Solver) -> None:
+        self._change_settings(solver=Solver(value))
+
+    @property
+    def pressure(self) -> Pressure:
+        """Where the dual solver keeps the pressure of a liquid."""
+        return Pressure(self._settings().pressure)
+
+    @pressure.setter
+    def pressure(self, value: Pressure) -> None:
+        self._change_settings(pressure=Pressure(value))
+
+    @property
+    def integrator(self) -> Integrator:
+        """How a substep follows from those before it."""
+        return Integrator(self._settings().integrator)
+
+    @integrator.setter
+    def integrator(self, value: Integrator) -> None:
+        self._change_settings(integrator=Integrator(value))
+
+    @property
+    def flip(self) -> float:
+        """Share, in [0, 1], of the motion below the grid's resolution that liquids keep; not the paper's solver."""
+        return shortest(self._settings().flip)
+
+    @flip.setter
+    def flip(self, value: float) -> None:
+        self._change_settings(flip=value)
+
+    @property
+    def target_error(self) -> float:
+        """Dual and primal: iterations end when the predicted error [cells] is below this, in [0, 1]; 0: off."""
+        return shortest(self._settings().target_error)
+
+    @target_error.setter
+    def target_error(self, value: float) -> None:
+        self._change_settings(target_error=value)
+
+    @property
+    def time_budget_ms(self) -> float:
+        """Dual and primal: no iteration is begun once this much wall time [ms] of the step is spent; 0: off. Results then
+        depend on the machine's speed: they are not deterministic."""
+        return shortest(self._settings().time_budget_ms)
+
+    @time_budget_ms.setter
+    def time_budget_ms(self, value: float) -> None:
+        self._change_settings(time_budget_ms=value)
