@@ -1,18 +1,27 @@
-"""The hard cases of the catalogue, each at its own rate and iterations. Scenes, criteria and limits are defined there."""
+"""The hard cases of the catalogue with each solver, at their own rates and iterations. Scenes, criteria and limits are defined there."""
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Iterator
 from typing import Any
 
+import numpy as np
 import pytest
 
-from pbmpm.app.hardcases import CASES, Check, HardCase, Setting, find_case
+import pbmpm
+from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Setting, find_case
+from pbmpm.app.hardcases.case import EXPLICIT
+from pbmpm.app.hardcases.energy import energy_density
+
+#: The explicit solver is the one to compare with: it is expected to fail.
+TESTED_SOLVERS = tuple(solver for solver in SOLVERS if solver != EXPLICIT)
 
 
 def _all_settings() -> Iterator[Any]:
-    for case in CASES:
-        for setting in case.settings():
+    for case, solver in itertools.product(CASES, TESTED_SOLVERS):
+        for setting in case.settings(solver=solver):
             reason = case.known_failure(setting)
             # Strict: a case that begins to pass has to leave the list of known failures.
             marks = [pytest.mark.xfail(reason=reason, strict=True, raises=AssertionError)] if reason else []
@@ -52,13 +61,17 @@ def test_hard_case(case: HardCase, setting: Setting) -> None:
 
 def test_catalogue_is_complete_and_in_order() -> None:
     identifiers = [case.id for case in CASES]
-    assert identifiers == ["H01", "H03", "H04", "H05", "H06", "H07", "H08", "H10", "H16", "H17", "H21"]
+    assert identifiers == ["H01", "H03", "H04", "H05", "H06", "H07", "H08", "H10", "H16", "H17", "H21", "H22"]
     assert all(case.title and case.origin and case.criterion for case in CASES)
 
 
 def test_known_failures_name_settings_that_exist() -> None:
     for case in CASES:
-        settings = {(setting.material, setting.dimension, setting.variant) for setting in case.settings()}
+        settings = {
+            (solver, setting.material, setting.dimension, setting.variant)
+            for solver in SOLVERS
+            for setting in case.settings(solver=solver)
+        }
         assert set(case.known_failures) <= settings
 
 
@@ -71,6 +84,41 @@ def test_find_case() -> None:
 def test_unknown_variant_is_refused() -> None:
     with pytest.raises(ValueError, match="no variant"):
         CASES[0].run(Setting("liquid", 2, "nonsense", 60.0, 5))
+
+
+def test_case_without_a_solver_is_refused() -> None:
+    case = find_case("H22")
+    assert list(case.settings(solver="paper")) == []
+    with pytest.raises(ValueError, match="says nothing"):
+        case.run(Setting("elastic", 2, case.variants[0], 60.0, 5))
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_energy_of_a_stretched_cube_is_that_of_the_formula(dimension: int) -> None:
+    """F = diag(2, 1, 1) with E = 26, nu = 0.3: mu = 10, lambda = 15."""
+    stretched = np.diag([2.0, 1.0, 1.0][:dimension])[None]
+    corotated = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3)
+    assert energy_density(corotated, stretched) == pytest.approx(10 * 1 + 7.5 * 1)
+    neo = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3, elastic_model=pbmpm.ElasticModel.NEO_HOOKEAN)
+    assert energy_density(neo, stretched) == pytest.approx(5 * 3 - 10 * math.log(2) + 7.5 * math.log(2) ** 2)
+
+
+@pytest.mark.parametrize("model", list(pbmpm.ElasticModel))
+def test_energy_is_zero_at_rest_turned_and_large_inside_out(model: pbmpm.ElasticModel) -> None:
+    material = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3, elastic_model=model)
+    turn = np.array([[0.0, -1.0], [1.0, 0.0]])
+    rest, turned, mirrored = energy_density(material, np.stack([np.eye(2), turn, np.diag([-1.0, 1.0])]))
+    assert (rest, turned) == pytest.approx((0.0, 0.0), abs=1e-12)
+    assert mirrored > 10.0
+
+
+def test_neo_hookean_energy_has_no_step_where_its_logarithm_is_continued() -> None:
+    """The expansion is of second order: value and slope agree at J = 0.1."""
+    neo = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3, elastic_model=pbmpm.ElasticModel.NEO_HOOKEAN)
+    width = 1e-4
+    low, middle, high = energy_density(neo, np.stack([np.diag([1.0, 0.1 + step * width]) for step in (-1, 0, 1)]))
+    # The slope changes by width times the second derivative, about lambda (1 - ln J) / J^2 + mu / J^2 = 6,000.
+    assert (high - middle) / width == pytest.approx((middle - low) / width, abs=2 * 6000 * width)
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator
+from dataclasses import fields
 
 import numpy as np
 
@@ -20,9 +21,9 @@ NOT_NUMBERS = (math.nan, math.inf, -math.inf)
 Call = Callable[[], object]
 
 
-def _block(world: pbmpm.World, material: pbmpm.Material) -> None:
+def _block(world: pbmpm.World, material: pbmpm.Material, seed: int) -> None:
     d = world.dimension
-    world.fill(pbmpm.Box([0.5 * BOX, 0.5 * SIDE, 0.5 * BOX][:d], [0.5 * SIDE] * d), material)
+    world.fill(pbmpm.Box([0.5 * BOX, 0.5 * SIDE, 0.5 * BOX][:d], [0.5 * SIDE] * d), material, seed=seed)
 
 
 # H07
@@ -72,8 +73,15 @@ def _bad_obstacles(world: pbmpm.World, moving: pbmpm.Collider, bad: float) -> It
 
 def _bad_settings(world: pbmpm.World, bad: float) -> Iterator[Call]:
     yield lambda: setattr(world, "gravity", [bad] * world.dimension)
-    yield lambda: setattr(world, "max_displacement", bad)
+    for name in ("max_displacement", "flip", "target_error", "time_budget_ms"):
+        yield lambda name=name: setattr(world, name, bad)  # type: ignore[misc]
     yield lambda: world.step(bad)
+
+
+def _bad_materials(world: pbmpm.World, bad: float) -> Iterator[Call]:
+    for kind in (pbmpm.Liquid, pbmpm.Elastic):
+        for name in (item.name for item in fields(kind) if isinstance(item.default, float)):
+            yield lambda kind=kind, name=name: world.add_material(kind(**{name: bad}))  # type: ignore[misc]
 
 
 def _accepted(calls: Iterator[Call]) -> int:
@@ -95,6 +103,7 @@ def _attack(world: pbmpm.World, material: pbmpm.Material, moving: pbmpm.Collider
         + _accepted(_bad_state(world, material, bad))
         + _accepted(_bad_obstacles(world, moving, bad))
         + _accepted(_bad_settings(world, bad))
+        + _accepted(_bad_materials(world, bad))
         for bad in NOT_NUMBERS
     )
 
@@ -108,8 +117,8 @@ def not_a_number(setting: Setting) -> list[Check]:
         make_world(setting, CELL, gravity=True, size=size) as left_alone,
     ):
         for world in (attacked, left_alone):
-            material = world.add_material(setting.parameters())
-            _block(world, material)
+            material = world.add_material(setting.parameters(CELL))
+            _block(world, material, setting.seed)
             moving = world.add_collider(pbmpm.Sphere([0.5 * BOX] * d, 2.0 * CELL), kinematic=True)
             watch = Watch(world)
             watch.run(0.2, setting.dt)
@@ -129,13 +138,15 @@ def not_a_number(setting: Setting) -> list[Check]:
 
 # H17
 
-SEEDINGS: dict[str, Callable[[int], np.ndarray]] = {
-    "one particle": lambda d: np.full((1, d), 0.77),
-    "two at one point": lambda d: np.full((2, d), 0.77),
-    "10000 in one cell": lambda d: 0.71 + CELL * np.random.default_rng(1).random((10_000, d)),
-    "one per 8 cells": lambda d: np.stack(np.meshgrid(*[np.arange(0.1, BOX, 2.0 * CELL)] * d), axis=-1).reshape(-1, d),
-    "on nodes": lambda d: np.stack(np.meshgrid(*[np.arange(4, 9) * CELL] * d), axis=-1).reshape(-1, d),
-    "on the domain's edge": lambda d: np.array([[0.0] * d, [BOX] * d, vector(d, 0.0, BOX, 0.0), vector(d, BOX, 0.5)]),
+SEEDINGS: dict[str, Callable[[int, int], np.ndarray]] = {  # from dimension and seed
+    "one particle": lambda d, _: np.full((1, d), 0.77),
+    "two at one point": lambda d, _: np.full((2, d), 0.77),
+    "10000 in one cell": lambda d, seed: 0.71 + CELL * np.random.default_rng(seed).random((10_000, d)),
+    "one per 8 cells": lambda d, _: (
+        np.stack(np.meshgrid(*[np.arange(0.1, BOX, 2.0 * CELL)] * d), axis=-1).reshape(-1, d)
+    ),
+    "on nodes": lambda d, _: np.stack(np.meshgrid(*[np.arange(4, 9) * CELL] * d), axis=-1).reshape(-1, d),
+    "on the domain's edge": lambda d, _: np.array([[0.0] * d, [BOX] * d, vector(d, 0.0, BOX, 0.0), vector(d, BOX, 0.5)]),
 }
 SEEDING_SECONDS = 2.0
 
@@ -155,9 +166,9 @@ def _bad_seedings(world: pbmpm.World, material: pbmpm.Material) -> Iterator[Call
 def seed_badly(setting: Setting) -> list[Check]:
     """H17: odd seedings live on; impossible ones are refused."""
     with make_world(setting, CELL, gravity=True, size=[BOX] * setting.dimension) as world:
-        material = world.add_material(setting.parameters())
+        material = world.add_material(setting.parameters(CELL))
         refused = _accepted(_bad_seedings(world, material))
-        world.add_particles(material, SEEDINGS[setting.variant](setting.dimension))
+        world.add_particles(material, SEEDINGS[setting.variant](setting.dimension, setting.seed))
         watch = Watch(world)
         watch.run(SEEDING_SECONDS, setting.dt)
         return [Check("impossible seedings accepted", refused, 0), *watch.checks()]

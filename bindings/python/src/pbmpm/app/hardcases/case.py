@@ -12,6 +12,14 @@ import pbmpm
 
 LIQUID = "liquid"
 ELASTIC = "elastic"
+PAPER = "paper"
+EXPLICIT = "explicit"
+SOLVERS = (PAPER, "dual", "primal", EXPLICIT)
+SEED = 1  # of all random numbers, unless a setting has another
+
+#: Stiffness of the matter where it is a parameter: sound travels half a cell in 1/240 s, whatever a cell measures, so that
+#: the explicit solver can pass from about 240 Hz on.
+SOUND_CELLS_PER_SECOND = 120.0
 
 
 @dataclass(frozen=True)
@@ -25,20 +33,38 @@ class Setting:
     iterations: int  #: per step
     relaxation: float | None = None  #: of the material; None: the library's default
     threads: int = 1  #: 0: one per core
+    solver: str = PAPER  #: one of SOLVERS
+    seed: int = SEED
 
     @property
     def dt(self) -> float:
         """Length of a step [s]."""
         return 1.0 / self.rate_hz
 
-    def parameters(self, **changes: Any) -> pbmpm.Liquid | pbmpm.Elastic:
-        """The material, with changes of its parameters."""
+    def parameters(self, cell_size: float, **changes: Any) -> pbmpm.Liquid | pbmpm.Elastic:
+        """The material on a grid, with changes of its parameters.
+
+        The dual solver gets the liquid that it is made for, an incompressible one; the primal and the explicit solver
+        need a compressible one.
+        """
         if self.relaxation is not None:
             changes.setdefault("relaxation", self.relaxation)
-        return pbmpm.Liquid(**changes) if self.material == LIQUID else pbmpm.Elastic(**changes)
+        if self.material == ELASTIC:
+            changes.setdefault("young_modulus", sound_modulus(cell_size))
+            return pbmpm.Elastic(**changes)
+        if self.solver in ("primal", EXPLICIT):
+            changes.setdefault("bulk_modulus", sound_modulus(cell_size))
+        return pbmpm.Liquid(**changes)
 
     def __str__(self) -> str:
-        return f"{self.variant}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
+        return (
+            f"{self.variant}, {self.solver}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
+        )
+
+
+def sound_modulus(cell_size: float) -> float:
+    """Modulus of matter of the default density in which sound travels SOUND_CELLS_PER_SECOND: rho c^2."""
+    return pbmpm.Liquid().density * (SOUND_CELLS_PER_SECOND * cell_size) ** 2
 
 
 @dataclass(frozen=True)
@@ -95,6 +121,9 @@ class Outcome:
         return "\n".join(str(check) for check in self.checks)
 
 
+FailureKey = tuple[str, str, int, str]  # solver, material, dimension, variant
+
+
 @dataclass(frozen=True)
 class HardCase:
     """A scene with a criterion. `function` runs it at a setting and returns its checks, the most telling one first."""
@@ -109,24 +138,39 @@ class HardCase:
     variants: tuple[str, ...] = ("plain",)
     rate_hz: float = 60.0
     iterations: int = 5
-    #: Settings that do not pass and why: (material, dimension, variant) -> reason.
-    known_failures: dict[tuple[str, int, str], str] = field(default_factory=dict)
+    solvers: tuple[str, ...] = SOLVERS  #: for which the criterion means something
+    #: Settings that do not pass at the case's own rate and iterations, and why.
+    known_failures: dict[FailureKey, str] = field(default_factory=dict)
 
-    def settings(self, rate_hz: float | None = None, iterations: int | None = None) -> Iterator[Setting]:
-        """All settings of the case, at its own rate and iterations or at others."""
+    def settings(
+        self, rate_hz: float | None = None, iterations: int | None = None, solver: str = PAPER
+    ) -> Iterator[Setting]:
+        """All settings of the case, at its own rate and iterations or at others; none for a solver that it does not
+        concern."""
+        if solver not in self.solvers:
+            return
         for material in self.materials:
             for dimension in self.dimensions:
                 for variant in self.variants:
-                    yield Setting(material, dimension, variant, rate_hz or self.rate_hz, iterations or self.iterations)
+                    yield Setting(
+                        material,
+                        dimension,
+                        variant,
+                        rate_hz or self.rate_hz,
+                        iterations or self.iterations,
+                        solver=solver,
+                    )
 
     def known_failure(self, setting: Setting) -> str:
         """Why a setting is known to fail; empty when it should pass."""
-        return self.known_failures.get((setting.material, setting.dimension, setting.variant), "")
+        return self.known_failures.get((setting.solver, setting.material, setting.dimension, setting.variant), "")
 
     def run(self, setting: Setting) -> Outcome:
         """Runs the case once."""
         if setting.variant not in self.variants or setting.material not in self.materials:
             raise ValueError(f"{self.id} has no variant '{setting.variant}' for {setting.material}")
+        if setting.solver not in self.solvers:
+            raise ValueError(f"{self.id} says nothing about the solver '{setting.solver}'")
         start = time.perf_counter()
         checks = tuple(self.function(setting))
         return Outcome(self.id, setting, checks, time.perf_counter() - start, self.known_failure(setting))

@@ -8,10 +8,7 @@ import pbmpm
 
 from .case import Check, HardCase, Setting
 from .volume import PRESS_CELL, PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE
-from .watch import Watch, downwards, make_world, vector
-
-#: Rounding of kinetic energy summed in single precision steps.
-ENERGY_ROUNDING = 1e-4
+from .watch import ENERGY_ROUNDING, Watch, downwards, make_world, vector
 
 # H08
 
@@ -31,7 +28,8 @@ def hit_wall(setting: Setting) -> list[Check]:
         wall = pbmpm.Box(vector(d, 0.5 * thickness), vector(d, 0.5 * thickness, *[WALL_HALF_SIZE * CELL] * 2))
         collider = world.add_collider(wall)
         ball = pbmpm.Sphere(vector(d, -(0.5 * BALL_CELLS + 1.3) * CELL), 0.5 * BALL_CELLS * CELL)
-        world.fill(ball, world.add_material(setting.parameters()), velocity=vector(d, speed))
+        material = world.add_material(setting.parameters(CELL))
+        world.fill(ball, material, velocity=vector(d, speed), seed=setting.seed)
         watch = Watch(world)
         energy = 0.5 * float(world.masses.array().sum()) * speed**2
         peak, through, inside = 0.0, 0, 0
@@ -81,7 +79,8 @@ def trap(setting: Setting) -> list[Check]:
     d = setting.dimension
     with _tank(setting) as world:
         centre = vector(d, 0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2])
-        world.fill(pbmpm.Box(centre, [0.5 * BLOCK] * d), world.add_material(setting.parameters()))
+        material = world.add_material(setting.parameters(TANK_CELL))
+        world.fill(pbmpm.Box(centre, [0.5 * BLOCK] * d), material, seed=setting.seed)
         watch, half = Watch(world), [BLOCK, TANK[1], TANK[1]][:d]
         offset = 0.5 * BLOCK + half[0]
         boxes = [
@@ -112,7 +111,7 @@ def trap(setting: Setting) -> list[Check]:
 
 def _pool(world: pbmpm.World, setting: Setting) -> Watch:
     half = [0.5 * TANK[0], 0.5 * BLOCK, 0.5 * TANK[2]][: setting.dimension]
-    world.fill(pbmpm.Box(half, half), world.add_material(setting.parameters()))
+    world.fill(pbmpm.Box(half, half), world.add_material(setting.parameters(TANK_CELL)), seed=setting.seed)
     return Watch(world)
 
 

@@ -33,7 +33,7 @@ def change_rate(setting: Setting) -> list[Check]:
     d = setting.dimension
     with make_world(setting, CELL) as world:
         ball = pbmpm.Sphere([0.3 * CELL] * d, 0.5 * BALL_CELLS * CELL)
-        world.fill(ball, world.add_material(setting.parameters()), velocity=VELOCITY[:d], jitter=0.0)
+        world.fill(ball, world.add_material(setting.parameters(CELL)), velocity=VELOCITY[:d], jitter=0.0)
         watch, error = Watch(world), 0.0
         for dt in SEQUENCES[setting.variant]:
             watch.step(dt)
@@ -66,7 +66,7 @@ def _drop(world: pbmpm.World, setting: Setting, offset: float) -> Watch:
     place = vector(d, *[offset + 1.0] * 3)
     world.add_collider(pbmpm.Plane([offset] * d, vector(d, 0.0, 1.0)))
     world.add_collider(pbmpm.Sphere([offset + 1.0, offset, *[offset + 1.0] * 2][:d], 2.0 * CELL))
-    world.fill(pbmpm.Box(place, [0.5] * d), world.add_material(setting.parameters()), jitter=0.0)
+    world.fill(pbmpm.Box(place, [0.5] * d), world.add_material(setting.parameters(CELL)), jitter=0.0)
     watch = Watch(world)
     watch.run(SHIFTED_SECONDS, setting.dt)
     return watch
@@ -99,7 +99,7 @@ def denormal(setting: Setting) -> list[Check]:
     with make_world(setting, CELL) as world:
         world.fill(
             pbmpm.Sphere([0.3 * CELL] * d, 0.5 * BALL_CELLS * CELL),
-            world.add_material(setting.parameters()),
+            world.add_material(setting.parameters(CELL)),
             jitter=0.0,
         )
         count = len(world)

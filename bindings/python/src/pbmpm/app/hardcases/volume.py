@@ -10,7 +10,7 @@ import numpy as np
 import pbmpm
 
 from ..accuracy import laws
-from .case import LIQUID, Check, HardCase, Setting
+from .case import LIQUID, PAPER, Check, HardCase, Setting
 from .watch import GRAVITY, Watch, make_world, occupied_share, potential_energy, total_energy, vector
 
 #: Share of the volume that has to come back, of what the solver's own compressibility leaves of it.
@@ -20,10 +20,18 @@ ENERGY_SLACK = 0.001
 
 
 def volume_at_rest(setting: Setting, cell_size: float, height: float) -> float:
-    """Volume of a settled column over its rest volume, by the solver's compressibility."""
-    relaxation = setting.parameters().relaxation
-    modulus = laws.bulk_modulus_over_density(setting.dimension, cell_size, setting.dt, setting.iterations, relaxation)
-    return 1.0 - laws.mean_compression(height, GRAVITY, modulus)
+    """Volume of a settled column over its rest volume: by the compressibility of the paper's solver, or the liquid's own."""
+    liquid = setting.parameters(cell_size)
+    assert isinstance(liquid, pbmpm.Liquid)
+    if setting.solver == PAPER:
+        modulus = laws.bulk_modulus_over_density(
+            setting.dimension, cell_size, setting.dt, setting.iterations, liquid.relaxation
+        )
+        return 1.0 - laws.mean_compression(height, GRAVITY, modulus)
+    if liquid.bulk_modulus == 0.0:
+        return 1.0
+    # A layer at rest height X carries rho g (h - X) = K (1 - J); the mean over the height h is half of the bottom's.
+    return 1.0 - 0.5 * liquid.density * GRAVITY * height / liquid.bulk_modulus
 
 
 # H01
@@ -44,7 +52,7 @@ def dam_break(setting: Setting) -> list[Check]:
     world = make_world(setting, COLUMN_CELL, gravity=True, size=[TANK_WIDTHS * side, 2.0 * side, depth])
     with world:
         body = vector(setting.dimension, 0.5 * side, 0.5 * side, 0.5 * depth)
-        world.fill(pbmpm.Box(body, body), world.add_material(setting.parameters()))
+        world.fill(pbmpm.Box(body, body), world.add_material(setting.parameters(COLUMN_CELL)), seed=setting.seed)
         watch, start = Watch(world), potential_energy(world)
         peak, ratios = -math.inf, []
         steps = round(COLUMN_SECONDS * setting.rate_hz)
@@ -112,7 +120,7 @@ def crush(setting: Setting) -> list[Check]:
     world = make_world(setting, PRESS_CELL, gravity=True, size=[3.0 * side, 4.0 * side, side])
     with world:
         body = pbmpm.Box(vector(d, 1.5 * side, 0.5 * side, 0.5 * side), [0.5 * side] * d)
-        world.fill(body, world.add_material(setting.parameters()))
+        world.fill(body, world.add_material(setting.parameters(PRESS_CELL)), seed=setting.seed)
         press, watch = Press.build(world, side), Watch(world)
         steps = math.ceil(0.5 * side / PRESS_SPEED / setting.dt)
         for step in range(steps):
@@ -152,10 +160,10 @@ def collapse(setting: Setting) -> list[Check]:
     d, place = setting.dimension, COLLAPSED_OFF_NODE
     with make_world(setting, COLLAPSED_CELL) as world:
         half = [0.5 * COLLAPSED_CELLS * COLLAPSED_CELL] * d
-        world.fill(pbmpm.Box([place] * d, half), world.add_material(setting.parameters()))
+        world.fill(pbmpm.Box([place] * d, half), world.add_material(setting.parameters(COLLAPSED_CELL)), seed=setting.seed)
         positions = world.positions.copy()
         if setting.variant == "one cell":
-            positions[:] = place + COLLAPSED_CELL * np.random.default_rng(1).random(positions.shape)
+            positions[:] = place + COLLAPSED_CELL * np.random.default_rng(setting.seed).random(positions.shape)
         elif setting.variant == "line":
             positions[:, 1:] = place
         else:

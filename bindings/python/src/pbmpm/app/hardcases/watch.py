@@ -15,6 +15,8 @@ from .case import Check, Setting
 GRAVITY = 9.81
 #: Rounding of a position in a view, relative to the size of the domain.
 POSITION_ROUNDING = 1e-6
+#: Rounding of energy summed over single precision steps, relative.
+ENERGY_ROUNDING = 1e-4
 #: Rounding of a speed at the clamp.
 SPEED_ROUNDING = 1e-4
 
@@ -47,6 +49,7 @@ def make_world(
         gravity=downwards(dimension) if gravity else None,
         domain=None if size is None else ([0.0] * dimension, size[:dimension]),
         iterations=setting.iterations,
+        solver=pbmpm.Solver[setting.solver.upper()],
         max_displacement=max_displacement,
         threads=setting.threads,
     )
