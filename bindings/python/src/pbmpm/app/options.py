@@ -1,0 +1,100 @@
+"""What the commands have in common: exit codes, kinds of options, and where reports go."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any, get_args
+
+import click
+
+from .names import IntegratorName, PressureName, SolverName
+
+EXIT_CHECK_FAILED = 1
+EXIT_USAGE = 2
+EXIT_INTERRUPTED = 130
+
+JSON_HELP = "Write the figures as JSON to this file, or to standard output with '-'."
+
+
+def emit_json(data: dict[str, Any], target: str | None) -> None:
+    """Writes a report where ``--json`` says; nothing without the option."""
+    from .files import json_text, write_json
+
+    if target == "-":
+        print(json_text(data))
+    elif target is not None:
+        write_json(data, Path(target))
+
+
+class TimeList(click.ParamType):
+    """Times in seconds separated by commas."""
+
+    name = "t1,t2,..."
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
+        try:
+            times = [float(part) for part in str(value).split(",") if part.strip()]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of times like 0,0.5,1", param, ctx)
+        if not all(0 <= time < float("inf") for time in times):
+            self.fail("times must be finite and not negative", param, ctx)
+        return times
+
+
+class NumberList(click.ParamType):
+    """Numbers above zero separated by commas."""
+
+    name = "n1,n2,..."
+
+    def __init__(self, kind: type, highest: float) -> None:
+        self._kind, self._highest = kind, highest
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
+        try:
+            numbers = [self._kind(part) for part in str(value).split(",")]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of numbers like 30,60,120", param, ctx)
+        if not all(0 < number <= self._highest for number in numbers):
+            self.fail(f"numbers must be above 0 and at most {self._highest:g}", param, ctx)
+        return sorted(set(numbers))
+
+
+class NameList(click.ParamType):
+    """Words out of a few, separated by commas; kept in the order of the few."""
+
+    name = "w1,w2,..."
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self._words = tuple(words)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        wanted = {part.strip() for part in str(value).split(",")}
+        unknown = sorted(wanted - set(self._words))
+        if unknown:
+            self.fail(f"'{unknown[0]}' is not one of {', '.join(self._words)}", param, ctx)
+        return tuple(word for word in self._words if word in wanted)
+
+
+def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say how the equations are solved; None where the scene decides."""
+    options = (
+        click.option("--solver", type=choice_of(SolverName), help="How the equations are solved.  [default: the scene's]"),
+        click.option("--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."),
+        click.option("--integrator", type=choice_of(IntegratorName), help="Primal solver: order in time."),
+        click.option("--flip", type=click.FloatRange(0, 1), help="Share of the finest motion that liquids keep."),
+        click.option("--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."),
+        click.option(
+            "--time-budget-ms",
+            type=click.FloatRange(0, 1e6),
+            help="Iterate for this wall time per step [ms]; 0: off. Not deterministic.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def choice_of(names: Any) -> click.Choice:
+    """The members of a Literal as a choice."""
+    return click.Choice(get_args(names))

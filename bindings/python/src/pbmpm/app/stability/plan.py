@@ -1,0 +1,98 @@
+"""Which runs a map consists of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from ..errors import InputError
+from ..hardcases import CASES, SOLVERS, HardCase, Setting, find_case
+from ..hardcases.case import ELASTIC, EXPLICIT, LIQUID, SEED
+
+RATES = (15.0, 30.0, 60.0, 120.0, 240.0, 480.0)
+ITERATIONS = (1, 2, 5, 10, 20)
+MATERIALS = (LIQUID, ELASTIC)
+DIMENSIONS = (2, 3)
+
+
+@dataclass(frozen=True)
+class Selection:
+    """What to run. None for rates and iterations: the quick form, in which each case runs at its own."""
+
+    cases: tuple[HardCase, ...] = CASES
+    solvers: tuple[str, ...] = SOLVERS
+    rates: tuple[float, ...] | None = RATES
+    iterations: tuple[int, ...] | None = ITERATIONS
+    materials: tuple[str, ...] = MATERIALS
+    dimensions: tuple[int, ...] = DIMENSIONS
+    variant: str | None = None  #: None: all
+    seed: int = SEED
+
+
+@dataclass(frozen=True)
+class Run:
+    """One case at one setting."""
+
+    case: str
+    setting: Setting
+
+    @property
+    def work(self) -> float:
+        """Expected cost, relative: a step costs about as much as three iterations, a third dimension four times as much."""
+        return self.setting.rate_hz * (self.setting.iterations + 3) * (4.0 if self.setting.dimension == 3 else 1.0)
+
+    @property
+    def command(self) -> str:
+        """What replays this run alone."""
+        setting = self.setting
+        return (
+            f"pbmpm stability {self.case} --solvers {setting.solver} --materials {setting.material}"
+            f" --dims {setting.dimension} --rates {setting.rate_hz:g} --iterations {setting.iterations}"
+            f" --variant '{setting.variant}' --seed {setting.seed}"
+        )
+
+
+def cases_named(names: Sequence[str]) -> tuple[HardCase, ...]:
+    """The cases with these numbers in the order of the catalogue; all when there are none."""
+    try:
+        wanted = {find_case(name).id for name in names}
+    except ValueError as error:
+        raise InputError(str(error)) from None
+    return tuple(case for case in CASES if not wanted or case.id in wanted)
+
+
+def plan(selection: Selection) -> list[Run]:
+    """All runs of a selection; InputError when nothing fits."""
+    runs = [Run(case.id, setting) for case in selection.cases for setting in _settings(case, selection)]
+    if not runs:
+        raise InputError(f"nothing to run: {_why_empty(selection)}")
+    return runs
+
+
+def _settings(case: HardCase, selection: Selection) -> Iterator[Setting]:
+    for solver in selection.solvers:
+        for rate, iterations in _rates_and_iterations(selection, solver):
+            for setting in case.settings(rate, iterations, solver):
+                if (
+                    setting.material in selection.materials
+                    and setting.dimension in selection.dimensions
+                    and selection.variant in (None, setting.variant)
+                ):
+                    yield replace(setting, seed=selection.seed)
+
+
+def _rates_and_iterations(selection: Selection, solver: str) -> Iterator[tuple[float | None, int | None]]:
+    """The explicit solver does not iterate: it runs once per rate."""
+    for rate in selection.rates or (None,):
+        for iterations in selection.iterations or (None,):
+            if solver == EXPLICIT:
+                yield rate, 1
+                break
+            yield rate, iterations
+
+
+def _why_empty(selection: Selection) -> str:
+    variants = sorted({variant for case in selection.cases for variant in case.variants})
+    if selection.variant is not None and selection.variant not in variants:
+        return f"no variant '{selection.variant}'; there are: {', '.join(variants)}"
+    return "none of these cases has these solvers, materials and dimensions"

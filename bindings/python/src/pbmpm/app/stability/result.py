@@ -1,0 +1,90 @@
+"""What the runs of a map say: rows, cells and which failures count."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from ..hardcases import Outcome
+from ..hardcases.case import EXPLICIT
+from .plan import Run
+
+
+def counts(outcome: Outcome) -> bool:
+    """Whether a failure makes the command fail: not where it is expected (the explicit solver) or known with a reason."""
+    return not (outcome.passed or outcome.known_failure or outcome.setting.solver == EXPLICIT)
+
+
+def row_of(outcome: Outcome) -> dict[str, Any]:
+    """An outcome as it goes into JSON."""
+    setting = outcome.setting
+    return {
+        "case": outcome.case,
+        "solver": setting.solver,
+        "material": setting.material,
+        "dims": setting.dimension,
+        "variant": setting.variant,
+        "rate_hz": setting.rate_hz,
+        "iterations": setting.iterations,
+        "passed": outcome.passed,
+        "check": outcome.telling.name,
+        "figure": outcome.figure,
+        "limit": outcome.limit,
+        "limit_is_lowest": outcome.telling.at_least,
+        "known_failure": outcome.known_failure,
+        "seconds": outcome.seconds,
+        "seed": setting.seed,
+        "command": Run(outcome.case, setting).command,
+    }
+
+
+@dataclass(frozen=True, order=True)
+class LineKey:
+    """One line of the map of a case."""
+
+    case: str
+    solver_place: int  #: in the order of the selection
+    solver: str
+    material: str
+    dimension: int
+
+
+@dataclass(frozen=True)
+class Cell:
+    """All variants of a case at one rate and iteration count."""
+
+    outcomes: tuple[Outcome, ...]
+
+    @property
+    def failed(self) -> tuple[Outcome, ...]:
+        return tuple(outcome for outcome in self.outcomes if not outcome.passed)
+
+    @property
+    def telling(self) -> Outcome:
+        """The outcome that decides: a failure that counts, or else another failure, or else the first."""
+        return min(self.outcomes, key=lambda outcome: (not counts(outcome), outcome.passed))
+
+    @property
+    def mark(self) -> str:
+        """One character: passed, failed, or failed for a known reason."""
+        if not self.failed:
+            return "."
+        return "x" if any(not outcome.known_failure for outcome in self.failed) else "k"
+
+
+Line = dict[tuple[float, int], Cell]
+
+
+def lines_of(outcomes: Iterable[Outcome], solvers: tuple[str, ...]) -> dict[LineKey, Line]:
+    """The map: cells by line, and in it by rate and iterations."""
+    collected: dict[LineKey, dict[tuple[float, int], list[Outcome]]] = defaultdict(lambda: defaultdict(list))
+    for outcome in outcomes:
+        setting = outcome.setting
+        key = LineKey(outcome.case, solvers.index(setting.solver), setting.solver, setting.material, setting.dimension)
+        collected[key][setting.rate_hz, setting.iterations].append(outcome)
+    return {
+        key: {place: Cell(tuple(found)) for place, found in sorted(cells.items())}
+        for key, cells in sorted(collected.items())
+    }
