@@ -110,10 +110,19 @@ struct KernelArgs {
     K_PTR(float) node_push;     /* per node block: sum m w S (x_i - x_p) of the last iteration */
     K_PTR(float) change2;       /* out, per particle block: how much the multipliers changed, see dual.isph */
     K_PTR(float) uphill;        /* out, per particle block: positive where the extrapolation overshot */
+    K_PTR(float) cell_mass;     /* per node block, for the cell above each node; null unless pressures stand in cells */
+    K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
+    K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */
+    K_PTR(float) cell_pressure;
+    K_PTR(float) cell_pressure_old;
+    K_PTR(float) cell_change2;  /* out, per node block: as change2 and uphill, of the cells */
+    K_PTR(float) cell_uphill;
+    float cell_relaxation;      /* w of the cells: the smallest of the liquids */
     float momentum;             /* beta of the extrapolation */
     float carried;              /* share of the last substep's pressure to start from */
 
     K_CONST_PTR(struct KernelMaterial) material;
+    float flip;             /* share of motion below the grid's resolution that liquids keep */
     float dt;               /* [s] */
     float cells_per_metre;  /* 1/dx */
     float gravity[3];       /* g dt^2 / dx: added to the predictor */

@@ -1,7 +1,7 @@
 // The 2D kernels. Bodies: kernels.isph.
 #define DIM 2
 #include "kernels.isph"
-#include "dual.isph"
+#include "cells.isph"
 
 export void scatter2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -26,4 +26,19 @@ export void dual_iterate2(uniform struct KernelArgs *uniform args, uniform int b
 }
 export void push_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     push_node_blocks(*args, begin, end);
+}
+export void cells_begin2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_begin_blocks(*args, begin, end);
+}
+export void cells_mean2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_mean_blocks(*args, begin, end);
+}
+export void cells_push2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_push_blocks(*args, begin, end);
+}
+export void cells_trace2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_trace_blocks(*args, begin, end);
+}
+export void cells_update2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_update_blocks(*args, begin, end);
 }

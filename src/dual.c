@@ -12,17 +12,56 @@ static const double CARRIED_SHARE = 0.5;
 /* Displacement errors were 0.25 to 1.4 times this many residuals in columns, dam breaks and jittered lattices. */
 static const double ERROR_PER_RESIDUAL = 20.0;
 
+/* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
+enum { CELL_ARRAYS = 5 };
+
+static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
+
 pbmpm_result dual_prepare(World *world)
 {
     DualState *dual = &world->dual;
     const Grid *grid = &world->grid;
-    const size_t blocks = (size_t)grid->particle_blocks;
-    const size_t floats = (size_t)grid->node_blocks * (size_t)grid->block_cells * K_NODE_WIDTH;
-    const bool ok = array_reserve(&world->memory, &dual->node_push, floats, sizeof(float)) &&
-                    array_reserve(&world->memory, &dual->change2, blocks, sizeof(float)) &&
-                    array_reserve(&world->memory, &dual->uphill, blocks, sizeof(float));
+    const size_t blocks = (size_t)grid->node_blocks, nodes = blocks * (size_t)grid->block_cells;
+    bool ok = array_reserve(&world->memory, &dual->node_push, nodes * K_NODE_WIDTH, sizeof(float)) &&
+              array_reserve(&world->memory, &dual->change2, blocks, sizeof(float)) &&
+              array_reserve(&world->memory, &dual->uphill, blocks, sizeof(float));
+    if (ok && in_cells(world))
+        ok = array_reserve(&world->memory, &dual->cells, CELL_ARRAYS * nodes, sizeof(float)) &&
+             array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
+             array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     return particles_enable_pressure(&world->particles, &world->memory);
+}
+
+void dual_free(World *world)
+{
+    DualState *dual = &world->dual;
+    Array *arrays[] = {&dual->node_push, &dual->change2, &dual->uphill, &dual->cells, &dual->cell_change2, &dual->cell_uphill};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
+}
+
+static float smallest_relaxation(const World *world)
+{
+    float smallest = 2.0f;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind == K_LIQUID)
+            smallest = fminf(smallest, world->materials.kernel[slot].relaxation);
+    return smallest;
+}
+
+static void bind_cells(World *world)
+{
+    KernelArgs *a = &world->args;
+    const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    float *cells = world->dual.cells.data;
+    a->cell_mass = cells;
+    a->cell_growth = cells + nodes;
+    a->cell_softness = cells + 2 * nodes;
+    a->cell_pressure = cells + 3 * nodes;
+    a->cell_pressure_old = cells + 4 * nodes;
+    a->cell_change2 = world->dual.cell_change2.data;
+    a->cell_uphill = world->dual.cell_uphill.data;
+    a->cell_relaxation = smallest_relaxation(world);
 }
 
 /* The multipliers of elastic particles and what an iteration changed need memory for this substep only: the spare arrays, which
@@ -58,26 +97,73 @@ static double sum_blocks(const Array *array, int32_t blocks)
     return sum;
 }
 
-void dual_solve(World *world, const ContactFrame *contacts)
+/* Displacements from the multipliers, extrapolated by args.momentum. */
+static void push(World *world, const ContactFrame *contacts)
 {
     const Kernels *kernels = world->kernels;
-    const int32_t blocks = world->grid.particle_blocks;
-    bind(world);
-    solver_over_particles(world, kernels->dual_begin);
-    const double mass = fmax(sum_blocks(&world->dual.change2, blocks), 1e-300);
+    const float momentum = world->args.momentum;
+    if (in_cells(world)) {
+        solver_over_particles(world, kernels->cells_push); /* of the extrapolated multipliers */
+        world->args.momentum = 0.0f;
+    }
     solver_over_nodes(world, kernels->push_nodes, contacts);
+    world->args.momentum = momentum;
+}
+
+/* Returns the mass of the particles in cells. */
+static double start(World *world)
+{
+    const Kernels *kernels = world->kernels;
+    if (in_cells(world)) {
+        solver_over_particles(world, kernels->cells_begin);
+        solver_over_nodes(world, kernels->cells_mean, NULL);
+    } else {
+        solver_over_particles(world, kernels->dual_begin);
+    }
+    return sum_blocks(&world->dual.change2, world->grid.particle_blocks);
+}
+
+/* What an iteration changed. */
+typedef struct Change {
+    double change2, uphill;
+} Change;
+
+static Change iterate(World *world)
+{
+    const Kernels *kernels = world->kernels;
+    const DualState *dual = &world->dual;
+    const int32_t blocks = world->grid.particle_blocks;
+    Change cells = {0};
+    if (in_cells(world)) {
+        solver_over_particles(world, kernels->cells_trace);
+        solver_over_nodes(world, kernels->cells_update, NULL);
+        cells.change2 = sum_blocks(&dual->cell_change2, world->grid.node_blocks);
+        cells.uphill = sum_blocks(&dual->cell_uphill, world->grid.node_blocks);
+    } else {
+        solver_over_particles(world, kernels->dual_iterate);
+    }
+    return (Change){sum_blocks(&dual->change2, blocks) + cells.change2, sum_blocks(&dual->uphill, blocks) + cells.uphill};
+}
+
+void dual_solve(World *world, const ContactFrame *contacts)
+{
+    StepRecord *record = &world->record;
+    bind(world);
+    if (in_cells(world)) bind_cells(world);
+    const double mass = fmax(start(world), 1e-300);
+    push(world, contacts);
     double t = 1.0;
     bool more = true;
     while (more) {
-        solver_over_particles(world, kernels->dual_iterate);
-        world->record.iterations_used++;
-        world->record.residual = sqrt(sum_blocks(&world->dual.change2, blocks) / mass);
-        more = solver_may_go_on(world, ERROR_PER_RESIDUAL * world->record.residual);
+        const Change change = iterate(world);
+        record->iterations_used++;
+        record->residual = sqrt(change.change2 / mass);
+        more = solver_may_go_on(world, ERROR_PER_RESIDUAL * record->residual);
         const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
-        const bool restart = sum_blocks(&world->dual.uphill, blocks) > 0.0;
+        const bool restart = change.uphill > 0.0;
         world->args.momentum = restart || !more ? 0.0f : (float)((t - 1.0) / next);
         t = restart ? 1.0 : next;
-        solver_over_nodes(world, kernels->push_nodes, contacts);
+        push(world, contacts);
     }
 }
 

@@ -8,6 +8,8 @@
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result dual_prepare(World *world);
 
+void dual_free(World *world);
+
 void dual_solve(World *world, const ContactFrame *contacts);
 
 /* The share of an elastic material's stiffness that the iterations of a substep can hold. */

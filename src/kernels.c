@@ -8,6 +8,11 @@
     DO(dual_begin, suffix)                                                                                              \
     DO(dual_iterate, suffix)                                                                                            \
     DO(push_nodes, suffix)                                                                                              \
+    DO(cells_begin, suffix)                                                                                             \
+    DO(cells_mean, suffix)                                                                                              \
+    DO(cells_push, suffix)                                                                                              \
+    DO(cells_trace, suffix)                                                                                             \
+    DO(cells_update, suffix)                                                                                            \
     DO(integrate, suffix)
 
 #define DECLARE_ONE(name, suffix) Kernel name##suffix;

@@ -17,6 +17,11 @@ typedef struct Kernels {
     Kernel *dual_begin;    /* particle blocks: dual solver, first P2G of the multipliers */
     Kernel *dual_iterate;  /* particle blocks: G2P, proximal step, P2G of the multipliers */
     Kernel *push_nodes;    /* node blocks: displacement from the multipliers */
+    Kernel *cells_begin;   /* particle blocks: dual solver with pressures in cells, what the cells hold */
+    Kernel *cells_mean;    /* node blocks: means of the cells */
+    Kernel *cells_push;    /* particle blocks: pressures to nodes */
+    Kernel *cells_trace;   /* particle blocks: G2P, traces of D to cells */
+    Kernel *cells_update;  /* node blocks: proximal step of the cells */
     int lanes;             /* particles per gang */
 } Kernels;
 

@@ -118,6 +118,7 @@ void paper_set_materials(World *world, float dt)
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation * soft;
         if (material->kind != K_LIQUID) continue;
+        material->volume_feedback = def->volume_feedback;
         const bool weightless = head == 0.0;
         material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material->relaxation, dt, head);

@@ -15,6 +15,13 @@ enum { BLOCK_GRAIN = 2 };
 
 /* ---- Parameters of the substep ---- */
 
+/* The share per substep that makes the same share per 1/60 s at any rate: what J is corrected by becomes a velocity, correction / dt, and
+ * so noise of the density heats liquid the more the shorter the substep. */
+static float feedback_share(const pbmpm_material_def *def, float dt)
+{
+    return (float)(1.0 - pow(1.0 - (double)def->volume_feedback, fmin(60.0 * (double)dt, 1.0)));
+}
+
 /* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
 static void set_moduli(World *world, float dt)
 {
@@ -29,6 +36,7 @@ static void set_moduli(World *world, float dt)
             const bool incompressible = def->bulk_modulus == 0.0f;
             material->dilation = incompressible ? FLT_MAX : (float)fmin(c * (double)def->bulk_modulus, 1e30);
             material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
+            material->volume_feedback = feedback_share(def, dt);
         } else {
             const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
             const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
@@ -67,6 +75,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .lost = grid->lost.data,
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
+                      .flip = world->settings.flip,
                       .dt = dt,
                       .cells_per_metre = (float)cells_per_metre,
                       .max_displacement = world->settings.max_displacement,

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "cpu.h"
+#include "dual.h"
 #include "numbers.h"
 #include "result.h"
 
@@ -112,9 +113,7 @@ void world_destroy(World *world)
 {
     pool_destroy(&world->memory, world->pool, world->owner == getpid());
     colliders_free(&world->colliders, &world->memory);
-    array_free(&world->memory, &world->dual.node_push);
-    array_free(&world->memory, &world->dual.change2);
-    array_free(&world->memory, &world->dual.uphill);
+    dual_free(world);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

@@ -318,7 +318,8 @@ namespace Pbmpm
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
         /// <summary>liquid: share per substep by which J follows the volume measured on the grid where
-        /// that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing.</summary>
+        /// that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing.
+        /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer).</summary>
         public float VolumeFeedback;
         /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
         public float ElasticityRatio;
