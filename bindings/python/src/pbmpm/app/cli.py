@@ -11,13 +11,13 @@ from typing import Any
 
 import click
 
+from .accuracy.command import accuracy
 from .errors import InputError
 from .options import (
     EXIT_CHECK_FAILED,
     EXIT_INTERRUPTED,
     EXIT_USAGE,
     JSON_HELP,
-    NumberList,
     TimeList,
     emit_json,
     solver_options,
@@ -31,6 +31,7 @@ def cli() -> None:
     """Simulate liquids and elastic solids with the Position Based Material Point Method, and measure the result."""
 
 
+cli.add_command(accuracy)
 cli.add_command(stability)
 
 
@@ -166,61 +167,3 @@ def _summary(report: dict[str, Any]) -> str:
             f" ({machine['isa']}, {machine['threads']} threads, {machine['cpu']})"
         )
     return "\n".join(lines)
-
-
-@cli.command()
-@click.argument("case", required=False, type=click.Choice(["dam-break", "column"]))
-@click.option("--rates", type=NumberList(float, 1e5), help="Steps per second.  [default: 30,60,120,240,480]")
-@click.option("--iterations", type=NumberList(int, 1000), help="Iterations per step.  [default: 1,2,5,10]")
-@click.option("--quick", is_flag=True, help="Judge stability over 5 s instead of 20 s; default 30,60,240 Hz x 1,5,10.")
-@click.option(
-    "--width",
-    type=click.FloatRange(1e-3, 1e3),
-    help="Dam break: width of the column [m]; the experiment's is 0.05715.  [default: 1]",
-)
-@click.option(
-    "--cells", type=click.IntRange(4, 256), help="Cells over the column's width (dam break) or height (column)."
-)
-@click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
-@click.option(
-    "--chart", type=click.Path(path_type=Path, dir_okay=False), help="PNG to write.  [default: accuracy-CASE.png]"
-)
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
-def accuracy(case: str | None, json_target: str | None, chart: Path | None, **options: Any) -> None:
-    """Compare a CASE with experiment or theory over rates and iterations: error against milliseconds.
-
-    dam-break: front and height of a collapsing column against Martin and Moyce (1952), by Froude similarity at the
-    given width. column: settled height and volume of water at rest against the solver's own law. Without CASE: both.
-    Exit code 1 when a setting is not stable.
-    """
-    from .accuracy.chart import save_chart
-    from .accuracy.sweep import default_sweep, sweep, table, without_curves
-
-    if case is None and chart is not None:
-        raise InputError("--chart: needs a CASE; without one the charts are called accuracy-CASE.png")
-    default_rates, default_iterations = default_sweep(options["quick"])
-    rates, iterations = options["rates"] or default_rates, options["iterations"] or default_iterations
-    reports = []
-    for item in _cases(case, options):
-        report = sweep(item, rates, iterations, options["threads"])
-        picture = chart or Path(f"accuracy-{item.name}.png")
-        save_chart(report, picture)
-        if json_target != "-":
-            click.echo(f"{item.name}: cell {report['cell_size']:.4g} m; stable: {report['stable_means']}")
-            click.echo(table(report))
-            click.echo(f"chart: {picture}\n")
-        reports.append(without_curves(report))
-    emit_json(reports[0] if case is not None else {"cases": reports}, json_target)
-    if not all(row["stable"] for report in reports for row in report["rows"]):
-        sys.exit(EXIT_CHECK_FAILED)
-
-
-def _cases(name: str | None, options: dict[str, Any]) -> list[Any]:
-    from .accuracy.column import Column
-    from .accuracy.dam_break import DamBreak
-
-    size = {} if options["cells"] is None else {"cells": options["cells"]}
-    width = {} if options["width"] is None else {"width": options["width"]}
-    quick = {"stability_seconds": 5.0} if options["quick"] else {}
-    cases = {"dam-break": DamBreak(**size, **width, **quick), "column": Column(**size)}
-    return [cases[name]] if name is not None else list(cases.values())

@@ -1,4 +1,4 @@
-"""Charts of error against milliseconds per simulated second."""
+"""Charts of error against milliseconds per simulated second, as PNG."""
 
 from __future__ import annotations
 
@@ -8,111 +8,82 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
 
 from ..files import replace_when_complete
-from .measures import SHIFT_LIMIT, dam_break_experiment
+from .case import CurvePanel
+from .sweep import CaseReport
 
 REAL_TIME_MS = 1000.0
-FRONT_GATE, FRONT_GATE_SHIFTED = 0.10, 0.05
-_COLOURS = ("#8a9bb0", "#2c7fb8", "#e8772e", "#7a3b9a", "#3c9a5c", "#b03a48")
-_FLOOR = 1e-5  # smallest error that a logarithmic axis shows
+_COLOURS = ("#8a9bb0", "#2c7fb8", "#e8772e", "#7a3b9a", "#3c9a5c", "#b03a48", "#c2a83e", "#444444")
+_FLOOR = 1e-6  # smallest error that a logarithmic axis shows
 
 
-def save_chart(report: dict[str, Any], path: Path) -> None:
-    """Writes the chart of a report as PNG."""
-    figure = Figure(figsize=(13, 9), layout="constrained")
-    draw = {"dam-break": _dam_break, "column": _column}[report["case"]]
-    draw(figure, report)
-    machine = report["machine"]
+def save_chart(report: CaseReport, machine: dict[str, Any], path: Path) -> None:
+    """Writes the chart of a case: its first errors, and its curves over the truth."""
+    measures, panels = report.case.error_kinds[:2], report.case.panels
+    count = len(measures) + len(panels)
+    columns = min(2, count)
+    lines = -(-count // columns)
+    figure = Figure(figsize=(7.5 * columns, 5 * lines), layout="constrained")
+    places = figure.subplots(lines, columns, squeeze=False).ravel()
+    for place, measure in zip(places, measures):
+        _error_panel(place, report, measure.name, f"{measure.name} [{measure.unit}]", measure.tolerance)
+    for place, panel in zip(places[len(measures) :], panels):
+        _curve_panel(place, report, panel)
+    for place in places[count:]:
+        place.set_visible(False)
     figure.suptitle(
-        f"{report['case']}, cell {report['cell_size']:.4g} m. {machine['cpu']}, {machine['isa']},"
-        f" {machine['threads']} thread(s), {machine['date'][:10]}. Crosses: not stable.",
+        f"{report.case.title}. {machine['cpu']}, {machine['isa']}, {machine['threads']} thread(s),"
+        f" {machine['date'][:10]}. Crosses: not stable. Figures: Hz x iterations.",
         fontsize=10,
     )
     FigureCanvasAgg(figure)
     path.parent.mkdir(parents=True, exist_ok=True)
     with replace_when_complete(path) as temporary:
-        figure.savefig(temporary, format="png", dpi=110)
+        figure.savefig(temporary, format="png", dpi=100)
 
 
-def _dam_break(figure: Figure, report: dict[str, Any]) -> None:
-    axes = figure.subplots(2, 2)
-    _error_panel(
-        axes[0, 0],
-        report,
-        "front_rms_shifted",
-        f"front RMS, best time shift within {SHIFT_LIMIT:g}",
-        FRONT_GATE_SHIFTED,
-    )
-    _error_panel(axes[0, 1], report, "front_rms", "front RMS, raw", FRONT_GATE)
-    _curve_panel(axes[1, 0], report, "front", "T = t sqrt(2 g / a)", "front Z = x / a")
-    _curve_panel(axes[1, 1], report, "height", "tau = t sqrt(g / a)", "height at the wall H = h / (2 a)")
-    axes[1, 0].set_xlim(0, 4.2)
-    axes[1, 0].set_ylim(0.9, 5.5)
-
-
-def _column(figure: Figure, report: dict[str, Any]) -> None:
-    axes = figure.subplots(2, 2)
-    for row, (name, key) in enumerate((("settled height error", "height_error"), ("volume error RMS", "volume_error"))):
-        with_feedback = "volume_error_rms" if key == "volume_error" else key
-        _error_panel(axes[row, 0], report, with_feedback, f"{name} (lines: law)", law=f"{key}_law")
-        _error_panel(
-            axes[row, 1], report, f"{key}_without_feedback", f"{name}, without volume feedback", law=f"{key}_law"
-        )
-
-
-def _error_panel(
-    axes: Axes, report: dict[str, Any], key: str, title: str, gate: float | None = None, law: str | None = None
-) -> None:
-    for colour, count in zip(_COLOURS, sorted({row["iterations"] for row in report["rows"]})):
-        rows = [row for row in report["rows"] if row["iterations"] == count and row[key] is not None]
-        stable = [row for row in rows if row["stable"]]
-        failed = [row for row in rows if not row["stable"]]
-        _points(
-            axes, stable, key, color=colour, marker="o", linestyle="" if law else "-", label=f"{count} iteration(s)"
-        )
-        _points(axes, failed, key, color=colour, marker="x", linestyle="", markersize=10, markeredgewidth=2.5)
-        if law:
-            _points(axes, rows, law, color=colour, linestyle="-", linewidth=1)
-        for row in rows:
-            place = (row["ms_per_simulated_second"], max(abs(row[key]), _FLOOR))
-            axes.annotate(
-                f"{row['rate_hz']:g}", place, textcoords="offset points", xytext=(4, 4), fontsize=7, color=colour
-            )
-    if gate is not None:
-        axes.axhline(gate, color="#444444", linewidth=0.8, linestyle="--")
-    axes.axvline(
-        REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time: 16.7 ms per frame at 60 Hz"
-    )
-    axes.set(xscale="log", yscale="log", title=title, xlabel="ms per simulated second (figures: Hz)", ylabel="error")
-    percent = FuncFormatter(lambda value, _: f"{100 * value:g} %")
-    axes.yaxis.set_major_formatter(percent)
-    axes.yaxis.set_minor_formatter(percent)
+def _error_panel(axes: Axes, report: CaseReport, name: str, title: str, tolerance: float | None) -> None:
+    groups: dict[tuple[str, int], list[dict[str, Any]]] = {}
+    for row in report.rows:
+        if row["errors"].get(name) is not None:
+            groups.setdefault((row["variant"], row["cells"]), []).append(row)
+    for colour, ((variant, cells), rows) in zip(_COLOURS * 4, groups.items()):
+        for stable, marker in ((True, "o"), (False, "x")):
+            chosen = [row for row in rows if row["stable"] is stable]
+            costs = [row["ms_per_simulated_second"] for row in chosen]
+            errors = [max(row["errors"][name], _FLOOR) for row in chosen]
+            label = f"{variant}, {cells} cells" if stable else None
+            axes.plot(costs, errors, color=colour, marker=marker, linestyle="", label=label)
+            for row, cost, error in zip(chosen, costs, errors):
+                text = f"{row['rate_hz']:g}x{row['iterations']}"
+                axes.annotate(text, (cost, error), textcoords="offset points", xytext=(4, 4), fontsize=6, color=colour)
+    if tolerance is not None:
+        axes.axhline(tolerance, color="#444444", linewidth=0.8, linestyle="--")
+    axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time")
+    axes.set(xscale="log", yscale="log", title=title, xlabel="ms per simulated second", ylabel="error")
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
 
 
-def _points(axes: Axes, rows: list[dict[str, Any]], key: str, **style: Any) -> None:
-    costs = [row["ms_per_simulated_second"] for row in rows]
-    axes.plot(costs, [max(abs(row[key]), _FLOOR) for row in rows], **style)
-
-
-def _curve_panel(axes: Axes, report: dict[str, Any], quantity: str, x_label: str, y_label: str) -> None:
-    """Simulated curves of a few settings, from the cheapest to the best, over the measured points."""
-    for colour, row in zip(_COLOURS[1:], _selection(report["rows"])):
-        curve = row["curves"][quantity]
-        axes.plot(curve.times, curve.values, color=colour, label=f"{row['rate_hz']:g} Hz x {row['iterations']}")
-    measured = dam_break_experiment(quantity)
-    axes.plot(measured.times, measured.values, "ko", markersize=4, label="Martin and Moyce 1952")
-    axes.set(xlabel=x_label, ylabel=y_label)
+def _curve_panel(axes: Axes, report: CaseReport, panel: CurvePanel) -> None:
+    """Simulated curves of a few settings over the truth."""
+    for colour, index in zip(_COLOURS[1:], _selection(report)):
+        curve = report.measurements[index].curves.get(panel.name)
+        if curve is not None:
+            axes.plot(curve.times, curve.values, color=colour, label=report.settings[index].text())
+    axes.plot(panel.truth.times, panel.truth.values, "ko", markersize=4, label=panel.truth_label)
+    axes.set(xlabel=panel.x_label, ylabel=panel.y_label)
     axes.grid(True, linewidth=0.3)
     axes.legend(fontsize=8)
 
 
-def _selection(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Cheapest, middle, dearest, and the one with the best front."""
-    ordered = sorted(rows, key=lambda row: row["rate_hz"] * row["iterations"])
-    best = min(rows, key=lambda row: row["front_rms_shifted"])
-    chosen = [ordered[0], ordered[len(ordered) // 2], ordered[-1], best]
-    return list({id(row): row for row in chosen}.values())
+def _selection(report: CaseReport) -> list[int]:
+    """The cheapest and the best stable setting of each variant."""
+    chosen: dict[int, None] = {}
+    rows = [(index, row) for index, row in enumerate(report.rows) if row["stable"] and row["error"] is not None]
+    for variant in dict.fromkeys(row["variant"] for _, row in rows):
+        own = [(index, row) for index, row in rows if row["variant"] == variant]
+        chosen[min(own, key=lambda item: item[1]["ms_per_simulated_second"])[0]] = None
+        chosen[min(own, key=lambda item: item[1]["error"])[0]] = None
+    return list(chosen)

@@ -1,101 +1,159 @@
-"""Measures a case at every combination of rate and iterations."""
+"""Measures cases at their settings and makes the rows of a report."""
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
 
 import pbmpm
 
 from ..machine import machine_facts
 from ..progress import progress_bar
-from ..simulation import RunSettings, versions
+from ..simulation import versions
+from .case import Case, Measurement, Setting, settings_of
 from .stability import DEFINITION
 
 
-def default_sweep(quick: bool) -> tuple[list[float], list[int]]:
-    """Rates and iterations that are measured unless others are asked for."""
-    if quick:
-        return [30.0, 60.0, 240.0], [1, 5, 10]
-    return [30.0, 60.0, 120.0, 240.0, 480.0], [1, 2, 5, 10]
+@dataclass(frozen=True)
+class Choice:
+    """What a user wants measured; None: as each case says."""
+
+    quick: bool = False
+    variants: list[str] | None = None
+    rates: list[float] | None = None
+    iterations: list[int] | None = None
+    cells: list[int] | None = None
+    substeps: int = 1
+    threads: int = 1
+
+    def settings(self, case: Case) -> list[Setting]:
+        """The case's own sweep, or all combinations of what was asked for with what the sweep holds for the rest."""
+        own = case.sweep(self.quick)
+        asked = (self.variants, self.rates, self.iterations, self.cells)
+        if all(values is None for values in asked) and (self.substeps, self.threads) == (1, 1):
+            return own
+        implicit = [setting for setting in own if setting.solver != "explicit"]
+        made = []
+        for variant in self.variants or _values(setting.variant for setting in own):
+            like = [setting for setting in own if setting.variant == variant] or implicit
+            made += settings_of(
+                [variant],
+                self.rates or _values(setting.rate_hz for setting in like),
+                self.iterations or _values(setting.iterations for setting in like),
+                self.cells or _values(setting.cells for setting in like),
+                substeps=self.substeps,
+                threads=self.threads,
+            )
+        return made
 
 
-class Case(Protocol):
-    """A reference case."""
+def _values(values: Iterable[Any]) -> list[Any]:
+    """Each value once, in the order of its first appearance."""
+    return list(dict.fromkeys(values))
 
-    name: str
+
+@dataclass
+class CaseReport:
+    """What a sweep of one case gave."""
+
+    case: Case
+    settings: list[Setting]
+    measurements: list[Measurement]
+    rows: list[dict[str, Any]]
 
     def facts(self) -> dict[str, Any]:
-        """Size, resolution and how time is measured."""
+        """What a report says about the case, once."""
+        case = self.case
+        return {
+            "case": case.name,
+            "title": case.title,
+            "kind": case.kind,
+            "dims": case.dimension,
+            "truth": case.truth,
+            "length": case.length,
+            "length_name": case.length_name,
+            "notes": case.notes,
+            "errors": [vars(measure) for measure in case.error_kinds],
+        }
 
-    def measure(self, settings: RunSettings) -> dict[str, Any]:
-        """One row."""
+
+@dataclass
+class Sweep:
+    """Runs cases, with each converged solution computed once."""
+
+    with_converged: bool = False
+    _converged: dict[tuple[str, Setting], Measurement] = field(default_factory=dict)
+
+    def run(self, case: Case, settings: list[Setting]) -> CaseReport:
+        """One row per setting, in their order. Rows keep what failed, marked."""
+        measurements, rows = [], []
+        with progress_bar(sum(item.work for item in settings), "work", case.name) as bar:
+            for setting in settings:
+                bar.set_postfix_str(setting.text())
+                measurement = case.measure(setting)
+                measurements.append(measurement)
+                rows.append(row_of(case, setting, measurement, self._reference(case, setting)))
+                bar.update(setting.work)
+        return CaseReport(case, settings, measurements, rows)
+
+    def _reference(self, case: Case, setting: Setting) -> Measurement | None:
+        target = case.converged(setting) if self.with_converged else None
+        if target is None:
+            return None
+        key = (case.name, target)
+        if key not in self._converged:
+            self._converged[key] = case.measure(target)
+        return self._converged[key]
 
 
-def sweep(case: Case, rates: list[float], iterations: list[int], threads: int) -> dict[str, Any]:
-    """The report of a case: one row per setting, cheap ones first. Rows may hold ``curves`` for the chart."""
-    settings = [RunSettings(rate, 1, count, threads) for rate in rates for count in iterations]
-    rows = []
-    with progress_bar(sum(_work(item) for item in settings), "work", case.name) as bar:
-        for item in settings:
-            bar.set_postfix_str(item.text())
-            rows.append(case.measure(item))
-            bar.update(_work(item))
+def row_of(case: Case, setting: Setting, measurement: Measurement, converged: Measurement | None) -> dict[str, Any]:
+    """One row of the report. ``error`` is the headline; ``solver_error`` and ``converged_error`` split it where the
+    converged solution is known: how far this setting is from it, and how far it is from the truth."""
+    headline = case.headline
     return {
         "case": case.name,
-        "rows": rows,
-        **case.facts(),
+        "solver": setting.solver,
+        "variant": setting.variant,
+        "pressure": setting.pressure,
+        "integrator": setting.integrator,
+        "flip": setting.flip,
+        "dims": case.dimension,
+        "rate_hz": setting.rate_hz,
+        "substeps": setting.substeps,
+        "iterations": setting.iterations,
+        "cells": setting.cells,
+        "cell_m": case.cell_size(setting),
+        "error": measurement.errors[headline.name],
+        "error_name": headline.name,
+        "error_kind": headline.kind,
+        "error_unit": headline.unit,
+        "errors": measurement.errors,
+        "solver_error": _solver_error(case, measurement, converged),
+        "converged_error": None if converged is None else converged.errors[headline.name],
+        "truth": case.truth,
+        "ms_per_simulated_second": measurement.ms_per_simulated_second,
+        "iterations_used": measurement.iterations_used,
+        "predicted_error": measurement.predicted_error,
+        "stable": measurement.stable,
+        "reasons": measurement.reasons,
+        "command": f"pbmpm accuracy {case.name} {setting.options()}",
+        **measurement.extra,
+    }
+
+
+def _solver_error(case: Case, measurement: Measurement, converged: Measurement | None) -> float | None:
+    if converged is None or converged.observed is None or measurement.observed is None:
+        return None
+    return case.distance(measurement.observed, converged.observed)
+
+
+def report_of(reports: list[CaseReport], threads: int) -> dict[str, Any]:
+    """The whole report: all rows in one list, each case's facts, and the machine."""
+    return {
+        "rows": [row for report in reports for row in report.rows],
+        "cases": [report.facts() for report in reports],
         "stable_means": DEFINITION,
         "versions": versions(),
         "machine": machine_facts(pbmpm.isa(), threads),
     }
-
-
-def _work(settings: RunSettings) -> float:
-    """Expected cost, relative: an iteration costs about as much as a third of the rest of a step."""
-    return settings.rate_hz * (settings.iterations + 3)
-
-
-def without_curves(report: dict[str, Any]) -> dict[str, Any]:
-    """The report as it goes into JSON."""
-    rows = [{key: value for key, value in row.items() if key != "curves"} for row in report["rows"]]
-    return {**report, "rows": rows}
-
-
-TABLES = {
-    "dam-break": [
-        ("Hz", "rate_hz", "{:g}", 1),
-        ("N", "iterations", "{:d}", 1),
-        ("ms/s", "ms_per_simulated_second", "{:.1f}", 1),
-        ("front %", "front_rms", "{:.1f}", 100),
-        ("shifted %", "front_rms_shifted", "{:.1f}", 100),
-        ("shift", "shift", "{:+.3f}", 1),
-        ("height", "height_rms", "{:.3f}", 1),
-        ("volume %", "volume_error_rms", "{:.2f}", 100),
-        ("settled %", "settled_volume", "{:.1f}", 100),
-    ],
-    "column": [
-        ("Hz", "rate_hz", "{:g}", 1),
-        ("N", "iterations", "{:d}", 1),
-        ("ms/s", "ms_per_simulated_second", "{:.1f}", 1),
-        ("height %", "height_error", "{:+.2f}", 100),
-        ("no feedb.", "height_error_without_feedback", "{:+.2f}", 100),
-        ("law %", "height_error_law", "{:+.2f}", 100),
-        ("volume %", "volume_error_rms", "{:.2f}", 100),
-        ("no feedb.", "volume_error_without_feedback", "{:.2f}", 100),
-        ("law %", "volume_error_law", "{:.2f}", 100),
-    ],
-}
-"""Columns of the printed table: heading, key, format, factor."""
-
-
-def table(report: dict[str, Any]) -> str:
-    """The rows as text; settings that are not stable stay in it and say why."""
-    columns = TABLES[report["case"]]
-    lines = ["  ".join(f"{heading:>9}" for heading, *_ in columns) + "  stable"]
-    for row in report["rows"]:
-        cells = []
-        for _, key, form, factor in columns:
-            cells.append(f"{'-' if row[key] is None else form.format(row[key] * factor):>9}")
-        verdict = "yes" if row["stable"] else "FAILED: " + "; ".join(row["reasons"])
-        lines.append("  ".join(cells) + "  " + verdict)
-    return "\n".join(lines)

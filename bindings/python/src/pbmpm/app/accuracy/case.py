@@ -1,0 +1,217 @@
+"""What a reference case is: a truth, a way to measure against it, and the settings at which it is measured.
+
+A case gives errors of three kinds, which are kept apart:
+- "model": against an experiment; what the equations, the grid and the solver together leave,
+- "discretisation": against the exact solution of the equations; what the grid, the time step and the solver leave,
+- "solver": against the same case on the same grid with the same time step and many iterations; what more iterations
+  would remove.
+"""
+
+from __future__ import annotations
+
+import re
+from abc import ABC, abstractmethod
+from collections.abc import Iterable
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, get_args
+
+import numpy as np
+
+from ..errors import InputError
+from ..names import IntegratorName, PressureName, SolverName
+from ..simulation import RunSettings
+from .measures import Curve
+
+ErrorKind = Literal["model", "discretisation", "solver"]
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Where a case is measured. Cells count over the case's own length."""
+
+    solver: SolverName
+    rate_hz: float
+    iterations: int
+    cells: int
+    integrator: IntegratorName = "euler"
+    pressure: PressureName = "particles"
+    flip: float = 0.0
+    substeps: int = 1
+    threads: int = 1
+
+    @property
+    def dt(self) -> float:
+        """Length of a step [s]."""
+        return 1.0 / self.rate_hz
+
+    @property
+    def variant(self) -> str:
+        """The solver with its options, as ``--solvers`` takes it: "dual-cells-flip0.9"."""
+        return self.run_settings().solver_text()
+
+    @property
+    def work(self) -> float:
+        """Expected cost, relative: an iteration costs about as much as a third of the rest of a substep."""
+        return self.rate_hz * self.substeps * (self.iterations + 3)
+
+    def run_settings(self) -> RunSettings:
+        """What a simulation needs."""
+        return RunSettings(
+            self.rate_hz,
+            self.substeps,
+            self.iterations,
+            self.threads,
+            solver=self.solver,
+            pressure=self.pressure,
+            integrator=self.integrator,
+            flip=self.flip,
+        )
+
+    def text(self) -> str:
+        """For people."""
+        return f"{self.run_settings().text()}, {self.cells} cells"
+
+    def options(self) -> str:
+        """The options of ``pbmpm accuracy CASE`` that measure this setting alone."""
+        parts = [f"--solvers {self.variant} --rates {self.rate_hz:g} --iterations {self.iterations} --cells {self.cells}"]
+        parts += [f"--substeps {self.substeps}"] if self.substeps > 1 else []
+        parts += [f"--threads {self.threads}"] if self.threads != 1 else []
+        return " ".join(parts)
+
+
+def parse_variant(text: str) -> dict[str, Any]:
+    """The fields of a Setting that a variant stands for; InputError when it is none."""
+    solver, *options = text.split("-")
+    if solver not in get_args(SolverName):
+        raise InputError(f"'{solver}' is not a solver (there are: {', '.join(get_args(SolverName))})")
+    fields: dict[str, Any] = {"solver": solver}
+    for option in options:
+        flip = re.fullmatch(r"flip(\d*\.?\d+)", option)
+        if option in get_args(PressureName):
+            fields["pressure"] = option
+        elif option in get_args(IntegratorName):
+            fields["integrator"] = option
+        elif flip and float(flip[1]) <= 1:
+            fields["flip"] = float(flip[1])
+        else:
+            raise InputError(f"'{option}' in '{text}' is not an option (there are: cells, bdf2, flip0.9)")
+    return fields
+
+
+def settings_of(
+    variants: Iterable[str],
+    rates: Iterable[float],
+    iterations: Iterable[int],
+    cells: Iterable[int],
+    *,
+    most_work: float = float("inf"),
+    **fixed: Any,
+) -> list[Setting]:
+    """All combinations, without those whose ``work`` is larger than allowed. The explicit solver has no iterations: it is
+    there once per rate."""
+    rates, iterations, cells = list(rates), list(iterations), list(cells)
+    made = []
+    for size in cells:
+        for variant in variants:
+            fields = {**parse_variant(variant), **fixed}
+            for rate in rates:
+                for count in [1] if fields["solver"] == "explicit" else iterations:
+                    made.append(Setting(rate_hz=rate, iterations=count, cells=size, **fields))
+    return [setting for setting in made if setting.work <= most_work]
+
+
+@dataclass(frozen=True)
+class ErrorMeasure:
+    """One way in which a case measures its error. The error is 0 when all is right, and in ``unit``."""
+
+    name: str
+    kind: ErrorKind
+    unit: str
+    meaning: str
+    tolerance: float | None = None
+    """What a good setting is expected to reach; None: not said."""
+
+
+@dataclass
+class Measurement:
+    """What one setting gave. A case that broke has None for what it could not measure."""
+
+    errors: dict[str, float | None]
+    """By name of the measure, in the order of the case; not negative."""
+    ms_per_simulated_second: float | None
+    iterations_used: float | None
+    """Mean per substep."""
+    predicted_error: float | None
+    """Mean over the steps [cells]; 0 for solvers that predict none."""
+    stable: bool
+    reasons: list[str] = field(default_factory=list)
+    """Why it is not stable."""
+    extra: dict[str, Any] = field(default_factory=dict)
+    """Further keys of the row."""
+    observed: tuple[float, ...] | None = None
+    """What the first error is computed from, for the distance from the converged solution."""
+    curves: dict[str, Curve] = field(default_factory=dict)
+    """Simulated curves by name of the panel."""
+
+
+@dataclass(frozen=True)
+class CurvePanel:
+    """A picture of simulated curves over the truth."""
+
+    name: str
+    x_label: str
+    y_label: str
+    truth: Curve
+    truth_label: str
+
+
+class Case(ABC):
+    """A reference case. Instances hold the sizes that can be chosen; they are cheap to make."""
+
+    name: str
+    title: str
+    dimension: int
+    kind: Literal["liquid", "elastic", "mixed"]
+    truth: str
+    """Source and units of what is right."""
+    error_kinds: tuple[ErrorMeasure, ...]
+    """The first one is the headline."""
+    length: float
+    """What the cells are counted over [m]."""
+    length_name: str
+    notes: str = ""
+    """Tolerances, timing, and what was left out."""
+    panels: tuple[CurvePanel, ...] = ()
+    converged_iterations = 200
+
+    @abstractmethod
+    def sweep(self, quick: bool) -> list[Setting]:
+        """The settings that are measured unless others are asked for."""
+
+    @abstractmethod
+    def measure(self, setting: Setting) -> Measurement:
+        """Runs one setting."""
+
+    def cell_size(self, setting: Setting) -> float:
+        """Grid spacing [m]."""
+        return self.length / setting.cells
+
+    def converged(self, setting: Setting) -> Setting | None:
+        """The setting that gives the solution that more iterations of this one tend to; None when there is none.
+
+        The explicit solver has no iterations, and the paper's solver grows stiffer with them without end: for liquids it
+        then tends to the incompressible one, for elastic bodies to a rigid one, which is no reference.
+        """
+        if setting.solver == "explicit" or (setting.solver == "paper" and self.kind != "liquid"):
+            return None
+        solver = "dual" if setting.solver == "paper" else setting.solver
+        return replace(setting, solver=solver, iterations=self.converged_iterations)
+
+    def distance(self, observed: tuple[float, ...], other: tuple[float, ...]) -> float:
+        """How far two observations are apart, in the unit of the headline: root mean square by default."""
+        return float(np.sqrt(np.mean((np.asarray(observed) - np.asarray(other)) ** 2)))
+
+    @property
+    def headline(self) -> ErrorMeasure:
+        """The measure that charts and rows show."""
+        return self.error_kinds[0]
