@@ -118,6 +118,7 @@ struct KernelArgs {
     K_PTR(float) cell_change2;  /* out, per node block: as change2 and uphill, of the cells */
     K_PTR(float) cell_uphill;
     float cell_relaxation;      /* w of the cells: the smallest of the liquids */
+    float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
     float momentum;             /* beta of the extrapolation */
     float carried;              /* share of the last substep's pressure to start from */
 

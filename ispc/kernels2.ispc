@@ -2,6 +2,7 @@
 #define DIM 2
 #include "kernels.isph"
 #include "cells.isph"
+#include "viscosity.isph"
 
 export void scatter2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -41,4 +42,10 @@ export void cells_trace2(uniform struct KernelArgs *uniform args, uniform int be
 }
 export void cells_update2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_update_blocks(*args, begin, end);
+}
+export void viscous2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    viscous_blocks(*args, begin, end);
+}
+export void viscous_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    viscous_node_blocks(*args, begin, end);
 }

@@ -2,6 +2,7 @@
 #define DIM 3
 #include "kernels.isph"
 #include "cells.isph"
+#include "viscosity.isph"
 
 export void scatter3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -41,4 +42,10 @@ export void cells_trace3(uniform struct KernelArgs *uniform args, uniform int be
 }
 export void cells_update3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_update_blocks(*args, begin, end);
+}
+export void viscous3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    viscous_blocks(*args, begin, end);
+}
+export void viscous_nodes3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    viscous_node_blocks(*args, begin, end);
 }

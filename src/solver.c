@@ -10,6 +10,7 @@
 #include "paper.h"
 #include "primal.h"
 #include "result.h"
+#include "viscosity.h"
 
 enum { BLOCK_GRAIN = 2 };
 
@@ -37,6 +38,7 @@ static void set_moduli(World *world, float dt)
             material->dilation = incompressible ? FLT_MAX : (float)fmin(c * (double)def->bulk_modulus, 1e30);
             material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
             material->volume_feedback = feedback_share(def, dt);
+            material->viscous_share = (float)viscosity_share(world, def, (double)dt);
         } else {
             const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
             const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
@@ -144,7 +146,7 @@ bool solver_may_go_on(World *world, double predicted_error)
 }
 
 typedef struct SolverKind {
-    pbmpm_result (*prepare)(World *world); /* takes memory; null: needs none */
+    pbmpm_result (*prepare)(World *world); /* takes memory; the paper's needs none */
     void (*solve)(World *world, const ContactFrame *contacts);
 } SolverKind;
 
@@ -167,10 +169,12 @@ pbmpm_result solver_prepare(World *world)
     pbmpm_solver solver = world->settings.solver;
     if (solver == PBMPM_SOLVER_CONVERGENT) solver = holds_liquid(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     world->record.solver = solver;
+    if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    if (solver != PBMPM_SOLVER_PAPER && !array_reserve(&world->memory, &world->grid.node_base, floats, sizeof(float)))
+    if (!array_reserve(&world->memory, &world->grid.node_base, floats, sizeof(float)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the predictor of %d blocks", world->grid.node_blocks);
-    return kinds[solver].prepare ? kinds[solver].prepare(world) : PBMPM_OK;
+    const pbmpm_result result = viscosity_prepare(world);
+    return result == PBMPM_OK ? kinds[solver].prepare(world) : result;
 }
 
 void solver_solve(World *world, const ContactFrame *contacts)
@@ -180,6 +184,7 @@ void solver_solve(World *world, const ContactFrame *contacts)
     record->iterations_used = record->energy_checks_failed = 0;
     record->residual = record->predicted_error = 0.0;
     contacts_apply(contacts, 0, world->grid.node_blocks); /* the predictor obeys them too */
+    if (record->solver != PBMPM_SOLVER_PAPER) viscosity_apply(world, contacts);
     kinds[record->solver].solve(world, contacts);
 }
 

@@ -86,8 +86,8 @@ typedef struct pbmpm_settings {
     pbmpm_solver solver;    /**< default PBMPM_SOLVER_PAPER */
     pbmpm_pressure pressure;     /**< dual solver; default PBMPM_PRESSURE_PARTICLES */
     pbmpm_integrator integrator; /**< default PBMPM_INTEGRATOR_EULER */
-    float flip;             /**< share alpha of the motion below the grid's resolution that liquids keep (ASFLIP; not the paper's
-                                 solver), in [0, 1]; default 0. 0.9 is lively. */
+    float flip;             /**< share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP;
+                                 not the paper's solver), in [0, 1]; default 0. 0.9 is lively. */
     float target_error;     /**< dual and primal: iterations end when the predicted error of the solution [cells] is below this;
                                  in [0, 1], 0 (default): off */
     float time_budget_ms;   /**< dual and primal: no iteration is begun once this much wall time [ms] of the step is spent; each

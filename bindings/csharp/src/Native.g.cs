@@ -479,8 +479,8 @@ namespace Pbmpm
         public Pressure Pressure;
         /// <summary>default PBMPM_INTEGRATOR_EULER</summary>
         public Integrator Integrator;
-        /// <summary>share alpha of the motion below the grid's resolution that liquids keep (ASFLIP; not the paper's
-        /// solver), in [0, 1]; default 0. 0.9 is lively.</summary>
+        /// <summary>share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP;
+        /// not the paper's solver), in [0, 1]; default 0. 0.9 is lively.</summary>
         public float Flip;
         /// <summary>dual and primal: iterations end when the predicted error of the solution [cells] is below this;
         /// in [0, 1], 0 (default): off</summary>
