@@ -1,0 +1,147 @@
+"""A block under its own weight: the whole curve of stress against stretch from one state at rest.
+
+Hanging from its upper end or standing on a slippery floor, each layer of the block carries the weight of what is beyond
+it, so by statics alone its nominal stress is known: P = rho g Y, with Y the rest distance from the free end. Its stretch
+is measured from where the particles are, and compared with the stretch that the material's law gives for P.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+import pbmpm
+
+from ...simulation import RunSettings
+from . import strain
+from .stage import CLAMP_OVERLAP, PARTICLES_PER_AXIS, Record, Stage, lattice, run
+from .theory import Solid
+
+GRAVITY = 9.81
+_FREE_END_CELLS = 2.0
+_FLOOR_CELLS = 2.0
+_SPEED_LIMIT = 10.0  # times the speed of a free fall over the height
+_STRETCHES = (0.3, 3.0)  # of the search
+_NEWTON_STEPS = 60
+
+
+def uniaxial_stress(solid: Solid, model: str, stretch: float) -> float:
+    """Nominal stress of a block that is stretched along one axis while the others are free [Pa].
+
+    The lateral stretch is where the lateral stress vanishes; that rises with it, so bisection finds it.
+    """
+    low, high = 0.05, 5.0
+    for _ in range(_NEWTON_STEPS):
+        lateral = 0.5 * (low + high)
+        stress = _axial_and_lateral(solid, model, stretch, lateral)
+        low, high = (low, lateral) if stress[1] > 0.0 else (lateral, high)
+    return float(stress[0])
+
+
+def _axial_and_lateral(solid: Solid, model: str, stretch: float, lateral: float) -> tuple[float, float]:
+    deformation = np.diag([stretch] + [lateral] * (solid.dimension - 1))
+    stress = strain.piola_stress(solid, model, deformation)
+    return float(stress[0, 0]), float(stress[1, 1])
+
+
+def uniaxial_stretch(solid: Solid, model: str, stress: float) -> float:
+    """The stretch under a nominal stress; ValueError outside [0.3, 3]."""
+    low, high = _STRETCHES
+    if not uniaxial_stress(solid, model, low) <= stress <= uniaxial_stress(solid, model, high):
+        raise ValueError(f"no stretch in [{low:g}, {high:g}] gives {stress:g} Pa")
+    for _ in range(_NEWTON_STEPS):
+        middle = 0.5 * (low + high)
+        low, high = (low, middle) if uniaxial_stress(solid, model, middle) > stress else (middle, high)
+    return 0.5 * (low + high)
+
+
+@dataclass(frozen=True)
+class Profile:
+    """Stretch of the layers of a block that carry a known stress."""
+
+    stresses: np.ndarray  #: nominal [Pa], negative: pressed
+    stretches: np.ndarray  #: measured
+    truths: np.ndarray  #: of the material's law
+
+    @property
+    def error(self) -> float:
+        """Root mean square error of the stretches over the largest change of length."""
+        return float(np.sqrt(np.mean((self.stretches - self.truths) ** 2)) / np.abs(self.truths - 1.0).max())
+
+
+@dataclass(frozen=True)
+class Block:
+    """A block along the second axis, from 0 up."""
+
+    model: str = strain.FIXED_COROTATED
+    load: float = 0.5
+    """Stress at the held end over E: rho g height / E. Positive: it hangs; negative: it stands."""
+    poisson: float = 0.3
+    dimension: int = 2
+    height: float = 1.0  #: [m]
+    cells: int = 32  #: over the height
+    width_cells: int = 8
+    """A standing block must be about as wide as high: it buckles under 12 load (height / width)^2 > 7.84."""
+
+    @property
+    def cell_size(self) -> float:
+        return self.height / self.cells
+
+    @property
+    def solid(self) -> Solid:
+        density = 1000.0
+        return Solid(density * GRAVITY * self.height / abs(self.load), self.poisson, density, self.dimension)
+
+    def settle(self, settings: RunSettings, seconds: float) -> tuple[Record, Profile | None]:
+        """Lets the block find its rest; its motion is stopped whenever its kinetic energy has passed a maximum, which
+        brings any solver to rest, whether it damps or not. The observed value is the kinetic energy [J]."""
+        size = np.full(self.dimension, self.width_cells * self.cell_size)
+        size[1] = self.height
+        lower = np.zeros(self.dimension)
+        points = lattice(lower, size, self.cell_size)
+        down = [0.0, -GRAVITY, 0.0][: self.dimension]
+        with Stage(self.solid, self.cell_size, settings, len(points), down, self.model) as stage:
+            ids = stage.add_body(points, float(np.prod(size)))
+            self._hold(stage)
+            past = [0.0, 0.0]
+
+            def calm() -> float:
+                energy = stage.world.stats.kinetic_energy
+                if past[1] > past[0] and energy < past[1]:
+                    still = np.zeros((len(ids), self.dimension))
+                    stage.world.set(pbmpm.Field.VELOCITY, still, ids)
+                    stage.world.set(pbmpm.Field.AFFINE_VELOCITY, still[..., None] * still[:, None], ids)
+                    energy = 0.0
+                past[:] = past[1], energy
+                return energy
+
+            record = run(stage, seconds, calm, _SPEED_LIMIT * (2.0 * GRAVITY * self.height) ** 0.5)
+            profile = self._profile(points, stage.state(ids).positions) if record.stable else None
+        return record, profile
+
+    def _hold(self, stage: Stage) -> None:
+        if self.load > 0.0:
+            stage.clamp(axis=1, face=self.height, side=-1)
+            return
+        floor = [0.0, CLAMP_OVERLAP * self.cell_size, 0.0][: self.dimension]
+        up = [0.0, 1.0, 0.0][: self.dimension]
+        stage.world.add_collider(pbmpm.Plane(floor, up), friction=pbmpm.Friction.SLIP)
+
+    def _profile(self, points: np.ndarray, places: np.ndarray) -> Profile:
+        """Layers are pairs of neighbouring rows of particles; those near the ends are left out.
+
+        At a held end the block cannot narrow, which is felt up to about its width away.
+        """
+        rows, row = np.unique(np.round(points[:, 1], 9), return_inverse=True)
+        heights = np.bincount(row, weights=places[:, 1]) / np.bincount(row)
+        gap = PARTICLES_PER_AXIS  # rows a cell apart
+        stretches = (heights[gap:] - heights[:-gap]) / (rows[gap:] - rows[:-gap])
+        middles = 0.5 * (rows[gap:] + rows[:-gap])
+        hangs = self.load > 0.0
+        free_end = middles if hangs else self.height - middles
+        held = (self.width_cells if hangs else _FLOOR_CELLS) * self.cell_size
+        far = (free_end > _FREE_END_CELLS * self.cell_size) & (self.height - free_end > held)
+        stresses = np.sign(self.load) * self.solid.density * GRAVITY * free_end[far]
+        truths = np.array([uniaxial_stretch(self.solid, self.model, stress) for stress in stresses])
+        return Profile(stresses, stretches[far], truths)

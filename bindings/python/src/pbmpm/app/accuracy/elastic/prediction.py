@@ -1,0 +1,91 @@
+"""How well a step's predicted error tells its true one.
+
+Two worlds go in lockstep. Before each step the second takes over the state of the first; the first then steps with the
+setting under test, the second with very many iterations. The root mean square distance of their particles afterwards
+is the true error of the solution of that step, which the first has predicted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+import pbmpm
+
+from ...simulation import RunSettings
+
+FACTOR = 3.0
+"""Prediction and truth agree when neither is more than this many times the other."""
+
+ROUNDING = 2e-6
+"""Errors below this [cells] are not judged: positions are rounded to about 1e-7 of a cell and sums of displacements to
+some times that."""
+
+Bodies = list[tuple[pbmpm.Material, np.ndarray]]
+"""Materials with the identifiers of their particles."""
+
+Make = Callable[[RunSettings], tuple[pbmpm.World, Bodies]]
+"""Builds a world; bodies and particles are in an order that does not depend on the settings."""
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """Predicted and true errors of the steps of a run [cells]."""
+
+    predicted: np.ndarray
+    true: np.ndarray
+    settings: RunSettings
+
+    @property
+    def share(self) -> float | None:
+        """Of the judged steps: how many were predicted within FACTOR; None when none was judged."""
+        judged = np.maximum(self.true, self.predicted) > ROUNDING
+        if not judged.any():
+            return None
+        ratio = self.predicted[judged] / np.maximum(self.true[judged], 1e-12)
+        return float(np.mean((ratio >= 1.0 / FACTOR) & (ratio <= FACTOR)))
+
+    @property
+    def median_ratio(self) -> float:
+        """Predicted over true."""
+        return float(np.median(self.predicted / np.maximum(self.true, 1e-12)))
+
+
+def compare(make: Make, settings: RunSettings, steps: int, reference: RunSettings | None = None) -> Agreement:
+    """Runs both worlds; ``reference`` is how truth is found, by default 40 times the iterations, at least 400."""
+    exact = reference or replace(settings, iterations=min(1000, max(400, 40 * settings.iterations)), target_error=0.0)
+    world, bodies = make(settings)
+    with world:
+        other, other_bodies = make(exact)
+        with other:
+            pairs = [_step_both(world, bodies, other, other_bodies, settings.dt) for _ in range(steps)]
+    predicted, true = np.array(pairs).T
+    return Agreement(predicted, true, settings)
+
+
+def _step_both(
+    world: pbmpm.World, bodies: Bodies, other: pbmpm.World, other_bodies: Bodies, dt: float
+) -> tuple[float, float]:
+    """Predicted and true error of one step of ``world`` [cells]."""
+    copy_state(world, bodies, other, other_bodies)
+    world.step(dt)
+    other.step(dt)
+    away = _places(world, bodies) - _places(other, other_bodies)
+    return world.stats.predicted_error, float(np.sqrt(np.mean(np.sum(away**2, axis=1))) / world.cell_size)
+
+
+def _places(world: pbmpm.World, bodies: Bodies) -> np.ndarray:
+    rows = world.find(np.concatenate([ids for _, ids in bodies]))
+    return world.positions.array()[rows].astype(np.float64)
+
+
+def copy_state(source: pbmpm.World, bodies: Bodies, target: pbmpm.World, target_bodies: Bodies) -> None:
+    """Makes the particles of ``target`` those of ``source``: everything that a step of backward Euler starts from."""
+    for (material, ids), (_, target_ids) in zip(bodies, target_bodies):
+        rows = source.find(ids)
+        liquid = isinstance(material.parameters, pbmpm.Liquid)
+        shape = pbmpm.Field.VOLUME_RATIO if liquid else pbmpm.Field.DEFORMATION
+        for field in (pbmpm.Field.POSITION, pbmpm.Field.VELOCITY, pbmpm.Field.AFFINE_VELOCITY, shape):
+            target.set(field, source.view(field).array()[rows], target_ids)
