@@ -64,6 +64,8 @@ struct KernelMaterial {
     float shear;              /* elastic: c mu */
     float dilation;           /* elastic: c lambda; liquid: c K, FLT_MAX if incompressible */
     float inverse_stiffness;  /* liquid: 1 / (c K); 0 if incompressible */
+    float carried;            /* liquid: from a pressure [Pa] to the multiplier to start from */
+    float pascal;             /* liquid: from a multiplier to a pressure [Pa] */
     float viscous_share;      /* liquid: share of the deviator that one round of viscosity takes */
 };
 #endif
@@ -103,7 +105,7 @@ struct KernelArgs {
     K_PTR(float) travel;      /* out, per particle block: largest displacement of a particle */
 
     /* The dual solver; null for the others. */
-    K_PTR(float) pressure;      /* liquid: the multiplier */
+    K_PTR(float) pressure;      /* liquid: the multiplier; between substeps the pressure [Pa] */
     K_PTR(float) pressure_old;  /* liquid: the multiplier one iteration before */
     K_PTR(float) stress[6];     /* elastic: the multiplier, upper triangle row by row */
     K_PTR(float) stress_old[6];
@@ -120,7 +122,6 @@ struct KernelArgs {
     float cell_relaxation;      /* w of the cells: the smallest of the liquids */
     float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
     float momentum;             /* beta of the extrapolation */
-    float carried;              /* share of the last substep's pressure to start from */
 
     K_CONST_PTR(struct KernelMaterial) material;
     float flip;             /* share of motion below the grid's resolution that liquids keep */

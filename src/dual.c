@@ -5,10 +5,6 @@
 
 #include "result.h"
 
-/* Pressure carried over in full is integral control: unstable where the solution is truncated. Half of it is stable at any number of
- * iterations that was tried, and worth twice as many. */
-static const double CARRIED_SHARE = 0.5;
-
 /* Displacement errors were 0.25 to 1.4 times this many residuals in columns, dam breaks and jittered lattices. */
 static const double ERROR_PER_RESIDUAL = 20.0;
 
@@ -70,14 +66,12 @@ static void bind(World *world)
 {
     KernelArgs *a = &world->args;
     Particles *p = &world->particles;
-    const double ratio = world->dual.pressure_dt > 0.0 ? (double)a->dt / world->dual.pressure_dt : 0.0;
     a->pressure = p->pressure;
     a->pressure_old = particles_spare(p, CLASS_SCALAR, 0);
     a->node_push = world->dual.node_push.data;
     a->change2 = world->dual.change2.data;
     a->uphill = world->dual.uphill.data;
     a->momentum = 0.0f;
-    a->carried = (float)(CARRIED_SHARE * fmin(ratio * ratio, 1.0)); /* a multiplier is a stress times dt^2 */
     const int d = p->dimension, parts = d * (d + 1) / 2;
     for (int i = 0; i < 2 * parts && p->deformation[0]; i++) {
         float *array = i < d * d ? particles_spare(p, CLASS_MATRIX, i) : particles_spare(p, CLASS_VECTOR, i - d * d);
@@ -86,7 +80,6 @@ static void bind(World *world)
         else
             a->stress_old[i - parts] = array;
     }
-    world->dual.pressure_dt = (double)a->dt;
 }
 
 static double sum_blocks(const Array *array, int32_t blocks)

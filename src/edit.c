@@ -260,7 +260,8 @@ static uint32_t settable_components(const World *world, pbmpm_field field)
     case PBMPM_VELOCITY: return d;
     case PBMPM_AFFINE_VELOCITY:
     case PBMPM_DEFORMATION: return d * d;
-    case PBMPM_VOLUME_RATIO: return 1;
+    case PBMPM_VOLUME_RATIO:
+    case PBMPM_PRESSURE: return 1;
     default: return 0;
     }
 }
@@ -276,6 +277,10 @@ static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t 
         if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "the volume ratio of an elastic particle follows from F");
         if (in_range(*values, K_LIQUID_RATIO_MIN, K_LIQUID_RATIO_MAX)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a volume ratio must be in [0.05, 1.2]");
+    case PBMPM_PRESSURE:
+        if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only liquid particles have a pressure");
+        if (in_range(*values, 0.0, 1e30)) return PBMPM_OK;
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a pressure must be in [0, 1e30]");
     case PBMPM_DEFORMATION:
         if (!is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
         if (all_in_range(values, components, -1e6, 1e6)) return PBMPM_OK;
@@ -296,6 +301,8 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
         particles_set_position(p, row, position);
     } else if (field == PBMPM_VOLUME_RATIO) {
         p->volume_ratio[row] = *values;
+    } else if (field == PBMPM_PRESSURE) {
+        p->pressure[row] = *values;
     } else if (field == PBMPM_VELOCITY) {
         for (int a = 0; a < d; a++) p->velocity[a][row] = values[a];
     } else {
@@ -317,6 +324,10 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
         if (ids && !particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
         const pbmpm_result checked = check_value(world, field, row, values + (size_t)i * components, components);
         if (checked != PBMPM_OK) return checked;
+    }
+    if (field == PBMPM_PRESSURE) {
+        const pbmpm_result room = particles_enable_pressure(p, &world->memory);
+        if (room != PBMPM_OK) return room;
     }
     for (uint32_t i = 0; i < count; i++) {
         row = i;

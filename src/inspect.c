@@ -36,6 +36,10 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
     case PBMPM_MATERIAL: found = packed(p->material, 1); break;
     case PBMPM_PARTICLE: found = packed(p->id, 2); break;
     case PBMPM_MASS: found = packed(particles_kilograms(p, world_cell_volume(world)), 1); break;
+    case PBMPM_PRESSURE:
+        if (!p->pressure) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has pressures only once the dual solver was used");
+        found = packed(p->pressure, 1);
+        break;
     default: return fail(PBMPM_ERROR_INVALID_ARGUMENT, "field %d does not exist", (int)field);
     }
     found.size = view->size;

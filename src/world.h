@@ -31,7 +31,6 @@ typedef struct StepRecord {
 /* What the dual solver keeps. */
 typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_change2, cell_uphill; /* see KernelArgs */
-    double pressure_dt;               /* length [s] of the substep that the particles' pressures belong to */
 } DualState;
 
 typedef struct World {

@@ -66,6 +66,7 @@ typedef enum pbmpm_field {
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
+    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones */
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
@@ -87,10 +88,11 @@ typedef struct pbmpm_view {
 PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
 
 /** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
- *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), DEFORMATION (elastic, any finite matrix
+ *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in
+ *  [0, 1e30]: where the dual solver starts from), DEFORMATION (elastic, any finite matrix
  *  with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
  *  All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
- *  UNSUPPORTED (a particle whose material has no such field); BUSY. */
+ *  UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE); BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count,
                                            const float *values);
 

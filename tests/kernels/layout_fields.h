@@ -2,7 +2,7 @@
 #define KERNEL_MATERIAL_FIELDS(FIELD)                                                                                          \
     FIELD(kind) FIELD(relaxation) FIELD(viscosity) FIELD(volume_feedback) FIELD(elasticity_ratio) FIELD(strain_min)           \
     FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(pressure_max) FIELD(inverse_density)  \
-    FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(viscous_share)
+    FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(carried) FIELD(pascal) FIELD(viscous_share)
 
 #define KERNEL_ARGS_FIELDS(FIELD)                                                                                             \
     FIELD(fraction) FIELD(cell) FIELD(velocity) FIELD(affine) FIELD(volume_ratio) FIELD(mass) FIELD(deformation)      \
@@ -10,7 +10,7 @@
     FIELD(node) FIELD(node_base) FIELD(node_volume) FIELD(node_reach) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(pressure) FIELD(pressure_old) FIELD(stress) FIELD(stress_old) FIELD(node_push) \
     FIELD(change2) FIELD(uphill) FIELD(cell_mass) FIELD(cell_growth) FIELD(cell_softness) \
     FIELD(cell_pressure) FIELD(cell_pressure_old) FIELD(cell_change2) FIELD(cell_uphill) FIELD(cell_relaxation) FIELD(stage_last) FIELD(stage_before) \
-    FIELD(stage_change) FIELD(momentum) FIELD(carried) FIELD(material) FIELD(flip) FIELD(dt)        \
+    FIELD(stage_change) FIELD(momentum) FIELD(material) FIELD(flip) FIELD(dt)        \
     FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
 
 /* The table a probe writes: the size of the structure, then offset and size of each field. */

@@ -181,6 +181,8 @@ namespace Pbmpm
         Particle = 6,
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
+        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones</summary>
+        Pressure = 8,
     }
 
     /// <summary>What an obstacle does to motion along its surface.</summary>
@@ -928,10 +930,11 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_view(WorldId world, Field field, View* view);
 
         /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
-        /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), DEFORMATION (elastic, any finite matrix
+        /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in
+        /// [0, 1e30]: where the dual solver starts from), DEFORMATION (elastic, any finite matrix
         /// with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
         /// All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
-        /// UNSUPPORTED (a particle whose material has no such field); BUSY.</summary>
+        /// UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE); BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_set(WorldId world, Field field, ParticleId* ids, uint count, float* values);
 
