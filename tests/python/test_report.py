@@ -2,10 +2,22 @@
 
 from __future__ import annotations
 
-import pytest
+import re
+import struct
+from pathlib import Path
+from typing import Any
 
+import pytest
+from browser import browser, open_page
+
+from pbmpm._library import library_path
+from pbmpm.app.report.accuracy_page import save_accuracy_page
+from pbmpm.app.report.build import compilers
+from pbmpm.app.report.chart import accuracy_figure
 from pbmpm.app.report.pareto import Point, cost_of, front_of
+from pbmpm.app.report.rows import cases_of, verdicts_of
 from pbmpm.app.report.verdict import judge, round_levels
+from pbmpm.app.report.words import error_text, verdict_table
 
 
 def line(solver: str, factor: float, errors: list[float]) -> list[Point]:
@@ -72,6 +84,17 @@ def test_verdict_when_the_other_goes_further() -> None:
     assert not explicit.measured and not explicit.reached
 
 
+def test_verdict_at_the_error_that_is_called_good() -> None:
+    """At 0.1 the paper's costs twice as much, at its best, 0.01, eight times as much; 0.005 it never reaches."""
+    points = [*line("dual", 1.0, [0.1, 0.01, 0.005]), Point("paper", "a", 20, 0.1), Point("paper", "b", 800, 0.01)]
+    at_good = judge(points, ["dual", "paper"], good=0.1).comparisons[0]
+    assert at_good.level == 0.1 and at_good.ratio == pytest.approx(2.0) and not at_good.reached
+    beyond = judge(points, ["dual", "paper"], good=0.005).comparisons[0]
+    assert beyond.ratio is None and beyond.other_cost is None and beyond.reached
+    unreachable = judge(points, ["dual", "paper"], good=0.001).comparisons[0]
+    assert unreachable.level == 0.01 and unreachable.ratio == pytest.approx(8.0)
+
+
 def test_verdict_where_the_other_is_never_stable() -> None:
     verdict = judge(line("dual", 1.0, [0.5, 0.1]), ["dual", "paper", "explicit"])
     assert all(comparison.best_error is None and comparison.reached for comparison in verdict.comparisons)
@@ -97,3 +120,92 @@ def test_levels_are_round_and_few() -> None:
     assert len(round_levels([1.0, 1e-6])) <= 7
     assert round_levels([0.031, 0.03]) == [0.031]
     assert round_levels([]) == []
+
+
+MACHINE = {"cpu": "a <cpu>", "cores": 2, "isa": "AVX2", "threads": 1, "system": "Linux", "python": "3", "date": "2026-01-01"}
+
+
+def row(case: str, solver: str, cost: float | None, error: float | None, stable: bool = True) -> dict[str, Any]:
+    return {
+        "case": case,
+        "solver": solver,
+        "rate_hz": 60.0,
+        "iterations": 5,
+        "cell_m": 0.1,
+        "error": error,
+        "errors": {"height": error},
+        "ms_per_simulated_second": cost,
+        "iterations_used": 5.0,
+        "stable": stable,
+        "reasons": [] if stable else ["it <broke>"],
+        "command": f"pbmpm accuracy {case} --solvers {solver}",
+    }
+
+
+@pytest.fixture
+def report() -> dict[str, Any]:
+    """Two cases: one in which the dual is four and twenty times cheaper, one in which the paper's is better."""
+    measure = {"name": "height", "kind": "discretisation", "unit": "%", "meaning": "off", "tolerance": 0.05}
+    facts = {"dims": 2, "truth": "theory", "notes": "", "errors": [measure]}
+    good = [(2.0, "dual"), (8.0, "paper"), (40.0, "explicit")]
+    rows = [row("good", solver, cost * factor, 0.1 / factor) for cost, solver in good for factor in (1.0, 2.0, 4.0)]
+    rows += [row("good", "explicit", 1.0, None, stable=False), row("good", "explicit", 1.5, 3.0, stable=False)]
+    rows += [row("poor", "dual", 10.0, 0.04), row("poor", "paper", 1.0, 0.04)]
+    return {
+        "cases": [{"case": name, "title": f"Case {name}", **facts} for name in ("good", "poor")],
+        "rows": rows,
+        "stable_means": "finite",
+        "versions": {"pbmpm": "1.2.3"},
+        "machine": MACHINE,
+    }
+
+
+def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
+    good, poor = verdicts_of(cases_of(report))
+    # The dual costs 4 at 0.05; the others 16 and 80.
+    assert [comparison.ratio for comparison in good[1].comparisons] == pytest.approx([4.0, 20.0])
+    assert good[1].passed and not poor[1].passed
+    text = verdict_table([good, poor])
+    assert re.search(r"^good .*4x at 5 %.*20x at 5 %.*reached$", text, re.M)
+    assert re.search(r"^poor .*0.1x at 5 %.*below 3x.*not measured.*paper on the front too", text, re.M)
+    assert "1 of 2 cases" in text
+
+
+def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, Any]) -> None:
+    case, verdict = verdicts_of(cases_of(report))[0]
+    crosses = [trace for trace in accuracy_figure(case, verdict).data if trace.name and "not stable" in trace.name]
+    assert [len(trace.x) for trace in crosses] == [2]
+    # The one without an error is drawn above all others.
+    assert max(crosses[0].y) == 2 * 3.0
+    assert min(point.cost for point in verdict.front) == 2.0
+
+
+def test_error_text() -> None:
+    assert error_text(0.0123, "%") == "1.23 %"
+    assert error_text(0.0123, "m") == "0.0123 m"
+    assert error_text(0.5, "1") == "0.5"
+    assert error_text(None, "%") == "-"
+
+
+def test_library_names_its_compilers() -> None:
+    assert any("ISPC" in name for name in compilers(library_path()))
+
+
+def test_page_needs_nothing_from_outside_and_escapes_text(report: dict[str, Any], tmp_path: Path) -> None:
+    page = tmp_path / "page.html"
+    save_accuracy_page(report, "pbmpm accuracy", "--quick", page)
+    text = page.read_text(encoding="utf-8")
+    assert re.findall(r"<(?:script|link|img|iframe)[^>]*(?:src|href)=\"(?!data:)", text) == []
+    assert "a &lt;cpu&gt;" in text and "it &lt;broke&gt;" in text and "it <broke>;" not in text
+    assert "pbmpm accuracy good --quick" in text
+    assert text.count("plotly.js v") == 1
+
+
+@pytest.mark.skipif(browser() is None, reason="no browser")
+def test_page_runs_in_a_browser_without_a_script_error(report: dict[str, Any], tmp_path: Path) -> None:
+    page, picture = tmp_path / "page.html", tmp_path / "page.png"
+    save_accuracy_page(report, "pbmpm accuracy", "", page)
+    document, messages = open_page(page, picture)
+    assert messages == []
+    assert document.count('class="plotly-graph-div js-plotly-plot"') == 2
+    assert struct.unpack(">II", picture.read_bytes()[16:24]) == (1300, 2000)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any, get_args
@@ -15,6 +17,22 @@ EXIT_USAGE = 2
 EXIT_INTERRUPTED = 130
 
 JSON_HELP = "Write the figures as JSON to this file, or to standard output with '-'."
+
+
+def own_command() -> str:
+    """The command line that is running, for reports."""
+    return shlex.join(["pbmpm", *sys.argv[1:]])
+
+
+def own_options(but: Sequence[str], arguments: Sequence[str]) -> str:
+    """The options of the command line that is running, without some (each with its value) and without the arguments."""
+    words, kept = iter(sys.argv[2:]), []
+    for word in words:
+        if word in but:
+            next(words, None)
+        elif word not in arguments:
+            kept.append(word)
+    return shlex.join(kept)
 
 
 def emit_json(data: dict[str, Any], target: str | None) -> None:

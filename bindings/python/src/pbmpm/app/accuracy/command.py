@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from ..errors import InputError
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, emit_json
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, emit_json, own_command, own_options
 
 
 class VariantList(click.ParamType):
@@ -45,13 +45,19 @@ class VariantList(click.ParamType):
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
 @click.option("--chart", type=click.Path(path_type=Path, file_okay=False), help="Folder for a PNG per case.")
+@click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write charts, verdicts and tables as a page.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
-def accuracy(names: tuple[str, ...], only_list: bool, json_target: str | None, chart: Path | None, **options: Any) -> None:
+def accuracy(
+    names: tuple[str, ...], only_list: bool, json_target: str | None, chart: Path | None, html: Path | None, **options: Any
+) -> None:
     """Compare CASEs with experiments and theory: error against milliseconds, over rates, iterations, solvers and cells.
 
     Without CASE: all of them. What is not given is as each case has it. Exit code 1 when a setting is not stable; it stays
-    in all tables and charts, marked.
+    in all tables and charts, marked. At the end the verdict: how many times cheaper the dual and primal solvers are than the
+    paper's and the explicit one at equal error.
     """
+    from ..report.rows import cases_of, verdicts_of
+    from ..report.words import verdict_table
     from .chart import save_chart
     from .registry import find_cases
     from .sweep import Choice, Sweep, report_of
@@ -78,5 +84,12 @@ def accuracy(names: tuple[str, ...], only_list: bool, json_target: str | None, c
     for report in reports if chart is not None else ():
         save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
     emit_json(whole, json_target)
+    if html is not None:
+        from ..report.accuracy_page import save_accuracy_page
+
+        options_kept = own_options(("--html", "--json", "--chart"), names)
+        save_accuracy_page(whole, own_command(), options_kept, html)
+    if json_target != "-":
+        click.echo(f"\n{verdict_table(verdicts_of(cases_of(whole)))}")
     if not all(row["stable"] for row in whole["rows"]):
         sys.exit(EXIT_CHECK_FAILED)

@@ -1,7 +1,7 @@
 """How many times cheaper the accelerated solvers are at equal error, computed from the rows of a sweep.
 
 Accelerated are the dual and the primal solver. Each case gives one comparison per solver to compare with, at one error:
-the lowest that both reach. Beyond it one of the two goes on alone, and the comparison says which.
+the one that the case calls good, if the accelerated solvers reach it, and else the lowest that both reach.
 """
 
 from __future__ import annotations
@@ -28,9 +28,9 @@ class Comparison:
     wanted: float  #: times cheaper
     measured: bool  #: whether the sweep holds the other solver at all
     best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
-    level: float | None = None  #: the lowest error that both reach
+    level: float | None = None  #: the error at which they are compared
     cost: float | None = None  #: of the accelerated there [ms]
-    other_cost: float | None = None
+    other_cost: float | None = None  #: None: not reached
     lowest_ratio: float | None = None  #: over all errors that both reach
     highest_ratio: float | None = None
 
@@ -41,10 +41,10 @@ class Comparison:
 
     @property
     def reached(self) -> bool:
-        """Whether the wanted ratio is reached; also when the other solver has no stable setting."""
-        if not self.measured:
+        """Whether the wanted ratio is reached; also when the other solver never gets to that error."""
+        if not self.measured or self.cost is None:
             return False
-        return self.best_error is None or (self.ratio is not None and self.ratio >= self.wanted)
+        return self.ratio is None or self.ratio >= self.wanted
 
 
 @dataclass(frozen=True)
@@ -80,14 +80,20 @@ class Verdict:
         return self.alone_on_front and all(comparison.reached for comparison in self.comparisons)
 
 
-def judge(points: Sequence[Point], solvers: Sequence[str]) -> Verdict:
-    """The verdict over the stable points of a case; ``solvers``: all that were tried, stable or not."""
+def judge(points: Sequence[Point], solvers: Sequence[str], good: float | None = None) -> Verdict:
+    """The verdict over the stable points of a case.
+
+    Args:
+        points: what was measured.
+        solvers: all that were tried, stable or not.
+        good: the error that the case calls good; None when it calls none so.
+    """
     accelerated = front_of(point for point in points if point.solver in ACCELERATED)
     fronts = {name: front_of(point for point in points if point.solver == name) for name in solvers}
     return Verdict(
         front=tuple(front_of(points)),
         best_error=accelerated[-1].error if accelerated else None,
-        comparisons=tuple(_compare(accelerated, other, fronts.get(other)) for other in WANTED),
+        comparisons=tuple(_compare(accelerated, other, fronts.get(other), good) for other in WANTED),
         levels=tuple(
             Level(error, {name: cost_of(front, error) for name, front in fronts.items()})
             for error in round_levels([point.error for point in front_of(points)])
@@ -95,32 +101,34 @@ def judge(points: Sequence[Point], solvers: Sequence[str]) -> Verdict:
     )
 
 
-def _compare(accelerated: list[Point], other: str, front: list[Point] | None) -> Comparison:
-    if not front:
-        return Comparison(other, WANTED[other], measured=front is not None)
-    best = front[-1].error
-    if not accelerated:
-        return Comparison(other, WANTED[other], measured=True, best_error=best)
-    level = max(best, accelerated[-1].error)
+def _compare(accelerated: list[Point], other: str, front: list[Point] | None, good: float | None) -> Comparison:
+    measured, best = front is not None, front[-1].error if front else None
+    if not accelerated or not measured:
+        return Comparison(other, WANTED[other], measured, best)
+    reachable = accelerated[-1].error
+    shared = reachable if best is None else max(best, reachable)
+    level = good if good is not None and good >= reachable else shared
     ratios = [
-        ratio for error in _corners(accelerated, front, level) if (ratio := _ratio(accelerated, front, error)) is not None
+        ratio
+        for error in _corners(accelerated, front or [], shared)
+        if (ratio := _ratio(accelerated, front or [], error)) is not None
     ]
     return Comparison(
         other,
         WANTED[other],
-        measured=True,
-        best_error=best,
-        level=level,
+        measured,
+        best,
+        level,
         cost=cost_of(accelerated, level),
-        other_cost=cost_of(front, level),
-        lowest_ratio=min(ratios),
-        highest_ratio=max(ratios),
+        other_cost=cost_of(front or [], level),
+        lowest_ratio=min(ratios, default=None),
+        highest_ratio=max(ratios, default=None),
     )
 
 
-def _corners(one: list[Point], two: list[Point], level: float) -> set[float]:
+def _corners(one: list[Point], two: list[Point], lowest: float) -> set[float]:
     """Errors at which the ratio of two costs can be extreme: it is monotonous between the corners of the fronts."""
-    return {level, *(point.error for point in (*one, *two) if point.error >= level)}
+    return {lowest, *(point.error for point in (*one, *two) if point.error >= lowest)}
 
 
 def _ratio(accelerated: list[Point], front: list[Point], error: float) -> float | None:

@@ -1,0 +1,79 @@
+"""The rows of an accuracy report as points of a front."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from .pareto import Point
+from .verdict import ACCELERATED, Verdict, judge
+
+#: An error below this is drawn and compared as if it were this: logarithms need a number above 0.
+SMALLEST_ERROR = 1e-9
+
+
+@dataclass(frozen=True)
+class CaseRows:
+    """What a report holds about one case."""
+
+    facts: dict[str, Any]
+    rows: list[dict[str, Any]]
+
+    @property
+    def name(self) -> str:
+        return str(self.facts["case"])
+
+    @property
+    def measure(self) -> dict[str, Any]:
+        """The error that charts and verdicts speak of: name, kind, unit, meaning, tolerance."""
+        return dict(self.facts["errors"][0])
+
+    @property
+    def solvers(self) -> list[str]:
+        """All solvers that were tried, accelerated ones first."""
+        tried = {row["solver"] for row in self.rows}
+        return sorted(tried, key=lambda solver: (solver not in ACCELERATED, solver))
+
+    @property
+    def measured(self) -> list[dict[str, Any]]:
+        """The rows with a figure for cost and error."""
+        return [row for row in self.rows if row["error"] is not None and row["ms_per_simulated_second"] is not None]
+
+    @property
+    def stable(self) -> list[dict[str, Any]]:
+        """The measured rows that count."""
+        return [row for row in self.measured if row["stable"]]
+
+    @property
+    def failed(self) -> list[dict[str, Any]]:
+        """The rows that are not stable."""
+        return [row for row in self.rows if not row["stable"]]
+
+    def verdict(self) -> Verdict:
+        """What the stable rows say about the solvers."""
+        return judge([point_of(row) for row in self.stable], self.solvers, self.measure.get("tolerance"))
+
+
+def point_of(row: dict[str, Any]) -> Point:
+    """A row as a point of a front."""
+    return Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(row["error"], SMALLEST_ERROR))
+
+
+def setting_of(row: dict[str, Any]) -> str:
+    """A row's setting for people."""
+    substeps = f" x {row['substeps']} substeps" if row.get("substeps", 1) > 1 else ""
+    iterations = "" if row["solver"] == "explicit" else f" x {row['iterations']} iterations"
+    return f"{row.get('variant', row['solver'])}, {row['rate_hz']:g} Hz{substeps}{iterations}, cell {row['cell_m']:.4g} m"
+
+
+def cases_of(report: dict[str, Any]) -> list[CaseRows]:
+    """The cases of a report with their rows."""
+    return [
+        CaseRows(facts, [row for row in report["rows"] if row["case"] == facts["case"]]) for facts in report["cases"]
+    ]
+
+
+def verdicts_of(cases: Iterable[CaseRows]) -> list[tuple[CaseRows, Verdict]]:
+    """Each case with its verdict."""
+    return [(case, case.verdict()) for case in cases]
