@@ -1,7 +1,7 @@
 """Cantilevers: sinking and swinging under their own weight.
 
-A beam is let go horizontally. It swings about the shape that it hangs in, so one run gives both its static deflection
-(the offset of the fitted oscillation) and its frequency. At the start every node of the beam is at rest and straight.
+A beam is let go horizontally, straight and at rest. One run stops its motion at each maximum of the kinetic energy, so
+it comes to rest in the shape in which it hangs; another lets it swing about that shape.
 """
 
 from __future__ import annotations
@@ -14,10 +14,12 @@ import numpy as np
 from ...simulation import RunSettings
 from . import references, strain
 from .signal import Oscillation, Swing, fit_oscillation, measure_swing
-from .stage import Record, Stage, lattice, run
+from .stage import PARTICLES_PER_AXIS, Calmer, Record, Stage, lattice, run
 from .theory import Beam, Solid
 
 GRAVITY = 9.81
+REST_PERIODS = 2.5
+SWING_PERIODS = 4.0
 _SPEED_LIMIT = 10.0  # times the speed of a free fall over the length
 
 
@@ -29,6 +31,7 @@ class Cantilever:
     cells: int = 8  #: over the height
     gravity: float = GRAVITY
     model: str = strain.FIXED_COROTATED
+    particles_per_axis: int = PARTICLES_PER_AXIS
 
     @property
     def cell_size(self) -> float:
@@ -45,32 +48,46 @@ class Cantilever:
         elastica = references.elastica_tip(self.beam.self_weight_load(self.gravity)) * self.beam.length
         return elastica + self.beam.shear_deflection(self.gravity)
 
-    def let_go(self, settings: RunSettings, seconds: float, every: int = 1) -> Record:
+    def let_go(self, settings: RunSettings, seconds: float, calm: bool = False) -> Record:
         """Runs for ``seconds``; the observed values are the displacements of the tip, along and up [m].
 
         The tip is extrapolated from the particles of the last two cells, so its place is that of the end of the axis.
+        ``calm`` brings the beam to rest where it would hang.
         """
         solid, dimension = self.beam.solid, self.beam.solid.dimension
         size = np.array([self.beam.length] + [self.beam.height] * (dimension - 1))
-        points = lattice([0.0] * dimension, size, self.cell_size)
+        points = lattice([0.0] * dimension, size, self.cell_size, self.particles_per_axis)
         down = [0.0, -self.gravity, 0.0][:dimension]
         with Stage(solid, self.cell_size, settings, len(points), down, self.model) as stage:
             ids = stage.add_body(points, float(np.prod(size)))
             stage.clamp(axis=0, face=0.0, side=1)
             last = ids[points[:, 0] > self.beam.length - self.cell_size]
             before = ids[np.abs(points[:, 0] - self.beam.length + 1.5 * self.cell_size) < 0.5 * self.cell_size]
+            calmer = Calmer(stage, ids)
 
             def tip() -> np.ndarray:
                 # Their centres are half a cell and one and a half cells before the end.
                 return 1.5 * stage.mean_position(last)[:2] - 0.5 * stage.mean_position(before)[:2]
 
+            def observe() -> np.ndarray:
+                if calm:
+                    calmer.look()
+                return tip() - start
+
             start = tip()
             limit = _SPEED_LIMIT * math.sqrt(2.0 * self.gravity * self.beam.length)
-            return run(stage, seconds, lambda: tip() - start, limit, every)
+            return run(stage, seconds, observe, limit)
 
-    def hang(self, settings: RunSettings, periods: float = 6.0) -> tuple[Record, Oscillation | None]:
-        """The run, and the swing of the tip's height; its offset is the static deflection, negative [m]."""
-        record = self.let_go(settings, periods / self.frequency)
+    def hang(self, settings: RunSettings) -> tuple[Record, float | None]:
+        """The run, and how far the tip hangs down at rest [m]: the mean of the last quarter."""
+        record = self.let_go(settings, REST_PERIODS / self.frequency, calm=True)
+        if not record.stable:
+            return record, None
+        return record, -float(record.values[-(len(record.values) // 4) :, 1].mean())
+
+    def swing(self, settings: RunSettings) -> tuple[Record, Oscillation | None]:
+        """The run, and the swing of the tip's height."""
+        record = self.let_go(settings, SWING_PERIODS / self.frequency)
         if not record.stable:
             return record, None
         return record, fit_oscillation(record.times, record.values[:, 1], self.frequency)
@@ -94,6 +111,7 @@ class TurekHronBeam:
 
     cells: int = 6  #: over the height
     seconds: float = 10.0
+    particles_per_axis: int = PARTICLES_PER_AXIS
 
     BEAM = Beam(Solid(young=1.4e6, poisson=0.4, density=1000.0), length=0.35, height=0.02)
     GRAVITY = 2.0
@@ -110,7 +128,7 @@ class TurekHronBeam:
 
     def swing(self, settings: RunSettings) -> tuple[Record, Swing | None, Swing | None]:
         """The run, and the tip's swing along and up over its second half."""
-        beam = Cantilever(self.BEAM, self.cells, self.GRAVITY)
+        beam = Cantilever(self.BEAM, self.cells, self.GRAVITY, particles_per_axis=self.particles_per_axis)
         record = beam.let_go(settings, self.seconds)
         if not record.stable:
             return record, None, None

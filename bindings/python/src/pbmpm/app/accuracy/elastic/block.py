@@ -15,7 +15,7 @@ import pbmpm
 
 from ...simulation import RunSettings
 from . import strain
-from .stage import CLAMP_OVERLAP, PARTICLES_PER_AXIS, Record, Stage, lattice, run
+from .stage import CLAMP_OVERLAP, PARTICLES_PER_AXIS, Calmer, Record, Stage, lattice, run
 from .theory import Solid
 
 GRAVITY = 9.81
@@ -94,8 +94,7 @@ class Block:
         return Solid(density * GRAVITY * self.height / abs(self.load), self.poisson, density, self.dimension)
 
     def settle(self, settings: RunSettings, seconds: float) -> tuple[Record, Profile | None]:
-        """Lets the block find its rest; its motion is stopped whenever its kinetic energy has passed a maximum, which
-        brings any solver to rest, whether it damps or not. The observed value is the kinetic energy [J]."""
+        """Lets the block find its rest; nothing is observed but where it comes to rest."""
         size = np.full(self.dimension, self.width_cells * self.cell_size)
         size[1] = self.height
         lower = np.zeros(self.dimension)
@@ -104,19 +103,8 @@ class Block:
         with Stage(self.solid, self.cell_size, settings, len(points), down, self.model) as stage:
             ids = stage.add_body(points, float(np.prod(size)))
             self._hold(stage)
-            past = [0.0, 0.0]
-
-            def calm() -> float:
-                energy = stage.world.stats.kinetic_energy
-                if past[1] > past[0] and energy < past[1]:
-                    still = np.zeros((len(ids), self.dimension))
-                    stage.world.set(pbmpm.Field.VELOCITY, still, ids)
-                    stage.world.set(pbmpm.Field.AFFINE_VELOCITY, still[..., None] * still[:, None], ids)
-                    energy = 0.0
-                past[:] = past[1], energy
-                return energy
-
-            record = run(stage, seconds, calm, _SPEED_LIMIT * (2.0 * GRAVITY * self.height) ** 0.5)
+            calmer = Calmer(stage, ids)
+            record = run(stage, seconds, calmer.look, _SPEED_LIMIT * (2.0 * GRAVITY * self.height) ** 0.5)
             profile = self._profile(points, stage.state(ids).positions) if record.stable else None
         return record, profile
 

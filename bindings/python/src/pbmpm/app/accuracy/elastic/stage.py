@@ -1,7 +1,7 @@
 """Worlds of elastic bodies that start from a given field of velocities, and their runs.
 
-Bodies are regular lattices of 2 particles per cell and axis, aligned with the grid, so that a body of n cells has 2 n
-particles across and its rest volume is exact. A clamp is a box with sticky friction whose face is where the body ends:
+Bodies are regular lattices of 2 particles per cell and axis, or more, aligned with the grid, so that a body of n cells
+has 2 n particles across and its rest volume is exact. A clamp is a box with sticky friction whose face is where the body ends:
 the library pushes particles out of obstacles, so a body cannot reach into its clamp. The nodes on the face and behind it
 stand still; those before it are free. A body is therefore held over its last cell only, and a little softer there than
 the built-in end of a beam: an error of discretisation that goes with the cell size.
@@ -37,11 +37,13 @@ MODELS = {
 VelocityField = Callable[[np.ndarray], np.ndarray]
 
 
-def lattice(lower: Sequence[float], upper: Sequence[float], cell_size: float) -> np.ndarray:
-    """Points of the regular lattice that fills a box, shape (n, d)."""
+def lattice(
+    lower: Sequence[float], upper: Sequence[float], cell_size: float, per_axis: int = PARTICLES_PER_AXIS
+) -> np.ndarray:
+    """Points of the regular lattice that fills a box, shape (n, d); ``per_axis`` of them per cell and axis."""
     axes = []
     for low, high in zip(lower, upper):
-        count = max(1, round(PARTICLES_PER_AXIS * (high - low) / cell_size))
+        count = max(1, round(per_axis * (high - low) / cell_size))
         axes.append(low + (np.arange(count) + 0.5) * (high - low) / count)
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, len(axes))
 
@@ -146,6 +148,27 @@ class Stage:
         return moving, strain.strain_energy(self.solid, self.model, s.deformations, s.masses)
 
 
+class Calmer:
+    """Brings a body to rest: its motion is stopped whenever its kinetic energy has passed a maximum.
+
+    That works with any solver, whether it damps or not, and on a short way, without swinging.
+    """
+
+    def __init__(self, stage: Stage, ids: np.ndarray) -> None:
+        self._stage, self._ids = stage, ids
+        self._before, self._last = 0.0, 0.0
+
+    def look(self) -> None:
+        """To be called after each step."""
+        world, dimension = self._stage.world, self._stage.solid.dimension
+        energy = world.stats.kinetic_energy
+        if energy < self._last and self._last > self._before:
+            world.set(pbmpm.Field.VELOCITY, np.zeros((len(self._ids), dimension)), self._ids)
+            world.set(pbmpm.Field.AFFINE_VELOCITY, np.zeros((len(self._ids), dimension, dimension)), self._ids)
+            energy = 0.0
+        self._before, self._last = self._last, energy
+
+
 @dataclass
 class Record:
     """What a run gave."""
@@ -179,11 +202,13 @@ class Record:
 def run(
     stage: Stage,
     seconds: float,
-    observe: Callable[[], Sequence[float] | float],
+    observe: Callable[[], Sequence[float] | float | None],
     speed_limit: float,
     every: int = 1,
 ) -> Record:
     """Steps a stage for ``seconds`` and observes it before the first and after each ``every``-th step.
+
+    What is observed may be None, for callers who only want to look or act.
 
     A run ends early, as not stable, when a figure is not finite, a particle was deleted, or one is faster than
     ``speed_limit`` [m/s]. Only the calls of the library's step are timed.
