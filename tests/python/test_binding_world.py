@@ -326,6 +326,21 @@ def test_statistics(pool: pbmpm.World) -> None:
     assert stats.max_speed == pytest.approx(0.1, rel=0.05)
 
 
+def test_pressures_of_the_dual_solver(pool: pbmpm.World) -> None:
+    """A block of 0.4 m under the pressure of its own weight: none at the top, rho g h at the floor."""
+    with pytest.raises(pbmpm.UnsupportedError, match="dual"):
+        pool.pressures.array()
+    pool.positions = pool.positions.array() - np.array([0.0, 0.8, 0.0][: pool.dimension])
+    pool.solver, pool.iterations = pbmpm.Solver.DUAL, 100
+    for _ in range(2):
+        pool.step(0.002)
+    heights, pressures = pool.positions.array()[:, 1], pool.pressures.array()
+    assert pressures.min() >= 0
+    assert pressures[heights > 0.35].mean() < pressures[heights < 0.05].mean() <= 1.2 * 1000 * 10 * 0.4
+    pool.set(pbmpm.Field.PRESSURE, np.full(len(pool), 50.0))
+    np.testing.assert_array_equal(pool.pressures.array(), 50.0)
+
+
 def test_slowing_a_particle_is_told(world: pbmpm.World, water: pbmpm.Material) -> None:
     world.max_displacement = 1
     sideways = [1e4] + [0.0] * (world.dimension - 1)

@@ -29,11 +29,12 @@ class Field(enum.Enum):
     MATERIAL = ffi.integer_const("PBMPM_MATERIAL")  #: (n,) Material.index
     PARTICLE = ffi.integer_const("PBMPM_PARTICLE")  #: (n, 2) identifiers: index, generation
     MASS = ffi.integer_const("PBMPM_MASS")  #: (n,) [kg] (2D: per metre of depth)
+    PRESSURE = ffi.integer_const("PBMPM_PRESSURE")  #: (n,) [Pa] of liquid, as the dual solver last solved for it
 
 
 MATRICES = (Field.AFFINE_VELOCITY, Field.DEFORMATION)
 _INTEGERS = (Field.MATERIAL, Field.PARTICLE)
-_SCALARS = (Field.VOLUME_RATIO, Field.MATERIAL, Field.MASS)
+_SCALARS = (Field.VOLUME_RATIO, Field.MATERIAL, Field.MASS, Field.PRESSURE)
 
 
 class _Memory:

@@ -333,7 +333,7 @@ class World(WorldSettings):
         """Writes a field of some particles, or of all of them in storage order.
 
         Args:
-            field: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid) or DEFORMATION (elastic).
+            field: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO or PRESSURE (liquid) or DEFORMATION (elastic).
             values: one row per particle, shaped as in the view.
             ids: shape (n, 2); None: all particles.
         """
@@ -398,6 +398,11 @@ class World(WorldSettings):
     def masses(self) -> View:
         """Masses, shape (n,) [kg] (2D: per metre of depth)."""
         return self.view(Field.MASS)
+
+    @property
+    def pressures(self) -> View:
+        """Pressures of liquid particles as the dual solver last solved for them, shape (n,) [Pa] (2D: N/m)."""
+        return self.view(Field.PRESSURE)
 
     # Obstacles
 

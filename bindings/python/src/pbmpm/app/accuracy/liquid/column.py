@@ -2,7 +2,7 @@
 
 The column starts at its rest density, is let go, bounces and settles. Its height is taken from the uppermost
 TOP_SHARE of its particles, averaged over them and over the last second: that does not depend on how single particles
-lie at the surface. The water has a bulk modulus, so that its pressure can be read from its volume ratio.
+lie at the surface. The water has a bulk modulus, so that every solver has a pressure to show.
 
 The paper's solver is run a second time without volume feedback, for which its law of stiffness holds; the difference
 is what the feedback changes.
@@ -76,8 +76,9 @@ class Column(Case):
     )
     length_name = "height of the column"
     notes = (
-        "Averages over the last of five seconds. Pressure from the volume ratio J: K (1 - J), with the paper's solver"
-        " K_eff (1/J - 1) / J. Rows of the paper's solver also tell what its law predicts."
+        "Averages over the last of five seconds. The dual solver solves for the pressure; else it is that of the volume"
+        " ratio J, K (1 - J), with the paper's solver K_eff (1/J - 1) / J. Rows of the paper's solver also tell what its"
+        " law predicts."
     )
 
     @property
@@ -98,7 +99,7 @@ class Column(Case):
         return water_scene(
             "column_2d",
             self.cell_size(setting),
-            [box_fill((0.0, 0.0), (width, self.height))],
+            [box_fill((0.0, 0.0), (width, self.height), jitter=0.0)],
             domain=((0.0, 0.0), (width, BOX_HEIGHT * self.height)),
             water={"volume_feedback": volume_feedback, "bulk_modulus": BULK_MODULUS},
         )
@@ -162,15 +163,21 @@ class Column(Case):
         """Height of the top, and root mean squares of pressure error, speed and volume error."""
         world = simulation.world
         ratios = world.volume_ratios.array().astype(np.float64)
-        if setting.solver == "paper":
-            modulus = DENSITY * paper_modulus_over_density(scene, setting.run_settings())
-            pressure = modulus * (1.0 / ratios - 1.0) / ratios
-        else:
-            pressure = BULK_MODULUS * (1.0 - ratios)
+        pressure = self._pressure(simulation, setting, scene, ratios)
         surface = self.height * (1.0 - self.true_sinking)
         depth = np.maximum(surface - world.positions.array()[:, 1], 0.0)
         error = (pressure - DENSITY * GRAVITY * depth) / (DENSITY * GRAVITY * self.height)
         return _top(simulation), _rms(error), _rms(np.linalg.norm(world.velocities.array(), axis=1)), _rms(1.0 - ratios)
+
+
+    def _pressure(self, simulation: Simulation, setting: Setting, scene: Scene, ratios: np.ndarray) -> np.ndarray:
+        """Of each particle [Pa]: what the dual solver solves for, else what the volume ratios stand for."""
+        if setting.solver == "dual":
+            return simulation.world.pressures.array().astype(np.float64)
+        if setting.solver == "paper":
+            modulus = DENSITY * paper_modulus_over_density(scene, setting.run_settings())
+            return modulus * (1.0 / ratios - 1.0) / ratios
+        return BULK_MODULUS * (1.0 - ratios)
 
 
 def _rms(values: np.ndarray) -> float:
