@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
 import pytest
 
-from pbmpm.app.accuracy.case import Setting
+from pbmpm.app.accuracy.case import Case, Setting
+from pbmpm.app.accuracy.liquid.channel import Couette, Poiseuille, couette, poiseuille
+from pbmpm.app.accuracy.liquid.claims import RecoveryClaim, VolumeClaim
 from pbmpm.app.accuracy.liquid.column import Column
 from pbmpm.app.accuracy.liquid.dam_break import DamBreak
+from pbmpm.app.accuracy.liquid.drop import EllipticalDrop, exact_axis
+from pbmpm.app.accuracy.liquid.invariance import Invariance
+from pbmpm.app.accuracy.liquid.obstacle import ObstacleDamBreak, measured_heights
+from pbmpm.app.accuracy.liquid.vortex import TaylorGreen
+from pbmpm.app.accuracy.liquid.wave import StandingWave
 
 
 def test_dam_break_reaches_the_experiment_at_a_moderate_setting() -> None:
@@ -32,3 +43,89 @@ def test_column_sinks_as_the_papers_law_says(rate: float, iterations: int) -> No
     assert row["volume_error_without_feedback"] == pytest.approx(row["volume_error_law"], rel=0.1)
     assert row["height_change"] == pytest.approx(row["height_change_law"], abs=0.05)
     assert row["settled_volume_error"] == pytest.approx(row["volume_error_law"], rel=0.25)
+
+
+# Truths
+
+
+def columns(path: Path) -> dict[str, np.ndarray]:
+    """The columns of a reference file, whose header says where it is from."""
+    names, *rows = [line.split(",") for line in path.read_text().splitlines() if not line.startswith("#")]
+    return dict(zip(names, np.array(rows, dtype=np.float64).T))
+
+
+def test_exact_axis_of_the_drop(root: Path) -> None:
+    """The file was integrated with A0 = 100 1/s; the tolerance is its six digits."""
+    file = columns(root / "tests/python/data/liquid_elliptical_drop_exact.csv")
+    times = 100.0 * file["t_s"]
+    inside = times <= 1.0
+    np.testing.assert_allclose(exact_axis().at(times[inside]), file["a"][inside], atol=2e-6)
+
+
+@pytest.mark.parametrize(("profile", "column"), [(couette, "couette_u_over_V0"), (poiseuille, "poiseuille_u_over_umax")])
+def test_profiles_of_channels(root: Path, profile: Callable[..., np.ndarray], column: str) -> None:
+    file = columns(root / "tests/python/data/viscous_startup_couette_poiseuille.csv")
+    for time in sorted(set(file["T"])):
+        rows = file["T"] == time
+        np.testing.assert_allclose(profile(file["y"][rows], time), file[column][rows], atol=2e-6)
+
+
+def test_gauges_of_the_tank_are_in_the_order_in_which_the_wave_reaches_them() -> None:
+    heights = measured_heights()
+    wet = [heights[place].times[np.argmax(heights[place].values > 0.01)] for place in (1.488, 0.992, 0.496)]
+    assert wet == sorted(wet) and heights[2.638].values[0] == pytest.approx(0.55, abs=0.01)
+
+
+def test_period_of_the_wave() -> None:
+    assert 1 / StandingWave().frequency == pytest.approx(1.668, abs=5e-4)
+
+
+# Runs
+
+
+@pytest.mark.parametrize(
+    ("case", "setting", "limits"),
+    [
+        pytest.param(EllipticalDrop(), Setting("dual", 60.0, 20, 16), {"axis_error": 0.02, "energy_error": 0.05}, id="drop"),
+        pytest.param(
+            TaylorGreen(),
+            Setting("dual", 60.0, 50, 16, pressure="cells", flip=0.9),
+            {"energy_lost": 0.10, "lost_to_iterations": 0.10},
+            id="lively vortices",
+        ),
+        pytest.param(Couette(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="couette"),
+        pytest.param(Poiseuille(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="poiseuille"),
+        pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 6), {"gauge_mae": 0.12}, id="dam break on a box"),
+        pytest.param(
+            DamBreak(stability_seconds=2.0),
+            Setting("dual", 60.0, 5, 16),
+            {"front_rms": 0.08, "front_rms_shifted": 0.04},
+            id="dam break",
+        ),
+        pytest.param(
+            Invariance(),
+            Setting("dual", 120.0, 5, 12),
+            {"galilean": 0.02, "turned_45": 0.03, "turned_90": 1e-5},
+            id="invariance",
+        ),
+        pytest.param(RecoveryClaim(), Setting("dual", 60.0, 10, 16), {"volume_lost": 0.1}, id="recovery"),
+    ],
+)
+def test_case_reaches_its_truth(case: Case, setting: Setting, limits: dict[str, float]) -> None:
+    """Limits are those that the case itself calls good, or 2 % of the largest value where it names none."""
+    measured = case.measure(setting)
+    assert measured.stable, measured.reasons
+    for name, limit in limits.items():
+        error = measured.errors[name]
+        assert error is not None and error <= limit, f"{name}: {error} is above {limit}"
+
+
+def test_the_papers_iterations_stop_the_vortices() -> None:
+    """What must not be: with many iterations the paper's solver takes nearly all of the energy."""
+    measured = TaylorGreen().measure(Setting("paper", 60.0, 50, 16))
+    assert measured.errors["energy_lost"] > 0.9 and measured.errors["lost_to_iterations"] > 0.5
+
+
+def test_volume_is_kept_by_what_the_grid_measures() -> None:
+    measured = VolumeClaim().measure(Setting("paper", 60.0, 20, 8))
+    assert measured.errors["lost_without_measure"] > 2 * measured.errors["volume_lost"]

@@ -53,17 +53,18 @@ class Trial:
                     observe(simulation)
 
     def _step(self, simulation: Simulation) -> None:
-        start = time.perf_counter()
+        start, cpu_start = time.perf_counter(), time.process_time()
         simulation.step()
-        seconds = time.perf_counter() - start
+        seconds, cpu_seconds = time.perf_counter() - start, time.process_time() - cpu_start
         stats = simulation.world.stats
-        self.meter.add(stats, seconds)
+        self.meter.add(stats, seconds, cpu_seconds)
         self.judge.watch(stats)
 
     def measurement(self, errors: dict[str, float | None], **more: Any) -> Measurement:
         """The measurement of a case that consists of this run alone. Errors of a run that broke are dropped."""
         broken = self.judge.broken
         figures = {
+            "cpu_ms_per_simulated_second": 1e3 * self.meter.cpu_seconds / (self.meter.steps * self.setting.dt),
             "volume_error_rms": self.meter.volume_error_rms,
             "energy_peak": self.judge.energy_peak,
             "stops": dict(self.meter.stops),

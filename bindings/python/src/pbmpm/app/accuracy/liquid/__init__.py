@@ -3,11 +3,27 @@
 from __future__ import annotations
 
 from .channel import Couette, Poiseuille
+from .claims import RecoveryClaim, StabilityClaim, StiffnessClaim, VolumeClaim
 from .column import Column
 from .dam_break import DamBreak
 from .drop import EllipticalDrop
 from .invariance import Invariance
+from .obstacle import ObstacleDamBreak
 from .vortex import TaylorGreen
 from .wave import StandingWave
 
-LIQUID_CASES = (DamBreak, Column, EllipticalDrop, StandingWave, TaylorGreen, Couette, Poiseuille, Invariance)
+LIQUID_CASES = (
+    DamBreak,
+    ObstacleDamBreak,
+    Column,
+    EllipticalDrop,
+    StandingWave,
+    TaylorGreen,
+    Couette,
+    Poiseuille,
+    Invariance,
+    StabilityClaim,
+    StiffnessClaim,
+    VolumeClaim,
+    RecoveryClaim,
+)
