@@ -23,6 +23,7 @@ from .options import (
     solver_options,
 )
 from .stability.command import stability
+from .tune.command import tune
 
 
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
@@ -33,6 +34,7 @@ def cli() -> None:
 
 cli.add_command(accuracy)
 cli.add_command(stability)
+cli.add_command(tune)
 
 
 def main() -> None:

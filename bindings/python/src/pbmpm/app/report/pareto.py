@@ -5,6 +5,20 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
+
+
+class Priced(Protocol):
+    """Something with a cost and an error."""
+
+    @property
+    def cost(self) -> float: ...
+
+    @property
+    def error(self) -> float: ...
+
+
+AnyPriced = TypeVar("AnyPriced", bound=Priced)
 
 
 @dataclass(frozen=True)
@@ -17,16 +31,16 @@ class Point:
     error: float
 
 
-def front_of(points: Iterable[Point]) -> list[Point]:
+def front_of(points: Iterable[AnyPriced]) -> list[AnyPriced]:
     """The points that no other beats in both cost and error, cheap ones first."""
-    front: list[Point] = []
+    front: list[AnyPriced] = []
     for point in sorted(points, key=lambda item: (item.cost, item.error)):
         if not front or point.error < front[-1].error:
             front.append(point)
     return front
 
 
-def cost_of(front: Sequence[Point], error: float) -> float | None:
+def cost_of(front: Sequence[Priced], error: float) -> float | None:
     """What reaching an error costs along a front; None when it never gets there.
 
     Between two neighbours the front is taken as straight in logarithms of both figures. An error that the cheapest
