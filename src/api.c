@@ -4,6 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "api_call.h"
 #include "colliders.h"
 #include "cpu.h"
 #include "edit.h"
@@ -12,26 +13,9 @@
 #include "layout.h"
 #include "numbers.h"
 #include "registry.h"
-#include "result.h"
 #include "step.h"
-#include "world.h"
 
-#define REQUIRE(pointer)                                                                                                \
-    if (!(pointer)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s: " #pointer " is null", __func__)
-
-#define REQUIRE_SIZE(structure)                                                                                         \
-    REQUIRE(structure);                                                                                                 \
-    if ((structure)->size != sizeof *(structure))                                                                       \
-        return fail(PBMPM_ERROR_UNSUPPORTED, "%s: the size in " #structure " is not known to this version", __func__)
-
-/* A world that a call holds, in the floating-point mode of the kernels. */
-typedef struct Hold {
-    pbmpm_world_id id;
-    World *world;
-    uint32_t float_mode;
-} Hold;
-
-static pbmpm_result hold(pbmpm_world_id id, Hold *held)
+pbmpm_result api_hold(pbmpm_world_id id, Hold *held)
 {
     held->id = id;
     const pbmpm_result result = registry_enter(id, &held->world);
@@ -44,23 +28,14 @@ static pbmpm_result hold(pbmpm_world_id id, Hold *held)
     return PBMPM_OK;
 }
 
-static pbmpm_result let_go(const Hold *held, pbmpm_result result)
+pbmpm_result api_let_go(const Hold *held, pbmpm_result result)
 {
     float_mode_leave_to_host(held->float_mode);
     registry_leave(held->id);
     return result;
 }
 
-#define HOLD(id)                                                                                                        \
-    Hold held;                                                                                                          \
-    const pbmpm_result hold_result = hold(id, &held);                                                                   \
-    if (hold_result != PBMPM_OK) return hold_result;                                                                    \
-    World *w = held.world
-
-#define LET_GO(result) return let_go(&held, result)
-
-/* Writes the defaults of a structure whose first member is its size. */
-static pbmpm_result init_structure(void *structure, size_t size, const void *defaults, size_t known)
+pbmpm_result api_init_structure(void *structure, size_t size, const void *defaults, size_t known)
 {
     if (!structure) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "the structure to fill is null");
     if (size != known) return fail(PBMPM_ERROR_UNSUPPORTED, "a structure of %zu bytes is not known; this version has %zu", size, known);
@@ -68,10 +43,7 @@ static pbmpm_result init_structure(void *structure, size_t size, const void *def
     return PBMPM_OK;
 }
 
-#define INIT(structure, size, defaults)                                                                                 \
-    return init_structure(structure, size, &(defaults), sizeof(defaults))
-
-static pbmpm_result invalid(const char *problem) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem); }
+pbmpm_result api_invalid(const char *problem) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem); }
 
 /* ---- base.h ---- */
 
@@ -133,7 +105,7 @@ pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size)
 static pbmpm_result create_world(const pbmpm_world_def *def, pbmpm_world_id *world)
 {
     const char *problem = world_def_problem(def);
-    if (problem) return invalid(problem);
+    if (problem) return api_invalid(problem);
     World *created;
     pbmpm_result result = world_create(def, &created);
     if (result != PBMPM_OK) return result;
@@ -182,7 +154,7 @@ pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings
     REQUIRE_SIZE(settings);
     HOLD(world);
     const char *problem = settings_problem(settings, w->def.dimension);
-    if (problem) LET_GO(invalid(problem));
+    if (problem) LET_GO(api_invalid(problem));
     w->settings = *settings;
     LET_GO(PBMPM_OK);
 }
@@ -191,11 +163,11 @@ pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
 {
     HOLD(world);
     const double part = (double)dt / w->settings.substeps;
-    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
+    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)w->def.cell_size)
-        LET_GO(invalid("dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size"));
+        LET_GO(api_invalid("dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size"));
     if (w->settings.solver == PBMPM_SOLVER_EXPLICIT && materials_want_modulus(&w->materials))
-        LET_GO(invalid("the explicit solver needs a bulk_modulus for every liquid"));
+        LET_GO(api_invalid("the explicit solver needs a bulk_modulus for every liquid"));
     LET_GO(world_step(w, dt));
 }
 
@@ -232,7 +204,7 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC)
         LET_GO(fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version"));
     const char *problem = material_problem(def);
-    if (problem) LET_GO(invalid(problem));
+    if (problem) LET_GO(api_invalid(problem));
     pbmpm_result result = materials_add(&w->materials, def, registry_next_generation(), material);
     if (result == PBMPM_OK && def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
     if (result == PBMPM_ERROR_OUT_OF_MEMORY) {
@@ -257,7 +229,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
 {
     REQUIRE_SIZE(effective);
     HOLD(world);
-    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(invalid("dt must be in (0, 10] seconds"));
+    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     *effective = effective_modulus(w, &w->materials.def[material.index], (double)dt / w->settings.substeps);
     LET_GO(PBMPM_OK);
@@ -268,11 +240,11 @@ pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material
     REQUIRE_SIZE(def);
     HOLD(world);
     const char *problem = material_problem(def);
-    if (problem) LET_GO(invalid(problem));
+    if (problem) LET_GO(api_invalid(problem));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     const pbmpm_material_def *old = &w->materials.def[material.index];
     if (old->kind != def->kind || old->density != def->density)
-        LET_GO(invalid("the kind and the density of a material cannot be changed"));
+        LET_GO(api_invalid("the kind and the density of a material cannot be changed"));
     materials_set(&w->materials, material.index, def);
     LET_GO(PBMPM_OK);
 }
@@ -308,7 +280,7 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     REQUIRE_SIZE(def);
     HOLD(world);
     const char *problem = collider_problem(def, w->def.dimension);
-    if (problem) LET_GO(invalid(problem));
+    if (problem) LET_GO(api_invalid(problem));
     LET_GO(colliders_add(&w->colliders, def, registry_next_generation(), collider));
 }
 
@@ -337,12 +309,12 @@ static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const f
 {
     Collider *found = colliders_find(&w->colliders, collider);
     if (!found) return no_collider();
-    if (!at_once && !found->def.kinematic) return invalid("only kinematic colliders move");
+    if (!at_once && !found->def.kinematic) return api_invalid("only kinematic colliders move");
     pbmpm_shape shape = found->def.shape;
     memcpy(shape.position, position, sizeof shape.position);
     if (rotation) memcpy(shape.rotation, rotation, sizeof shape.rotation);
     const char *problem = shape_problem(&shape, w->def.dimension);
-    if (problem) return invalid(problem);
+    if (problem) return api_invalid(problem);
     collider_place(found, position, rotation, at_once);
     return PBMPM_OK;
 }
@@ -380,7 +352,7 @@ pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, p
     if (capacity) REQUIRE(ids);
     HOLD(world);
     const char *problem = shape_problem(shape, w->def.dimension);
-    if (problem) LET_GO(invalid(problem));
+    if (problem) LET_GO(api_invalid(problem));
     const Solid solid = solid_of(shape, w->def.dimension);
     inspect_inside(w, &solid, 0.0, ids, capacity, count);
     LET_GO(PBMPM_OK);

@@ -60,6 +60,8 @@ const char *result_name(pbmpm_result result)
     case PBMPM_ERROR_THREAD: return "PBMPM_ERROR_THREAD";
     case PBMPM_ERROR_IN_USE: return "PBMPM_ERROR_IN_USE";
     case PBMPM_ERROR_FORKED: return "PBMPM_ERROR_FORKED";
+    case PBMPM_ERROR_DAMAGED: return "PBMPM_ERROR_DAMAGED";
+    case PBMPM_ERROR_FOREIGN: return "PBMPM_ERROR_FOREIGN";
     case PBMPM_RESULT_FORCE32: break;
     }
     return "unknown result";

@@ -35,6 +35,8 @@ typedef enum pbmpm_result {
     PBMPM_ERROR_THREAD = 8,           /**< a worker thread could not be started */
     PBMPM_ERROR_IN_USE = 9,           /**< the object still has users (a material that particles refer to) */
     PBMPM_ERROR_FORKED = 10,          /**< the world belongs to the parent process; in the child only destroy works */
+    PBMPM_ERROR_DAMAGED = 11,         /**< stored data is truncated or changed, or was never the library's */
+    PBMPM_ERROR_FOREIGN = 12,         /**< stored data belongs to a world that was made in another way, or to another version */
     PBMPM_RESULT_FORCE32 = 0x7fffffff
 } pbmpm_result;
 

@@ -46,6 +46,8 @@ static void test_every_result_has_its_name(void)
         {PBMPM_ERROR_THREAD, "PBMPM_ERROR_THREAD"},
         {PBMPM_ERROR_IN_USE, "PBMPM_ERROR_IN_USE"},
         {PBMPM_ERROR_FORKED, "PBMPM_ERROR_FORKED"},
+        {PBMPM_ERROR_DAMAGED, "PBMPM_ERROR_DAMAGED"},
+        {PBMPM_ERROR_FOREIGN, "PBMPM_ERROR_FOREIGN"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++)
         TEST_ASSERT_EQUAL_STRING(rows[i].name, pbmpm_result_name(rows[i].result));

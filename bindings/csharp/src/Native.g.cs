@@ -58,6 +58,10 @@ namespace Pbmpm
         ErrorInUse = 9,
         /// <summary>the world belongs to the parent process; in the child only destroy works</summary>
         ErrorForked = 10,
+        /// <summary>stored data is truncated or changed, or was never the library's</summary>
+        ErrorDamaged = 11,
+        /// <summary>stored data belongs to a world that was made in another way, or to another version</summary>
+        ErrorForeign = 12,
     }
 
     /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs

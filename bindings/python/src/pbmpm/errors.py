@@ -9,7 +9,9 @@ __all__ = [
     "BusyError",
     "CapacityError",
     "ClosedError",
+    "DamagedError",
     "ExpiredViewError",
+    "ForeignError",
     "ForkedError",
     "InUseError",
     "InvalidArgumentError",
@@ -99,6 +101,18 @@ class ForkedError(PbmpmError):
     """The world belongs to the parent process."""
 
     _result_name = "PBMPM_ERROR_FORKED"
+
+
+class DamagedError(PbmpmError, ValueError):
+    """Stored data is truncated or changed, or was never the library's."""
+
+    _result_name = "PBMPM_ERROR_DAMAGED"
+
+
+class ForeignError(PbmpmError, ValueError):
+    """Stored data belongs to a world that was made in another way, or to another version of the library."""
+
+    _result_name = "PBMPM_ERROR_FOREIGN"
 
 
 class ClosedError(PbmpmError):
