@@ -32,7 +32,7 @@ static double bound_liquid(const RefParticle *p, double largest, double error)
 /* Frobenius norm of the rotation's error. The rotation that maximises tr(R^T A) turns by |dA| times 2 over the smallest sum of
  * two of A's signed singular values; no two rotations are farther apart than 2 sqrt 2. The kernel's own round-off is that
  * of a matrix that differs by a few units: 16 operations from the matrix to the turned one, three entries each. */
-static double bound_rotation(int n, const double *A, double error)
+double bound_rotation(int n, const double *A, double error)
 {
     double u[9], s[3], v[9];
     matrix_decompose(n, A, u, s, v);

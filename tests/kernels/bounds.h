@@ -31,6 +31,9 @@ typedef struct BoundParticle {
 /* Error of what reference_gather() returns: sums of w u and 4 w u (x_i - x_p). */
 BoundParticle bound_gather(const RefGrid *grid, const RefParticle *p);
 
+/* Error of the rotation of A in the Frobenius norm, given that of A. */
+double bound_rotation(int dimension, const double *A, double error);
+
 /* Error of D after reference_project(), given that of D before; D is the projected one's input. */
 double bound_project(int dimension, const RefParticle *p, const double D[9], double error);
 

@@ -14,4 +14,4 @@
     FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
 
 /* The table a probe writes: the size of the structure, then offset and size of each field. */
-enum { LAYOUT_VALUES = 1 + 2 * 48 };
+enum { LAYOUT_VALUES = 1 + 2 * 128 };

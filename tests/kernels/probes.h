@@ -2,18 +2,24 @@
 #ifndef PBMPM_TESTS_PROBES_H
 #define PBMPM_TESTS_PROBES_H
 
+#include "kernel_types.h"
 #include "pbmpm/base.h"
 
 /* `count` matrices of nine floats each, row-major with stride 3. */
 typedef void RotateAll(const float *f, float *rotation, int32_t count);
 /* `s`: three floats per matrix. */
 typedef void DecomposeAll(const float *f, float *u, float *s, float *v, int32_t count);
+/* The proximal steps of the dual solver. `f`, `d`, `y`, `s`: matrices as above. */
+typedef void StressAll(const KernelMaterial *material, const float *f, const float *d, const float *y, float *s, int32_t count);
+typedef void PressureAll(const KernelMaterial *material, const float *ratio, const float *trace, const float *y, float *s, int32_t count);
 /* `out`: see LAYOUT_VALUES. */
 typedef void WriteLayout(int32_t *out);
 
 typedef struct Probes {
     RotateAll *rotate_all;
     DecomposeAll *decompose_all;
+    StressAll *stress_all;
+    PressureAll *pressure_all;
 } Probes;
 
 const Probes *probes_for(pbmpm_isa isa, int dimension);

@@ -5,3 +5,12 @@ export void rotate_all2(const uniform float f[], uniform float rotation[], unifo
 export void decompose_all2(const uniform float f[], uniform float u[], uniform float s[], uniform float v[], uniform int count) {
     decompose_all(f, u, s, v, count);
 }
+
+export void stress_all2(const uniform struct KernelMaterial *uniform material, const uniform float f[], const uniform float d[],
+                        const uniform float y[], uniform float s[], uniform int count) {
+    stress_all(material, f, d, y, s, count);
+}
+export void pressure_all2(const uniform struct KernelMaterial *uniform material, const uniform float ratio[], const uniform float trace[],
+                          const uniform float y[], uniform float s[], uniform int count) {
+    pressure_all(material, ratio, trace, y, s, count);
+}

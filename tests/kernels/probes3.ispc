@@ -7,6 +7,14 @@ export void rotate_all3(const uniform float f[], uniform float rotation[], unifo
 export void decompose_all3(const uniform float f[], uniform float u[], uniform float s[], uniform float v[], uniform int count) {
     decompose_all(f, u, s, v, count);
 }
+export void stress_all3(const uniform struct KernelMaterial *uniform material, const uniform float f[], const uniform float d[],
+                        const uniform float y[], uniform float s[], uniform int count) {
+    stress_all(material, f, d, y, s, count);
+}
+export void pressure_all3(const uniform struct KernelMaterial *uniform material, const uniform float ratio[], const uniform float trace[],
+                          const uniform float y[], uniform float s[], uniform int count) {
+    pressure_all(material, ratio, trace, y, s, count);
+}
 
 #define WRITE_FIELD(name)                                                                                                     \
     out[n++] = (uniform int32)((uniform int64)&probe.name - (uniform int64)&probe);                                           \

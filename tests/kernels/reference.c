@@ -216,6 +216,24 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
 }
 
+/* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.2, but 1 where
+ * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
+static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
+{
+    const double feedback = (double)p->material.volume_feedback;
+    double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), RATIO_MAX);
+    if (step->with_volume && feedback > 0.0) {
+        const RefStencil s = reference_stencil(grid->dimension, p);
+        const double held = reference_compression(grid, p);
+        double densest = 0.0;
+        for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
+        const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), RATIO_MAX);
+        ratio += feedback * (fmin(1.0 / held, loose) - ratio);
+        if (held > REF_CROWDED) nudge(step, p);
+    }
+    p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
+}
+
 static void integrate_elastic(const RefStep *step, RefParticle *p, const double D[9])
 {
     double next[9] = {0};
@@ -225,7 +243,8 @@ static void integrate_elastic(const RefStep *step, RefParticle *p, const double 
     p->volume_ratio = matrix_determinant(step->dimension, next);
 }
 
-static void move(const RefStep *step, RefParticle *p, const double d[3])
+/* `motion` is what becomes the velocity. */
+static void move(const RefStep *step, RefParticle *p, const double d[3], const double motion[3])
 {
     double length = 0.0;
     for (int a = 0; a < step->dimension; a++) length += d[a] * d[a];
@@ -236,18 +255,40 @@ static void move(const RefStep *step, RefParticle *p, const double d[3])
         p->fraction[a] = place - cells;
         p->cell[a] += (int32_t)cells;
         if (abs(p->cell[a]) > step->max_cell) p->status = K_OUT_OF_RANGE;
-        p->velocity[a] = slow * d[a] / (step->dt * step->cells_per_metre);
+        p->velocity[a] = slow * motion[a] / (step->dt * step->cells_per_metre);
+    }
+}
+
+bool reference_flips(const RefStep *step, const RefParticle *p)
+{
+    return step->base && p->material.kind == K_LIQUID && p->material.viscous_share == 0.0f;
+}
+
+/* The predictor without gravity is what the transfer to the nodes made of the particle's own displacement. */
+static void keep_fine_motion(const RefStep *step, const RefParticle *p, const double D[9], double d[3], double motion[3])
+{
+    double carried[3], unused[9];
+    reference_gather(step->base, p, carried, unused);
+    for (int a = 0; a < step->dimension; a++) {
+        const double own = p->velocity[a] * step->dt * step->cells_per_metre;
+        const double lost = own - (carried[a] - step->gravity[a]);
+        motion[a] += step->flip * lost;
+        if (matrix_trace(step->dimension, D) > 0.0) d[a] += step->flip * lost; /* places follow where matter parts */
     }
 }
 
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)
 {
-    double d[3], D[9];
+    double d[3], D[9], motion[3];
     reference_gather(grid, p, d, D);
-    if (p->material.kind == K_LIQUID)
-        integrate_liquid(step, grid, p, D);
-    else
+    memcpy(motion, d, sizeof motion);
+    if (reference_flips(step, p)) keep_fine_motion(step, p, D, d, motion);
+    if (p->material.kind == K_ELASTIC)
         integrate_elastic(step, p, D);
-    move(step, p, d);
+    else if (step->tensionless)
+        integrate_tensionless(step, grid, p, D);
+    else
+        integrate_liquid(step, grid, p, D);
+    move(step, p, d, motion);
     for (int k = 0; k < 9; k++) p->affine[k] = D[k] / step->dt;
 }

@@ -33,6 +33,9 @@ typedef struct RefStep {
     int32_t max_cell;
     uint32_t salt; /* of the nudges */
     bool with_volume;
+    bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
+    double flip;         /* share of the motion lost in the transfers that liquids keep */
+    const struct RefGrid *base; /* the predictor; null: nothing is kept */
 } RefStep;
 
 /* The nodes a particle touches: 3 per axis around its nearest node. */
@@ -77,6 +80,9 @@ void reference_project(int dimension, const RefParticle *p, double D[9]);
 
 /* Brings F into the material's range; false where the particle has to go instead. */
 bool reference_limit_strain(int dimension, const KernelMaterial *material, double F[9]);
+
+/* Whether the particle keeps a share of the motion that the transfers lost (ASFLIP). */
+bool reference_flips(const RefStep *step, const RefParticle *p);
 
 /* Moves the particle by what the nodes say and updates v, affine, J and F. */
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p);

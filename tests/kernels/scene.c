@@ -92,6 +92,8 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     def.particle_capacity = spec->cells * spec->most_per_cell + 1;
     def.thread_count = 1;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &scene.world));
+    scene.world->settings.solver = spec->solver;
+    scene.world->settings.flip = spec->flip;
     if (spec->max_displacement > 0.0f) scene.world->settings.max_displacement = spec->max_displacement;
     for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
     add_materials(scene.world, spec);
@@ -107,7 +109,7 @@ void scene_close(Scene *scene)
     *scene = (Scene){0};
 }
 
-/* Parameters as the test wants them, not as the solver tempers them for a substep. */
+/* Parameters as the test wants them, not as the paper's solver tempers them for a substep. */
 static void set_materials(Scene *scene)
 {
     Materials *materials = &scene->world->materials;
@@ -137,9 +139,10 @@ void scene_bind(Scene *scene, bool check_strain)
     World *world = scene->world;
     const bool with_volume = materials_want_volume(&world->materials);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
     world->strain_unchecked = check_strain;
     solver_bind(world, TIME_STEP, with_volume);
-    set_materials(scene);
+    if (world->record.solver == PBMPM_SOLVER_PAPER) set_materials(scene);
     const KernelArgs *args = &world->args;
     scene->step.dt = (double)args->dt;
     scene->step.cells_per_metre = (double)args->cells_per_metre;
@@ -147,6 +150,8 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.max_cell = args->max_cell;
     scene->step.salt = args->salt;
     scene->step.with_volume = with_volume;
+    scene->step.flip = (double)args->flip;
+    scene->step.tensionless = world->record.solver != PBMPM_SOLVER_PAPER;
     for (int a = 0; a < 3; a++) scene->step.gravity[a] = (double)args->gravity[a];
     find_extent(scene);
 }
@@ -211,27 +216,55 @@ static void corner_of(const Scene *scene, int32_t block, int32_t below, int32_t 
     for (int a = 0; a < 3; a++) corner[a] = a < scene->step.dimension ? grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS - below : 0;
 }
 
-RefGrid scene_nodes(const Scene *scene)
+RefGrid scene_nodes_of(const Scene *scene, const float *values)
 {
-    const KernelArgs *args = &scene->world->args;
     const Grid *grid = &scene->world->grid;
     RefGrid out = reference_grid(scene->step.dimension, scene->low, scene->high);
     for (int32_t block = 0; block < grid->node_blocks; block++) {
         int32_t corner[3], at[3];
         corner_of(scene, block, 0, corner);
         for (int i = 0; i < grid->block_cells; i++) {
-            const size_t index = (size_t)block * (size_t)grid->block_cells + (size_t)i;
-            const float *node = args->node + index * K_NODE_WIDTH;
+            const float *node = values + ((size_t)block * (size_t)grid->block_cells + (size_t)i) * K_NODE_WIDTH;
             node_at(corner, K_BLOCK_AXIS, i, at);
             const int64_t to = reference_index(&out, at);
-            if (to < 0) {
+            if (to >= 0)
+                out.node[to] = (RefNode){{(double)node[0], (double)node[1], (double)node[2]}, (double)node[3], 0.0};
+            else
                 check_true(node[0] == 0.0f && node[1] == 0.0f && node[2] == 0.0f && node[3] == 0.0f, "untouched node is 0", i);
-                continue;
-            }
-            out.node[to] = (RefNode){{(double)node[0], (double)node[1], (double)node[2]}, (double)node[3], 0.0};
-            if (args->node_volume) out.node[to].volume = (double)args->node_volume[index];
         }
     }
+    return out;
+}
+
+RefGrid scene_scalars_of(const Scene *scene, const float *values)
+{
+    const Grid *grid = &scene->world->grid;
+    RefGrid out = reference_grid(scene->step.dimension, scene->low, scene->high);
+    for (int32_t block = 0; block < grid->node_blocks; block++) {
+        int32_t corner[3], at[3];
+        corner_of(scene, block, 0, corner);
+        for (int i = 0; i < grid->block_cells; i++) {
+            const double value = (double)values[(size_t)block * (size_t)grid->block_cells + (size_t)i];
+            node_at(corner, K_BLOCK_AXIS, i, at);
+            const int64_t to = reference_index(&out, at);
+            if (to >= 0)
+                out.node[to].mass = value;
+            else
+                check_true(value == 0.0, "untouched value is 0", i);
+        }
+    }
+    return out;
+}
+
+RefGrid scene_nodes(const Scene *scene)
+{
+    const KernelArgs *args = &scene->world->args;
+    RefGrid out = scene_nodes_of(scene, args->node);
+    if (!args->node_volume) return out;
+    RefGrid volumes = scene_scalars_of(scene, args->node_volume);
+    const size_t count = (size_t)out.size[0] * (size_t)out.size[1] * (size_t)out.size[2];
+    for (size_t i = 0; i < count; i++) out.node[i].volume = volumes.node[i].mass;
+    reference_grid_free(&volumes);
     return out;
 }
 
@@ -267,6 +300,28 @@ RefGrid scene_tiles(const Scene *scene, RefGrid *sizes)
             else
                 check_true(values[0] == 0.0f && values[1] == 0.0f && values[2] == 0.0f && values[3] == 0.0f && volume == 0.0,
                            "a tile is 0 where no particle reaches", i);
+        }
+    }
+    return sum;
+}
+
+RefGrid scene_scalar_tiles(const Scene *scene, RefGrid *sizes)
+{
+    const Grid *grid = &scene->world->grid;
+    const size_t scalars = (size_t)grid->tile_nodes + K_TILE_PAD;
+    RefGrid sum = reference_grid(scene->step.dimension, scene->low, scene->high);
+    *sizes = reference_grid(scene->step.dimension, scene->low, scene->high);
+    for (int32_t block = 0; block < grid->particle_blocks; block++) {
+        int32_t corner[3], at[3];
+        corner_of(scene, block, 1, corner);
+        for (int i = 0; i < grid->tile_nodes; i++) {
+            const double value = (double)scene->world->args.tile[(size_t)block * scalars + (size_t)i];
+            node_at(corner, K_TILE_AXIS, i, at);
+            const int64_t to = reference_index(&sum, at);
+            check_true(to >= 0 || value == 0.0, "a tile is 0 where no particle reaches", i);
+            if (to < 0) continue;
+            sum.node[to].mass += value;
+            sizes->node[to].mass += fabs(value);
         }
     }
     return sum;

@@ -26,6 +26,8 @@ typedef struct SceneSpec {
     float max_displacement; /* 0: the default */
     float pressure_max;     /* of liquids, see KernelMaterial; 0: none */
     bool check_strain;
+    pbmpm_solver solver; /* default: the paper's */
+    float flip;
 } SceneSpec;
 
 typedef struct Scene {
@@ -43,7 +45,7 @@ pbmpm_material_def scene_material(pbmpm_material_kind kind);
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed);
 void scene_close(Scene *scene);
 
-/* Sorts the particles and points the kernels' arguments at them; after any change of the particles. */
+/* Sorts the particles, takes the solver's memory and points the kernels' arguments at them; after any change of the particles. */
 void scene_bind(Scene *scene, bool check_strain);
 
 RefParticle scene_particle(const Scene *scene, uint32_t row);
@@ -54,7 +56,14 @@ void scene_run_nodes(Scene *scene, Kernel *kernel);
 
 /* The nodes' displacements, masses and volumes. */
 RefGrid scene_nodes(const Scene *scene);
+/* The same of another array of nodes, without volumes. */
+RefGrid scene_nodes_of(const Scene *scene, const float *values);
+/* One float per node, as masses. */
+RefGrid scene_scalars_of(const Scene *scene, const float *values);
+
 /* The sums over all tiles, and, unless null, the sums of sizes. */
 RefGrid scene_tiles(const Scene *scene, RefGrid *sizes);
+/* The same where tiles hold one float per node, as masses. */
+RefGrid scene_scalar_tiles(const Scene *scene, RefGrid *sizes);
 
 #endif

@@ -38,6 +38,7 @@ static LayoutTable layout_of_args(void)
 static void check_same(const LayoutTable *expected, WriteLayout *write)
 {
     int32_t actual[LAYOUT_VALUES];
+    TEST_ASSERT_TRUE(expected->count < LAYOUT_VALUES);
     memset(actual, 0x5a, sizeof actual);
     write(actual);
     TEST_ASSERT_EQUAL_INT32_ARRAY(expected->value, actual, expected->count);

@@ -1,0 +1,219 @@
+/* The kernels of pressures in cells, compared with the reference. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "bounds.h"
+#include "check.h"
+#include "dual_stages.h"
+
+enum { CENTRE_ROUNDINGS = 12 }; /* a weight: 3 differences, 3 products; with mass, J and the multiplier 6 more */
+
+static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
+
+/* Sums over the particles of liquids of h m times up to four quantities, and how many they are. */
+typedef struct CellSum {
+    double value[4], size[4];
+    int terms;
+} CellSum;
+
+typedef void Quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4]);
+
+static CellSum *sum_cells(const DualStage *stage, Quantities *quantities, const RefGrid *extent)
+{
+    CellSum *sums = calloc(node_count(extent), sizeof *sums);
+    for (uint32_t i = 0; i < stage->scene.world->particles.count; i++) {
+        const RefParticle p = scene_particle(&stage->scene, i);
+        const RefCentres centres = reference_centres(extent->dimension, &p);
+        double value[4] = {0};
+        if (p.material.kind != K_LIQUID) continue;
+        quantities(stage, i, &p, value);
+        for (int c = 0; c < centres.count; c++) {
+            CellSum *sum = &sums[reference_index(extent, centres.cell[c])];
+            sum->terms++;
+            for (int k = 0; k < 4; k++) {
+                sum->value[k] += centres.weight[c] * p.mass * value[k];
+                sum->size[k] += (centres.weight[c] + UNIT_ROUNDOFF) * p.mass * fabs(value[k]);
+            }
+        }
+    }
+    return sums;
+}
+
+/* ---- What cells hold ---- */
+
+static void first_quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
+{
+    const World *world = stage->scene.world;
+    const double scale = reference_scale(&stage->scene.step, (double)world->materials.def[world->particles.material[row]].density);
+    value[0] = 1.0;
+    value[1] = p->volume_ratio;
+    value[2] = (double)p->material.inverse_stiffness / (p->volume_ratio * p->volume_ratio);
+    value[3] = 0.5 * scale * (double)world->particles.pressure[row];
+}
+
+void cells_check_begin(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    scene_run_particles(scene, scene->kernels->cells_begin);
+    RefGrid sizes, sum = scene_tiles(scene, &sizes);
+    CellSum *expected = sum_cells(stage, first_quantities, &sum);
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double actual[4] = {sum.node[i].u[0], sum.node[i].u[1], sum.node[i].u[2], sum.node[i].mass};
+        for (int k = 0; k < 4; k++) {
+            const double bound = (CENTRE_ROUNDINGS + expected[i].terms) * UNIT_ROUNDOFF * expected[i].size[k] + FLUSHED;
+            check_near(expected[i].value[k], actual[k], bound, "what a cell holds", (long)i);
+        }
+    }
+    free(expected);
+    reference_grid_free(&sum);
+    reference_grid_free(&sizes);
+}
+
+/* Growth is that of the mean J, between nothing and 0.3; softness and first pressure are means. A cell adds up to 8 tiles. */
+void cells_check_mean(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    KernelArgs *a = &scene->world->args;
+    RefGrid sizes, sum = scene_tiles(scene, &sizes);
+    scene_run_nodes(scene, scene->kernels->cells_mean);
+    RefGrid mass = scene_scalars_of(scene, a->cell_mass), growth = scene_scalars_of(scene, a->cell_growth);
+    RefGrid soft = scene_scalars_of(scene, a->cell_softness), pressure = scene_scalars_of(scene, a->cell_pressure);
+    RefGrid old = scene_scalars_of(scene, a->cell_pressure_old);
+    const double each = 20.0 * UNIT_ROUNDOFF;
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double m = sum.node[i].u[0];
+        check_near(m, mass.node[i].mass, each * m, "mass of a cell", (long)i);
+        check_true(pressure.node[i].mass == old.node[i].mass, "the first pressure is the one before as well", (long)i);
+        if (!(m > 1e-30)) continue;
+        const double ratio = sum.node[i].u[1] / m, wanted = fmin(fmax(1.0 / ratio - 1.0, 0.0), REF_GROWTH_MAX);
+        check_near(wanted, growth.node[i].mass, each * (1.0 + 1.0 / ratio), "growth of a cell", (long)i);
+        check_near(sum.node[i].u[2] / m, soft.node[i].mass, each * sum.node[i].u[2] / m + FLUSHED, "softness of a cell", (long)i);
+        check_near(sum.node[i].mass / m, pressure.node[i].mass, each * sum.node[i].mass / m + FLUSHED, "first pressure of a cell", (long)i);
+    }
+    RefGrid *const all[] = {&sizes, &sum, &mass, &growth, &soft, &pressure, &old};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
+}
+
+/* ---- Pressures to nodes ---- */
+
+/* Particles take the extrapolated pressure at their place; the stress of elastic ones is extrapolated here as well. */
+void cells_check_push(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    KernelArgs *a = &scene->world->args;
+    const int n = scene->step.dimension;
+    const double momentum = (double)a->momentum, none[3] = {0};
+    scene_run_particles(scene, scene->kernels->cells_push);
+    RefGrid sizes, sum = scene_tiles(scene, &sizes), pushed = reference_grid(n, scene->low, scene->high);
+    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    BoundNode *bounds = calloc(node_count(&sum), sizeof *bounds);
+    for (uint32_t i = 0; i < scene->world->particles.count; i++) {
+        const RefParticle p = scene_particle(scene, i);
+        const RefCentres centres = reference_centres(n, &p);
+        double Y[9] = {0}, S[9], expected = 0.0, bound = 0.0, error = 0.0;
+        for (int c = 0; c < centres.count && p.material.kind == K_LIQUID; c++) {
+            const int64_t at = reference_index(&sum, centres.cell[c]);
+            const double now = pressure.node[at].mass, change = momentum * (now - old.node[at].mass);
+            expected += centres.weight[c] * (now + change);
+            bound += (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * (fabs(now) + 2.0 * fabs(change)) + FLUSHED;
+        }
+        if (p.material.kind == K_LIQUID) {
+            check_near(expected, (double)a->pressure[i], bound, "pressure of a particle", (long)i);
+            for (int k = 0; k < n; k++) Y[k * 4] = (double)a->pressure[i];
+        } else {
+            dual_extrapolated(stage, i, Y);
+        }
+        dual_multiplier(stage, i, S);
+        for (int k = 0; k < 9; k++) error = fmax(error, 4.0 * UNIT_ROUNDOFF * (fabs(Y[k]) + fabs(S[k])));
+        reference_push(&pushed, &p, Y);
+        bound_scatter(&pushed, bounds, &p, none, Y, (BoundParticle){.D = error});
+    }
+    for (size_t i = 0; i < node_count(&sum); i++)
+        for (int k = 0; k < 3; k++)
+            check_near(pushed.node[i].u[k], sum.node[i].u[k], bound_of_sum(&bounds[i], k), "pressures and stresses in tiles", (long)i);
+    free(bounds);
+    RefGrid *const all[] = {&sizes, &sum, &pushed, &pressure, &old};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
+}
+
+/* ---- Traces to cells ---- */
+
+static const RefGrid *nodes_now; /* what the traces are taken of */
+
+static void trace_of(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
+{
+    double d[3], D[9];
+    (void)stage;
+    (void)row;
+    reference_gather(nodes_now, p, d, D);
+    value[0] = 0.0;
+    for (int k = 0; k < nodes_now->dimension; k++) value[0] += D[k * 4];
+    value[1] = nodes_now->dimension * bound_gather(nodes_now, p).D;
+}
+
+/* Sums of h m tr D; elastic particles take their next step in the same kernel. */
+void cells_check_trace(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    RefGrid nodes = scene_nodes(scene);
+    dual_check_multipliers(stage, scene->kernels->cells_trace, false);
+    RefGrid sizes, sum = scene_scalar_tiles(scene, &sizes);
+    nodes_now = &nodes;
+    CellSum *expected = sum_cells(stage, trace_of, &sum);
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double rounded = (CENTRE_ROUNDINGS + expected[i].terms) * UNIT_ROUNDOFF * expected[i].size[0];
+        check_near(expected[i].value[0], sum.node[i].mass, expected[i].value[1] + rounded + FLUSHED, "trace of a cell", (long)i);
+    }
+    free(expected);
+    reference_grid_free(&nodes);
+    reference_grid_free(&sum);
+    reference_grid_free(&sizes);
+}
+
+/* ---- Proximal step ---- */
+
+/* Sums over the cells of all blocks against what they report. */
+static void check_reports(const DualStage *stage, double change2, double uphill, double error)
+{
+    const World *world = stage->scene.world;
+    double reported[2] = {0};
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) {
+        reported[0] += (double)world->args.cell_change2[block];
+        reported[1] += (double)world->args.cell_uphill[block];
+    }
+    check_near(change2, reported[0], error, "change of cells", 0);
+    check_near(uphill, reported[1], error, "uphill of cells", 0);
+}
+
+void cells_check_update(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    KernelArgs *a = &scene->world->args;
+    const int n = scene->step.dimension;
+    const double momentum = (double)a->momentum, w = (double)a->cell_relaxation;
+    RefGrid sizes, sum = scene_scalar_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cell_mass);
+    RefGrid growth = scene_scalars_of(scene, a->cell_growth), soft = scene_scalars_of(scene, a->cell_softness);
+    RefGrid now = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    scene_run_nodes(scene, scene->kernels->cells_update);
+    RefGrid next = scene_scalars_of(scene, a->cell_pressure), kept = scene_scalars_of(scene, a->cell_pressure_old);
+    double change2 = 0.0, uphill = 0.0, error = 0.0;
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double m = mass.node[i].mass, p = now.node[i].mass, y = p + momentum * (p - old.node[i].mass), s = soft.node[i].mass;
+        const double actual = next.node[i].mass, change = actual - y;
+        check_true(kept.node[i].mass == p, "the pressure before is kept", (long)i);
+        check_true(m > 0.0 || actual == 0.0, "an empty cell has no pressure", (long)i);
+        if (!(m > 1e-30)) continue;
+        const double mean = sum.node[i].mass / m, expected = reference_cell_pressure(n, w, growth.node[i].mass, s, mean, y);
+        const double terms = growth.node[i].mass + 8.0 * sizes.node[i].mass / m + fabs(y) * s;
+        const double y_error = 4.0 * UNIT_ROUNDOFF * (fabs(y) + momentum * (fabs(p) + fabs(old.node[i].mass)));
+        check_near(expected, actual, 8.0 * UNIT_ROUNDOFF * terms / (n / w + s) + y_error + FLUSHED, "pressure of a cell", (long)i);
+        change2 += 0.25 * n * m * change * change;
+        uphill -= 0.25 * n * m * change * (actual - p);
+        const double change_error = y_error + UNIT_ROUNDOFF * fabs(actual), way = fabs(actual - p);
+        error += 0.25 * n * m * (2.0 * fabs(change) + way + change_error) * (change_error + 64.0 * UNIT_ROUNDOFF * (fabs(change) + way));
+    }
+    check_reports(stage, change2, uphill, error + FLUSHED);
+    RefGrid *const all[] = {&sizes, &sum, &mass, &growth, &soft, &now, &old, &next, &kept};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
+}

@@ -1,0 +1,43 @@
+/* The kernels of the dual solver compared with the reference one by one, each on what the kernel before it left. */
+#ifndef PBMPM_TESTS_DUAL_STAGES_H
+#define PBMPM_TESTS_DUAL_STAGES_H
+
+#include "dual_reference.h"
+#include "scene.h"
+
+enum { DUAL_ARRAYS = 23 };
+
+/* A scene bound to arrays of the test's own, filled with what must not be read: NaN. */
+typedef struct DualStage {
+    Scene scene;
+    float *memory[DUAL_ARRAYS];
+    RefGrid base; /* the predictor */
+} DualStage;
+
+/* Opens a scene, sets its particles' pressures [Pa] at random and runs the kernels up to the predictor. */
+DualStage dual_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed);
+void dual_close(DualStage *stage);
+
+/* The multiplier of a particle, and Y = S + momentum (S - S_old). */
+void dual_multiplier(const DualStage *stage, uint32_t row, double S[9]);
+void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9]);
+
+/* Runs a kernel that makes the next multipliers, and compares them, of liquids too if asked, and what blocks report of them. */
+void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids);
+
+/* Pressures on particles. */
+void dual_check_begin(DualStage *stage);
+void dual_check_push(DualStage *stage);
+void dual_check_iterate(DualStage *stage);
+
+/* Pressures in cells. */
+void cells_check_begin(DualStage *stage);
+void cells_check_mean(DualStage *stage);
+void cells_check_push(DualStage *stage);
+void cells_check_trace(DualStage *stage);
+void cells_check_update(DualStage *stage);
+
+/* Node displacements after a push: the predictor and the scatter of all extrapolated multipliers, with nothing kept in between. */
+void dual_check_displacements(DualStage *stage, double momentum);
+
+#endif

@@ -1,0 +1,139 @@
+/* The kernels of the dual solver with pressures in cells: each against the reference, and what their equations promise. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unity.h>
+
+#include "bounds.h"
+#include "check.h"
+#include "dual_stages.h"
+#include "isas.h"
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static SceneSpec liquid_scene(const char *name)
+{
+    SceneSpec spec = {.name = name,
+                      .material = {scene_material(PBMPM_LIQUID), scene_material(PBMPM_LIQUID), scene_material(PBMPM_ELASTIC)},
+                      .materials = 3,
+                      .cells = 60,
+                      .most_per_cell = 12,
+                      .spread = 5,
+                      .speed = 0.4,
+                      .gradient = 0.2,
+                      .ratio_min = 0.6,
+                      .ratio_max = 1.2,
+                      .solver = PBMPM_SOLVER_DUAL};
+    spec.material[1].bulk_modulus = 3e4f;
+    spec.material[1].density = 700.0f;
+    return spec;
+}
+
+typedef void CheckStage(DualStage *stage);
+
+static void each_stage(const SceneSpec *spec, int seeds, CheckStage *check)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            check_subject(spec->name, isa, dimension);
+            for (int seed = 1; seed <= seeds; seed++) {
+                DualStage stage = dual_open(spec, isa, dimension, (uint32_t)seed);
+                check(&stage);
+                dual_close(&stage);
+            }
+        }
+    check_report(spec->name);
+}
+
+/* The momentum of the nodes is in the multipliers already. */
+static void push_nodes(DualStage *stage)
+{
+    const float momentum = stage->scene.world->args.momentum;
+    stage->scene.world->args.momentum = 0.0f;
+    dual_check_push(stage);
+    stage->scene.world->args.momentum = momentum;
+}
+
+static void check_rounds(DualStage *stage)
+{
+    static const float momenta[] = {0.0f, 0.28f, 0.9f};
+    cells_check_begin(stage);
+    cells_check_mean(stage);
+    cells_check_push(stage);
+    push_nodes(stage);
+    for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
+        cells_check_trace(stage);
+        cells_check_update(stage);
+        stage->scene.world->args.momentum = momenta[k];
+        cells_check_push(stage);
+        push_nodes(stage);
+    }
+}
+
+static void test_mixed_materials(void)
+{
+    const SceneSpec spec = liquid_scene("cells: mixed materials");
+    each_stage(&spec, 3, check_rounds);
+}
+
+static void test_single_particles_far_apart(void)
+{
+    SceneSpec spec = liquid_scene("cells: single particles far apart");
+    spec.most_per_cell = 1;
+    spec.spread = 40;
+    each_stage(&spec, 1, check_rounds);
+}
+
+static void test_crowded_cells(void)
+{
+    SceneSpec spec = liquid_scene("cells: crowded cells");
+    spec.most_per_cell = 40;
+    spec.spread = 3;
+    each_stage(&spec, 1, check_rounds);
+}
+
+static void test_all_densities(void)
+{
+    SceneSpec spec = liquid_scene("cells: all densities");
+    spec.ratio_min = 0.05;
+    spec.gradient = 0.8;
+    each_stage(&spec, 2, check_rounds);
+}
+
+/* A few particles in one cell of a block, for all of its cells: each lies between centres of other blocks. */
+static void test_each_cell_of_a_block(void)
+{
+    static const int32_t anchor[3] = {-8, -8, -8};
+    SceneSpec spec = liquid_scene("cells: each cell of a block");
+    spec.cells = 1;
+    spec.most_per_cell = 3;
+    spec.spread = 0;
+    spec.anchor = anchor;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int cell = 0; cell < (dimension == 3 ? 64 : 16); cell++) {
+            spec.centre[0] = -4 + cell % 4;
+            spec.centre[1] = cell / 4 % 4;
+            spec.centre[2] = 4 + cell / 16;
+            EACH_ISA(isa)
+            {
+                check_subject(spec.name, isa, dimension);
+                DualStage stage = dual_open(&spec, isa, dimension, (uint32_t)cell + 1);
+                check_rounds(&stage);
+                dual_close(&stage);
+            }
+        }
+    check_report(spec.name);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_mixed_materials);
+    RUN_TEST(test_single_particles_far_apart);
+    RUN_TEST(test_crowded_cells);
+    RUN_TEST(test_all_densities);
+    RUN_TEST(test_each_cell_of_a_block);
+    return UNITY_END();
+}
