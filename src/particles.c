@@ -8,36 +8,36 @@
 
 enum { ROW_GRAIN = 8192 };
 
-static int class_components(const Particles *p, int class)
+int particles_components(const Particles *p, int class)
 {
     const int d = p->dimension;
     return class == CLASS_VECTOR ? d : class == CLASS_MATRIX ? d * d : 1;
 }
 
-static size_t element_size(int class) { return class == CLASS_ID ? sizeof(pbmpm_particle_id) : 4; }
+size_t particles_element_size(int class) { return class == CLASS_ID ? sizeof(pbmpm_particle_id) : 4; }
 
 static size_t field_bytes(const Particles *p, int class)
 {
-    return (size_t)class_components(p, class) * p->array_bytes * (element_size(class) / 4);
+    return (size_t)particles_components(p, class) * p->array_bytes * (particles_element_size(class) / 4);
 }
 
 /* Points the components of a field into its memory. */
 static void bind_field(const Particles *p, const Field *field)
 {
-    for (int c = 0; c < class_components(p, field->class); c++) *field->component[c] = field->base + (size_t)c * p->array_bytes;
+    for (int c = 0; c < particles_components(p, field->class); c++) *field->component[c] = field->base + (size_t)c * p->array_bytes;
 }
 
 /* `pointers`: the first of the component pointers; those of a matrix stand in rows of three. */
-static bool add_field(Particles *p, Memory *memory, int class, void **pointers)
+static bool add_field(Particles *p, Memory *memory, FieldTag tag, int class, void **pointers)
 {
     Field *field = &p->field[p->field_count];
-    *field = (Field){.base = memory_take(memory, field_bytes(p, class)), .class = class};
+    *field = (Field){.base = memory_take(memory, field_bytes(p, class)), .class = class, .tag = tag};
     if (!field->base) return false;
     if (!p->spare[class] && !(p->spare[class] = memory_take(memory, field_bytes(p, class)))) {
         memory_give(memory, field->base, field_bytes(p, class));
         return false;
     }
-    for (int c = 0; c < class_components(p, class); c++)
+    for (int c = 0; c < particles_components(p, class); c++)
         field->component[c] = pointers + (class == CLASS_MATRIX ? c / p->dimension * 3 + c % p->dimension : c);
     bind_field(p, field);
     p->field_count++;
@@ -46,11 +46,15 @@ static bool add_field(Particles *p, Memory *memory, int class, void **pointers)
 
 static bool add_fields(Particles *p, Memory *memory)
 {
-    return add_field(p, memory, CLASS_VECTOR, (void **)p->cell) && add_field(p, memory, CLASS_VECTOR, (void **)p->fraction) &&
-           add_field(p, memory, CLASS_VECTOR, (void **)p->velocity) && add_field(p, memory, CLASS_MATRIX, (void **)p->affine) &&
-           add_field(p, memory, CLASS_SCALAR, (void **)&p->volume_ratio) && add_field(p, memory, CLASS_SCALAR, (void **)&p->mass) &&
-           add_field(p, memory, CLASS_SCALAR, (void **)&p->material) && add_field(p, memory, CLASS_SCALAR, (void **)&p->status) &&
-           add_field(p, memory, CLASS_ID, (void **)&p->id);
+    return add_field(p, memory, FIELD_CELL, CLASS_VECTOR, (void **)p->cell) &&
+           add_field(p, memory, FIELD_FRACTION, CLASS_VECTOR, (void **)p->fraction) &&
+           add_field(p, memory, FIELD_VELOCITY, CLASS_VECTOR, (void **)p->velocity) &&
+           add_field(p, memory, FIELD_AFFINE, CLASS_MATRIX, (void **)p->affine) &&
+           add_field(p, memory, FIELD_VOLUME_RATIO, CLASS_SCALAR, (void **)&p->volume_ratio) &&
+           add_field(p, memory, FIELD_MASS, CLASS_SCALAR, (void **)&p->mass) &&
+           add_field(p, memory, FIELD_MATERIAL, CLASS_SCALAR, (void **)&p->material) &&
+           add_field(p, memory, FIELD_STATUS, CLASS_SCALAR, (void **)&p->status) &&
+           add_field(p, memory, FIELD_ID, CLASS_ID, (void **)&p->id);
 }
 
 static size_t table_bytes(const Particles *p) { return (size_t)p->capacity * sizeof(uint32_t); }
@@ -84,7 +88,7 @@ void particles_free(Particles *p, Memory *memory)
 pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
 {
     if (p->deformation[0]) return PBMPM_OK;
-    if (!add_field(p, memory, CLASS_MATRIX, (void **)p->deformation))
+    if (!add_field(p, memory, FIELD_DEFORMATION, CLASS_MATRIX, (void **)p->deformation))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the deformation of %u particles", p->capacity);
     for (int r = 0; r < p->dimension; r++)
         for (uint32_t i = 0; i < p->capacity; i++) p->deformation[r * 4][i] = 1.0f;
@@ -93,8 +97,24 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
 
 pbmpm_result particles_enable_pressure(Particles *p, Memory *memory)
 {
-    if (p->pressure || add_field(p, memory, CLASS_SCALAR, (void **)&p->pressure)) return PBMPM_OK;
+    if (p->pressure || add_field(p, memory, FIELD_PRESSURE, CLASS_SCALAR, (void **)&p->pressure)) return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressure of %u particles", p->capacity);
+}
+
+pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag)
+{
+    switch (tag) {
+    case FIELD_DEFORMATION: return particles_enable_deformation(p, memory);
+    case FIELD_PRESSURE: return particles_enable_pressure(p, memory);
+    default: return fail(PBMPM_ERROR_UNSUPPORTED, "particles have no field %d", (int)tag);
+    }
+}
+
+const Field *particles_field(const Particles *p, FieldTag tag)
+{
+    for (int i = 0; i < p->field_count; i++)
+        if (p->field[i].tag == tag) return &p->field[i];
+    return NULL;
 }
 
 /* Sets one coordinate to `cell` + `place`. */
@@ -175,8 +195,8 @@ void particles_compact(Particles *p)
     for (int i = 0; i < p->field_count; i++) {
         const Field *field = &p->field[i];
         if (field->base == (char *)p->status) continue;
-        for (int c = 0; c < class_components(p, field->class); c++)
-            compact_array(p, *field->component[c], element_size(field->class));
+        for (int c = 0; c < particles_components(p, field->class); c++)
+            compact_array(p, *field->component[c], particles_element_size(field->class));
     }
     memset(p->status, 0, (size_t)p->count * sizeof *p->status);
     p->count = kept;
@@ -209,7 +229,7 @@ static void reorder_field(void *context, int32_t begin, int32_t end)
         reorder_8(job->order, (const uint64_t *)(void *)p->id, (uint64_t *)(void *)p->spare[class], begin, end);
         return;
     }
-    for (int c = 0; c < class_components(p, class); c++) {
+    for (int c = 0; c < particles_components(p, class); c++) {
         uint32_t *to = (uint32_t *)(void *)(p->spare[class] + (size_t)c * p->array_bytes);
         reorder_4(job->order, *job->field->component[c], to, begin, end);
     }
@@ -221,8 +241,8 @@ static void pad(const Particles *p)
 {
     for (int i = 0; i < p->field_count; i++) {
         const Field *field = &p->field[i];
-        const size_t size = element_size(field->class);
-        for (int c = 0; c < class_components(p, field->class); c++)
+        const size_t size = particles_element_size(field->class);
+        for (int c = 0; c < particles_components(p, field->class); c++)
             memset((char *)*field->component[c] + p->count * size, 0, K_MAX_GANG * size);
     }
     for (uint32_t i = p->count; i < p->count + K_MAX_GANG; i++) {

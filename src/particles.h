@@ -10,10 +10,26 @@
 /* Sizes of fields, as multiples of one array: each has a spare, into which a field is written in its new order. */
 enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 16, MAX_COMPONENTS = 9 };
 
+/* What a field is. Snapshots name fields by these numbers, so none gets another meaning. */
+typedef enum FieldTag {
+    FIELD_CELL = 1,
+    FIELD_FRACTION = 2,
+    FIELD_VELOCITY = 3,
+    FIELD_AFFINE = 4,
+    FIELD_VOLUME_RATIO = 5,
+    FIELD_MASS = 6,
+    FIELD_MATERIAL = 7,
+    FIELD_STATUS = 8,
+    FIELD_ID = 9,
+    FIELD_DEFORMATION = 10,
+    FIELD_PRESSURE = 11,
+} FieldTag;
+
 /* A quantity of the particles: `components` arrays of equal length in one allocation. */
 typedef struct Field {
     char *base;
     int class;
+    FieldTag tag;
     void **component[MAX_COMPONENTS]; /* the pointers below that point into it */
 } Field;
 
@@ -55,6 +71,16 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory);
 
 /* Makes room for the dual solver's multiplier; does nothing the second time. */
 pbmpm_result particles_enable_pressure(Particles *p, Memory *memory);
+
+/* Makes room for any field that worlds get only when they need it; UNSUPPORTED for another tag. */
+pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag);
+
+/* The field, or null if the particles do not have it. */
+const Field *particles_field(const Particles *p, FieldTag tag);
+
+/* Bytes per particle and component, and components, of a class of fields. */
+size_t particles_element_size(int class);
+int particles_components(const Particles *p, int class);
 
 /* An array of one float per particle and some to pad a gang, free from the end of a reordering to the next: the i-th component of the spare
  * of a class of fields. */
