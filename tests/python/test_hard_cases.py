@@ -1,4 +1,5 @@
-"""The hard cases of the catalogue with each solver, at their own rates and iterations. Scenes, criteria and limits are defined there."""
+"""The hard cases of the catalogue with each solver, at their own rates and iterations. Scenes, criteria and limits are
+defined there."""
 
 from __future__ import annotations
 

@@ -8,8 +8,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from browser import browser, open_page
 
+from browser import browser, open_page
 from pbmpm._library import library_path
 from pbmpm.app.report.accuracy_page import save_accuracy_page
 from pbmpm.app.report.build import compilers
@@ -26,7 +26,12 @@ def line(solver: str, factor: float, errors: list[float]) -> list[Point]:
 
 
 def test_front_keeps_what_nothing_beats() -> None:
-    points = [Point("a", "dear", 9, 0.1), Point("a", "cheap", 1, 0.5), Point("b", "beaten", 2, 0.6), Point("b", "ok", 3, 0.2)]
+    points = [
+        Point("a", "dear", 9, 0.1),
+        Point("a", "cheap", 1, 0.5),
+        Point("b", "beaten", 2, 0.6),
+        Point("b", "ok", 3, 0.2),
+    ]
     assert [point.setting for point in front_of(points)] == ["cheap", "ok", "dear"]
 
 
@@ -122,7 +127,15 @@ def test_levels_are_round_and_few() -> None:
     assert round_levels([]) == []
 
 
-MACHINE = {"cpu": "a <cpu>", "cores": 2, "isa": "AVX2", "threads": 1, "system": "Linux", "python": "3", "date": "2026-01-01"}
+MACHINE = {
+    "cpu": "a <cpu>",
+    "cores": 2,
+    "isa": "AVX2",
+    "threads": 1,
+    "system": "Linux",
+    "python": "3",
+    "date": "2026-01-01",
+}
 
 
 def row(case: str, solver: str, cost: float | None, error: float | None, stable: bool = True) -> dict[str, Any]:

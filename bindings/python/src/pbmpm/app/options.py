@@ -97,11 +97,17 @@ class NameList(click.ParamType):
 def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
     """The options that say how the equations are solved; None where the scene decides."""
     options = (
-        click.option("--solver", type=choice_of(SolverName), help="How the equations are solved.  [default: the scene's]"),
-        click.option("--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."),
+        click.option(
+            "--solver", type=choice_of(SolverName), help="How the equations are solved.  [default: the scene's]"
+        ),
+        click.option(
+            "--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."
+        ),
         click.option("--integrator", type=choice_of(IntegratorName), help="Primal solver: order in time."),
         click.option("--flip", type=click.FloatRange(0, 1), help="Share of the finest motion that liquids keep."),
-        click.option("--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."),
+        click.option(
+            "--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."
+        ),
         click.option(
             "--time-budget-ms",
             type=click.FloatRange(0, 1e6),

@@ -142,11 +142,13 @@ SEEDINGS: dict[str, Callable[[int, int], np.ndarray]] = {  # from dimension and 
     "one particle": lambda d, _: np.full((1, d), 0.77),
     "two at one point": lambda d, _: np.full((2, d), 0.77),
     "10000 in one cell": lambda d, seed: 0.71 + CELL * np.random.default_rng(seed).random((10_000, d)),
-    "one per 8 cells": lambda d, _: (
-        np.stack(np.meshgrid(*[np.arange(0.1, BOX, 2.0 * CELL)] * d), axis=-1).reshape(-1, d)
+    "one per 8 cells": lambda d, _: np.stack(np.meshgrid(*[np.arange(0.1, BOX, 2.0 * CELL)] * d), axis=-1).reshape(
+        -1, d
     ),
     "on nodes": lambda d, _: np.stack(np.meshgrid(*[np.arange(4, 9) * CELL] * d), axis=-1).reshape(-1, d),
-    "on the domain's edge": lambda d, _: np.array([[0.0] * d, [BOX] * d, vector(d, 0.0, BOX, 0.0), vector(d, BOX, 0.5)]),
+    "on the domain's edge": lambda d, _: np.array(
+        [[0.0] * d, [BOX] * d, vector(d, 0.0, BOX, 0.0), vector(d, BOX, 0.5)]
+    ),
 }
 SEEDING_SECONDS = 2.0
 

@@ -57,9 +57,7 @@ class Setting:
         return pbmpm.Liquid(**changes)
 
     def __str__(self) -> str:
-        return (
-            f"{self.variant}, {self.solver}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
-        )
+        return f"{self.variant}, {self.solver}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
 
 
 def sound_modulus(cell_size: float) -> float:

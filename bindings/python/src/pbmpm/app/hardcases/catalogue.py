@@ -6,7 +6,10 @@ from . import bad_input, energy, impact, rate, strain, volume
 from .case import HardCase
 
 CASES: tuple[HardCase, ...] = tuple(
-    sorted((*volume.CASES, *strain.CASES, *energy.CASES, *bad_input.CASES, *impact.CASES, *rate.CASES), key=lambda case: case.id)
+    sorted(
+        (*volume.CASES, *strain.CASES, *energy.CASES, *bad_input.CASES, *impact.CASES, *rate.CASES),
+        key=lambda case: case.id,
+    )
 )
 
 

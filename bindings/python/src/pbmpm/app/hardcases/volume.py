@@ -160,7 +160,9 @@ def collapse(setting: Setting) -> list[Check]:
     d, place = setting.dimension, COLLAPSED_OFF_NODE
     with make_world(setting, COLLAPSED_CELL) as world:
         half = [0.5 * COLLAPSED_CELLS * COLLAPSED_CELL] * d
-        world.fill(pbmpm.Box([place] * d, half), world.add_material(setting.parameters(COLLAPSED_CELL)), seed=setting.seed)
+        world.fill(
+            pbmpm.Box([place] * d, half), world.add_material(setting.parameters(COLLAPSED_CELL)), seed=setting.seed
+        )
         positions = world.positions.copy()
         if setting.variant == "one cell":
             positions[:] = place + COLLAPSED_CELL * np.random.default_rng(setting.seed).random(positions.shape)

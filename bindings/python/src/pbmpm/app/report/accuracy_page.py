@@ -59,7 +59,14 @@ def _section(case: CaseRows, verdict: Verdict, options: str) -> dict[str, Any]:
         "front": [
             (point.setting, words.cost_text(point.cost), words.error_text(point.error, unit)) for point in verdict.front
         ],
-        "headings": ["setting", "ms per simulated second", "iterations used", *_error_headings(case), "stable", "command"],
+        "headings": [
+            "setting",
+            "ms per simulated second",
+            "iterations used",
+            *_error_headings(case),
+            "stable",
+            "command",
+        ],
         "rows": [_row(case, row) for row in case.rows],
         "failed_count": len(case.failed),
         "measures": [_measure_text(measure) for measure in case.facts["errors"]],
@@ -94,7 +101,9 @@ def _row(case: CaseRows, row: dict[str, Any]) -> dict[str, Any]:
 
 
 def _measure_text(measure: dict[str, Any]) -> str:
-    good = f"; called good: {words.error_text(measure['tolerance'], measure['unit'])}" if measure.get("tolerance") else ""
+    good = (
+        f"; called good: {words.error_text(measure['tolerance'], measure['unit'])}" if measure.get("tolerance") else ""
+    )
     return f"{measure['name'].replace('_', ' ')} ({measure['kind']} error): {measure['meaning']}{good}"
 
 
@@ -103,7 +112,9 @@ def _left_out(case: CaseRows) -> list[str]:
     lines = [case.facts["notes"]] if case.facts["notes"] else []
     without = [row for row in case.rows if row["error"] is None or row["ms_per_simulated_second"] is None]
     if without:
-        lines.append(f"{len(without)} settings broke before an error could be measured: crosses at the chart's upper edge.")
+        lines.append(
+            f"{len(without)} settings broke before an error could be measured: crosses at the chart's upper edge."
+        )
     missing = [solver for solver in ("paper", "dual", "primal", "explicit") if solver not in case.solvers]
     if missing:
         lines.append(f"Not in this sweep: {', '.join(missing)}.")

@@ -47,7 +47,13 @@ def accuracy_figure(case: CaseRows, verdict: Verdict) -> go.Figure:
     return figure
 
 
-_AXIS = {"dtick": "D2", "showline": True, "linecolor": "#888888", "ticks": "outside", "minor": {"ticks": "outside", "showgrid": True}}
+_AXIS = {
+    "dtick": "D2",
+    "showline": True,
+    "linecolor": "#888888",
+    "ticks": "outside",
+    "minor": {"ticks": "outside", "showgrid": True},
+}
 
 
 def _title(measure: dict[str, Any]) -> str:

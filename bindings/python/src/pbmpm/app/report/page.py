@@ -16,7 +16,11 @@ from .build import compilers
 def save_page(template: str, path: Path, report: dict[str, Any], **values: Any) -> None:
     """Renders a template with what every report says about its making; complete or not at all."""
     environment = Environment(
-        loader=PackageLoader(__package__), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=PackageLoader(__package__),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
     text = environment.get_template(template).render(
         machine=report["machine"], versions=report["versions"], compilers=compilers(library_path()), **values

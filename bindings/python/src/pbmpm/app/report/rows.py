@@ -64,7 +64,9 @@ def setting_of(row: dict[str, Any]) -> str:
     """A row's setting for people."""
     substeps = f" x {row['substeps']} substeps" if row.get("substeps", 1) > 1 else ""
     iterations = "" if row["solver"] == "explicit" else f" x {row['iterations']} iterations"
-    return f"{row.get('variant', row['solver'])}, {row['rate_hz']:g} Hz{substeps}{iterations}, cell {row['cell_m']:.4g} m"
+    return (
+        f"{row.get('variant', row['solver'])}, {row['rate_hz']:g} Hz{substeps}{iterations}, cell {row['cell_m']:.4g} m"
+    )
 
 
 def cases_of(report: dict[str, Any]) -> list[CaseRows]:

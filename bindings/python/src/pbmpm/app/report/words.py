@@ -7,7 +7,14 @@ from collections.abc import Sequence
 from .rows import CaseRows
 from .verdict import ACCELERATED, NOT_REACHED, WANTED, Comparison, Verdict
 
-HEADINGS = ("case", "error", "best accelerated", *(f"cheaper than {other}" for other in WANTED), "on the front", "verdict")
+HEADINGS = (
+    "case",
+    "error",
+    "best accelerated",
+    *(f"cheaper than {other}" for other in WANTED),
+    "on the front",
+    "verdict",
+)
 
 
 def error_text(value: float | None, unit: str) -> str:
@@ -94,4 +101,6 @@ def counted(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
     """How many cases are passed, and what that means."""
     passed = sum(verdict.passed for _, verdict in verdicts)
     wanted = " and ".join(f"{factor:g} times cheaper than the {other} solver" for other, factor in WANTED.items())
-    return f"{passed} of {len(verdicts)} cases: accelerated solvers alone on the front, and {wanted} or not reached by it."
+    return (
+        f"{passed} of {len(verdicts)} cases: accelerated solvers alone on the front, and {wanted} or not reached by it."
+    )

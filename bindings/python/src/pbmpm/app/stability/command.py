@@ -11,7 +11,7 @@ from typing import Any, get_args
 import click
 
 from ..names import SolverName
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, emit_json
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, emit_json, own_command
 
 _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # that is one of the others
 
@@ -31,7 +31,12 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write the map as a page.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def stability(
-    cases: tuple[str, ...], json_target: str | None, html: Path | None, show_all: bool, processes: int | None, **options: Any
+    cases: tuple[str, ...],
+    json_target: str | None,
+    html: Path | None,
+    show_all: bool,
+    processes: int | None,
+    **options: Any,
 ) -> None:
     """Run the hard CASEs (H01, H03, ...; default: all) and print what passes and what does not.
 
@@ -55,7 +60,7 @@ def stability(
     if html is not None:
         from ..report.stability_page import save_stability_page
 
-        save_stability_page(report, outcomes, html)
+        save_stability_page(report, outcomes, own_command(), html)
     if json_target != "-":
         click.echo(map_text(outcomes))
         figures = cells_text(outcomes, show_all)
@@ -67,8 +72,8 @@ def stability(
 
 
 def _selection(cases: tuple[str, ...], options: dict[str, Any]) -> Any:
-    from .plan import DIMENSIONS, ITERATIONS, MATERIALS, RATES, Selection, cases_named
     from ..hardcases import SOLVERS
+    from .plan import DIMENSIONS, ITERATIONS, MATERIALS, RATES, Selection, cases_named
 
     # The quick form leaves rates and iterations to the cases, unless they are asked for.
     rates, iterations = (None, None) if options["quick"] else (RATES, ITERATIONS)

@@ -68,10 +68,12 @@ class Cell:
 
     @property
     def mark(self) -> str:
-        """One character: passed, failed, or failed for a known reason."""
+        """One character: passed (.), failed (x), failed for a known reason (k), the explicit solver failed (e)."""
         if not self.failed:
             return "."
-        return "x" if any(not outcome.known_failure for outcome in self.failed) else "k"
+        if any(map(counts, self.failed)):
+            return "x"
+        return "k" if self.telling.known_failure else "e"
 
 
 Line = dict[tuple[float, int], Cell]

@@ -8,7 +8,10 @@ from ..hardcases import SOLVERS, Outcome, find_case
 from .plan import Run
 from .result import Cell, Line, LineKey, counts, lines_of
 
-LEGEND = "Marks: . passed in all variants, x failed, k failed for a known reason; in each group one mark per iteration count."
+LEGEND = (
+    "Marks: . passed in all variants, x failed, k failed for a known reason, e the explicit solver failed (it is there to be"
+    " compared with); in each group one mark per iteration count."
+)
 
 
 def map_text(outcomes: Sequence[Outcome]) -> str:

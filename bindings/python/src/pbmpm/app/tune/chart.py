@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from pathlib import Path
 from typing import Any
@@ -44,8 +45,12 @@ def save_chart(tuning: Tuning, machine: dict[str, Any], path: Path) -> None:
     _draw_front(axes, tuning.front())
     axes.axvline(tuning.plan.budget_ms, color="#b03a48", linestyle=":", label=f"budget: {tuning.plan.budget_ms:g} ms")
     if tuning.reference.floor > 0:
-        axes.axhline(tuning.reference.floor, color="#777777", linestyle="--", linewidth=0.8, label="accuracy of the reference")
-    axes.set(xscale="log", yscale="log", xlabel=f"wall ms per frame, {_percentile_name(tuning)}", ylabel=error_title(tuning))
+        axes.axhline(
+            tuning.reference.floor, color="#777777", linestyle="--", linewidth=0.8, label="accuracy of the reference"
+        )
+    axes.set(
+        xscale="log", yscale="log", xlabel=f"wall ms per frame, {_percentile_name(tuning)}", ylabel=error_title(tuning)
+    )
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axes.margins(x=0.12)
@@ -67,7 +72,7 @@ def _draw_settings(axes: Axes, results: list[Result]) -> None:
     groups: dict[str, list[Result]] = {}
     for result in results:
         groups.setdefault(result.settings.solver_text(), []).append(result)
-    for marker, (name, members) in zip(_MARKERS, groups.items()):
+    for marker, (name, members) in zip(itertools.cycle(_MARKERS), groups.items(), strict=False):
         colour = _COLOURS[members[0].settings.solver]
         for usable, shape in ((True, marker), (False, "x")):
             own = [result for result in members if result.usable is usable]
@@ -116,5 +121,5 @@ def _line(row: list[str], widths: list[int]) -> str:
     """Words to the left, figures to the right."""
     star, setting, *figures, remark = row
     cells = [star.rjust(widths[0]), setting.ljust(widths[1])]
-    cells += [figure.rjust(width) for figure, width in zip(figures, widths[2:])]
+    cells += [figure.rjust(width) for figure, width in zip(figures, widths[2:-1], strict=True)]
     return "  ".join([*cells, remark]).rstrip()

@@ -16,12 +16,21 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
 @click.command()
 @click.argument("scene_file", metavar="SCENE", type=click.Path(path_type=Path))
 @click.option(
-    "--budget-ms", type=click.FloatRange(0, 1e6, min_open=True), required=True, help="Wall time that a frame may take [ms]."
+    "--budget-ms",
+    type=click.FloatRange(0, 1e6, min_open=True),
+    required=True,
+    help="Wall time that a frame may take [ms].",
 )
 @click.option(
-    "--frame-rate", type=click.FloatRange(0.1, 1e4), default=60.0, show_default=True, help="Frames per simulated second."
+    "--frame-rate",
+    type=click.FloatRange(0.1, 1e4),
+    default=60.0,
+    show_default=True,
+    help="Frames per simulated second.",
 )
-@click.option("--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]")
+@click.option(
+    "--seconds", type=click.FloatRange(0, 1e6, min_open=True), help="Simulated time [s].  [default: the scene's]"
+)
 @click.option(
     "--fit",
     type=click.Choice(list(_PERCENTILES)),
@@ -29,11 +38,17 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
     show_default=True,
     help="Frame time that has to keep the budget: the median, or what 99 of 100 frames keep.",
 )
-@click.option("--reference-substeps", type=click.IntRange(2, 256), default=16, show_default=True, help="Of the reference.")
-@click.option("--reference-iterations", type=click.IntRange(1, 1000), default=100, show_default=True, help="Of the reference.")
+@click.option(
+    "--reference-substeps", type=click.IntRange(2, 256), default=16, show_default=True, help="Of the reference."
+)
+@click.option(
+    "--reference-iterations", type=click.IntRange(1, 1000), default=100, show_default=True, help="Of the reference."
+)
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @click.option(
-    "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for presets and chart.  [default: NAME-tune]"
+    "--output",
+    type=click.Path(path_type=Path, file_okay=False),
+    help="Folder for presets and chart.  [default: NAME-tune]",
 )
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def tune(scene_file: Path, output: Path | None, json_target: str | None, **options: Any) -> None:
@@ -50,7 +65,8 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     from .chart import save_chart
     from .presets import presets, save_presets
     from .report import report_of, text_of
-    from .sweep import Plan, tune as sweep
+    from .sweep import Plan
+    from .sweep import tune as sweep
 
     scene = load_scene(scene_file)
     plan = Plan(
@@ -68,7 +84,9 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     folder = output or Path(f"{scene.name}-tune")
     paths = save_presets(made, folder)
     save_chart(tuning, report["machine"], folder / "chart.png")
-    emit_json({**report, "presets": {level: preset.model_dump(mode="json") for level, preset in made.items()}}, json_target)
+    emit_json(
+        {**report, "presets": {level: preset.model_dump(mode="json") for level, preset in made.items()}}, json_target
+    )
     if json_target != "-":
         click.echo(text_of(tuning, made, paths))
         click.echo(f"chart: {folder / 'chart.png'}")

@@ -22,9 +22,7 @@ def presets(tuning: Tuning, machine: dict[str, Any]) -> dict[str, Preset]:
         if best is not None:
             made[level] = _preset(tuning, level, best.settings, best.error, best.ms_median, best.ms_p99, machine)
     reference, floor = tuning.reference.observation, tuning.reference.floor
-    made[REFERENCE] = _preset(
-        tuning, REFERENCE, reference.settings, floor, reference.ms(50), reference.ms(99), machine
-    )
+    made[REFERENCE] = _preset(tuning, REFERENCE, reference.settings, floor, reference.ms(50), reference.ms(99), machine)
     return made
 
 

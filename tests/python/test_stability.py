@@ -1,0 +1,249 @@
+"""The stability map: what it runs, what it says, and the command. The cases themselves are tested in test_hard_cases.py."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from browser import browser, open_page
+from pbmpm.app.errors import InputError
+from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Outcome, Setting, find_case
+from pbmpm.app.report.stability_page import save_stability_page
+from pbmpm.app.stability import sweep as sweeping
+from pbmpm.app.stability.plan import ITERATIONS, RATES, Run, Selection, cases_named, plan
+from pbmpm.app.stability.result import counts, lines_of, row_of
+from pbmpm.app.stability.sweep import run_one, sweep
+from pbmpm.app.stability.table import cells_text, map_text, summary
+
+ROW_KEYS = {"case", "solver", "material", "dims", "rate_hz", "iterations", "passed", "figure", "limit", "seconds"}
+
+
+def test_the_full_form_runs_everything() -> None:
+    runs = plan(Selection())
+    assert len(runs) == len(set(runs))
+    assert {(run.setting.rate_hz, run.setting.iterations) for run in runs} == {
+        (r, n) for r in RATES for n in ITERATIONS
+    }
+    for solver in SOLVERS:
+        settings = sum(len(list(case.settings(solver=solver))) for case in CASES)
+        places = len(RATES) * (1 if solver == "explicit" else len(ITERATIONS))
+        assert sum(run.setting.solver == solver for run in runs) == settings * places
+
+
+def test_the_quick_form_runs_each_case_at_its_own_setting() -> None:
+    """The same settings as the tests of the catalogue."""
+    runs = plan(Selection(rates=None, iterations=None, solvers=("paper", "dual")))
+    expected = {
+        (case.id, setting) for case in CASES for solver in ("paper", "dual") for setting in case.settings(solver=solver)
+    }
+    assert {(run.case, run.setting) for run in runs} == expected
+
+
+def test_a_selection_narrows() -> None:
+    case = find_case("H04")
+    selection = Selection(
+        cases=(case,), rates=(30.0,), iterations=(2,), solvers=("dual",), dimensions=(2,), variant="line", seed=7
+    )
+    assert [run.setting for run in plan(selection)] == [Setting("liquid", 2, "line", 30.0, 2, solver="dual", seed=7)]
+
+
+@pytest.mark.parametrize(
+    ("selection", "message"),
+    [
+        (Selection(cases=(find_case("H03"),), materials=("elastic",)), "none of these cases"),
+        (
+            Selection(cases=(find_case("H04"),), variant="nonsense"),
+            "no variant 'nonsense'; there are: line, one cell, point",
+        ),
+    ],
+)
+def test_an_empty_selection_says_why(selection: Selection, message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        plan(selection)
+
+
+def test_cases_are_named_in_any_order_and_spelling() -> None:
+    assert [case.id for case in cases_named(["h08", "H03", "H08"])] == ["H03", "H08"]
+    assert cases_named([]) == CASES
+    with pytest.raises(InputError, match="H99"):
+        cases_named(["H99"])
+
+
+def outcome(
+    passed: bool, *, solver: str = "dual", known: str = "", rate: float = 60.0, variant: str = "point"
+) -> Outcome:
+    setting = Setting("liquid", 2, variant, rate, 5, solver=solver)
+    return Outcome("H04", setting, (Check("volume", 1.0 if passed else 0.3, 0.9, at_least=True),), 0.5, known)
+
+
+def test_which_failures_count() -> None:
+    assert counts(outcome(False))
+    assert not any(map(counts, [outcome(True), outcome(False, known="why"), outcome(False, solver="explicit")]))
+
+
+def test_map_shows_failures_and_how_to_replay_them() -> None:
+    outcomes = [
+        outcome(True),
+        outcome(False, variant="line"),
+        outcome(True, rate=120.0),
+        outcome(False, solver="paper", known="because"),
+        outcome(False, solver="explicit"),
+    ]
+    text = map_text(outcomes)
+    assert re.search(r"^    dual liquid 2D +x +\. *$", text, re.M)
+    assert re.search(r"^    paper liquid 2D +k *$", text, re.M)
+    assert re.search(r"^    explicit liquid 2D +e *$", text, re.M)
+    figures = cells_text(outcomes, passed_too=False)
+    assert "'line' [1 of 2 variants]\n      volume: 0.3 (FAILED, limit >= 0.9)" in figures
+    assert "--solvers dual --materials liquid --dims 2 --rates 60 --iterations 5 --variant 'line' --seed 1" in figures
+    assert "known: because" in figures and "120 Hz" not in figures
+    assert "120 Hz" in cells_text(outcomes, passed_too=True)
+    assert "dual: 2 of 3 runs passed; 1 failed\n" in summary(outcomes)
+    assert summary(outcomes).endswith("1 failure that should not be")
+
+
+def test_a_cell_is_decided_by_the_failure_that_counts() -> None:
+    cells = lines_of([outcome(True), outcome(False, known="why"), outcome(False, variant="line")], SOLVERS)
+    (cell,) = next(iter(cells.values())).values()
+    assert cell.telling.setting.variant == "line" and cell.mark == "x"
+
+
+def test_row_has_the_promised_keys_and_its_command_gives_the_same_run() -> None:
+    row = row_of(outcome(False))
+    assert set(row) >= ROW_KEYS
+    assert (row["passed"], row["figure"], row["limit"]) == (False, 0.3, 0.9)
+    assert row["command"] == Run("H04", outcome(False).setting).command
+
+
+def test_sweep_keeps_the_order_of_the_runs_with_one_process_and_with_two() -> None:
+    runs = plan(
+        Selection(cases=(find_case("H10"),), rates=(60.0,), iterations=(1,), solvers=("paper",), dimensions=(2,))
+    )
+    alone, together = sweep(runs, 1), sweep(runs, 2)
+    assert [item.setting for item in alone] == [item.setting for item in together] == [run.setting for run in runs]
+    assert [item.figure for item in alone] == [item.figure for item in together]
+
+
+def test_an_error_of_the_library_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
+    import pbmpm
+
+    def refuse(_: Setting) -> list[Check]:
+        raise pbmpm.OutOfMemoryError("no room")
+
+    broken = HardCase("H04", "title", "origin", "criterion", refuse, variants=("point",))
+    monkeypatch.setattr(sweeping, "find_case", lambda _: broken)
+    result = run_one(Run("H04", Setting("liquid", 2, "point", 60.0, 5)))
+    assert not result.passed and "OutOfMemoryError: no room" in result.telling.name
+
+
+def test_a_process_that_dies_is_a_failure_and_takes_nothing_with_it(tmp_path: Path) -> None:
+    """Runs in a script of its own: its cases must be found by processes that are started anew."""
+    script = tmp_path / "dying.py"
+    script.write_text(
+        "import os\n"
+        "from pbmpm.app.hardcases import Setting\n"
+        "from pbmpm.app.stability import sweep\n"
+        "from pbmpm.app.stability.plan import Run\n"
+        "original = sweep.run_one\n"
+        "def run_one(run):\n"
+        "    if run.setting.variant == 'line':\n"
+        "        os._exit(9)\n"
+        "    return original(run)\n"
+        "sweep.run_one = run_one\n"
+        "if __name__ == '__main__':\n"
+        "    runs = [Run('H04', Setting('liquid', 2, v, 60.0, 5)) for v in ('point', 'line', 'one cell')]\n"
+        "    for outcome in sweep.sweep(runs, 2):\n"
+        "        print(outcome.setting.variant, outcome.passed, outcome.telling.name)\n",
+        encoding="utf-8",
+    )
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=300, check=False)
+    lines = done.stdout.splitlines()
+    assert lines[1] == "line False the process died", done.stderr
+    assert lines[0].startswith("point True") and lines[2].startswith("one cell True")
+
+
+def command(*options: str, **more: Any) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "pbmpm.app", "stability", *options],
+        capture_output=True,
+        text=True,
+        timeout=600,
+        check=False,
+        **more,
+    )
+
+
+def test_command_passes_where_all_is_well_and_writes_json(tmp_path: Path) -> None:
+    options = [
+        "H04",
+        "--solvers",
+        "paper",
+        "--dims",
+        "2",
+        "--rates",
+        "60,120",
+        "--iterations",
+        "5",
+        "--json",
+        "map.json",
+    ]
+    done = command(*options, cwd=tmp_path)
+    assert done.returncode == 0, done.stdout
+    assert done.stderr == ""
+    rows = json.loads((tmp_path / "map.json").read_text())["rows"]
+    assert [(row["rate_hz"], row["variant"]) for row in rows] == [
+        (rate, variant) for rate in (60, 120) for variant in ("point", "line", "one cell")
+    ]
+    assert all(row["passed"] for row in rows)
+
+
+def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figure() -> None:
+    """A press at 15 Hz with one iteration cannot bring the volume back in time."""
+    done = command("H03", "--solvers", "paper", "--dims", "2", "--rates", "15", "--iterations", "1")
+    assert done.returncode == 1
+    assert "share of particles with J in [0.8, 1.2]" in done.stdout
+    replay = next(line.strip() for line in done.stdout.splitlines() if line.strip().startswith("pbmpm stability"))
+    again = command(*shlex.split(replay)[2:])
+    figure = re.compile(r"share of particles[^(]*")
+    assert figure.findall(again.stdout) == figure.findall(done.stdout)
+
+
+def test_the_explicit_solver_may_fail() -> None:
+    done = command("H04", "--solvers", "explicit", "--dims", "2", "--rates", "15", "--variant", "point")
+    assert done.returncode == 0
+    assert re.search(r"explicit liquid 2D +e", done.stdout)
+
+
+@pytest.mark.parametrize(
+    "options", [["H99"], ["--solvers", "magic"], ["--rates", "0"], ["H03", "--materials", "elastic"]]
+)
+def test_bad_usage(options: list[str]) -> None:
+    assert command(*options).returncode == 2
+
+
+@pytest.mark.skipif(browser() is None, reason="no browser")
+def test_page_opens_and_shows_the_map(tmp_path: Path) -> None:
+    outcomes = [outcome(True), outcome(False, variant="line"), outcome(False, solver="explicit")]
+    machine = {
+        "cpu": "c",
+        "cores": os.cpu_count(),
+        "isa": "AVX2",
+        "threads": 1,
+        "system": "s",
+        "python": "3",
+        "date": "d",
+    }
+    report = {"machine": machine, "versions": {"pbmpm": "1"}}
+    save_stability_page(report, outcomes, "pbmpm stability", tmp_path / "map.html")
+    document, messages = open_page(tmp_path / "map.html", tmp_path / "map.png")
+    assert messages == []
+    assert document.count('<td class="failed"') == 1 and document.count('<td class="expected"') == 1
+    assert "limit &gt;= 0.9" in document or "limit >= 0.9" in document
