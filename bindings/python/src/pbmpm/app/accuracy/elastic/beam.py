@@ -48,19 +48,25 @@ class Cantilever:
         elastica = references.elastica_tip(self.beam.self_weight_load(self.gravity)) * self.beam.length
         return elastica + self.beam.shear_deflection(self.gravity)
 
+    def build(self, settings: RunSettings) -> tuple[Stage, np.ndarray, np.ndarray]:
+        """The beam before its first step, the identifiers of its particles and where they are."""
+        solid, dimension = self.beam.solid, self.beam.solid.dimension
+        size = np.array([self.beam.length] + [self.beam.height] * (dimension - 1))
+        points = lattice([0.0] * dimension, size, self.cell_size, self.particles_per_axis)
+        down = [0.0, -self.gravity, 0.0][:dimension]
+        stage = Stage(solid, self.cell_size, settings, len(points), down, self.model)
+        ids = stage.add_body(points, float(np.prod(size)))
+        stage.clamp(axis=0, face=0.0, side=1)
+        return stage, ids, points
+
     def let_go(self, settings: RunSettings, seconds: float, calm: bool = False) -> Record:
         """Runs for ``seconds``; the observed values are the displacements of the tip, along and up [m].
 
         The tip is extrapolated from the particles of the last two cells, so its place is that of the end of the axis.
         ``calm`` brings the beam to rest where it would hang.
         """
-        solid, dimension = self.beam.solid, self.beam.solid.dimension
-        size = np.array([self.beam.length] + [self.beam.height] * (dimension - 1))
-        points = lattice([0.0] * dimension, size, self.cell_size, self.particles_per_axis)
-        down = [0.0, -self.gravity, 0.0][:dimension]
-        with Stage(solid, self.cell_size, settings, len(points), down, self.model) as stage:
-            ids = stage.add_body(points, float(np.prod(size)))
-            stage.clamp(axis=0, face=0.0, side=1)
+        stage, ids, points = self.build(settings)
+        with stage:
             last = ids[points[:, 0] > self.beam.length - self.cell_size]
             before = ids[np.abs(points[:, 0] - self.beam.length + 1.5 * self.cell_size) < 0.5 * self.cell_size]
             calmer = Calmer(stage, ids)

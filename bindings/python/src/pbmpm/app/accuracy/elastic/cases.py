@@ -8,6 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
+import pbmpm
+
+from ...simulation import RunSettings
 from ..case import Case, ErrorMeasure, Measurement, Setting, settings_of
 from . import strain
 from .bar import CLASSIC_BAR, STIFF_BAR, Bar
@@ -16,6 +19,7 @@ from .block import Block
 from .discs import TwoDiscs
 from .floating import FloatingBlock
 from .invariance import Invariance
+from .prediction import EXACT_ITERATIONS, FACTOR, ROUNDING, Bodies, compare
 from .signal import Swing
 from .spin import SpinningDisc
 from .theory import Integrator, Solid, discrete_frequency, rotation_kept
@@ -229,6 +233,51 @@ class Cantilever3DCase(CantileverCase):
 
     def explicit_rates(self, quick: bool) -> list[float]:
         return [] if quick else super().explicit_rates(True)
+
+
+class PredictionCase(CantileverCase):
+    """Whether the predicted error of a step is its true one."""
+
+    name = "predicted-error-cantilever"
+    title = "Predicted and true error of the steps of a cantilever"
+    kind = "elastic"
+    cells = (8,)
+    iterations = (2, 5, 10, 20)
+    variants = ("dual", "primal")
+    steps = 60
+    error_kinds = (
+        ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
+        ErrorMeasure("true error", "solver", "cells", "median of the steps: distance from the same step solved to the end"),
+    )
+    notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.truth = f"the same step from the same state with {EXACT_ITERATIONS} iterations"
+
+    def explicit_rates(self, quick: bool) -> list[float]:
+        return []
+
+    def converged(self, setting: Setting) -> Setting | None:
+        return None
+
+    def measure(self, setting: Setting) -> Measurement:
+        cantilever = replace(self.cantilever, cells=setting.cells)
+
+        def make(settings: RunSettings) -> tuple[pbmpm.World, Bodies]:
+            stage, ids, _ = cantilever.build(settings)
+            return stage.world, [(stage.material, ids)]
+
+        found = compare(make, setting.run_settings(), self.steps)
+        wrong = None if found.share is None else 1.0 - found.share
+        return Measurement(
+            errors={"wrong": wrong, "true error": float(np.median(found.true))},
+            ms_per_simulated_second=found.ms_per_simulated_second,
+            iterations_used=found.iterations_used,
+            predicted_error=float(found.predicted.mean()),
+            stable=True,
+            extra={"median_ratio": found.median_ratio, "steps": self.steps},
+        )
 
 
 class TurekHronCase(ElasticCase):
@@ -541,6 +590,7 @@ ELASTIC_CASES = (
     CantileverCase,
     LargeCantileverCase,
     Cantilever3DCase,
+    PredictionCase,
     TurekHronCase,
     BlockCase,
     NeoHookeanBlockCase,

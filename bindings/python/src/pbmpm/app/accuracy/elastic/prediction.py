@@ -7,6 +7,7 @@ is the true error of the solution of that step, which the first has predicted.
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -18,6 +19,9 @@ from ...simulation import RunSettings
 
 FACTOR = 3.0
 """Prediction and truth agree when neither is more than this many times the other."""
+
+EXACT_ITERATIONS = 1000
+"""How the true solution of a step is found."""
 
 ROUNDING = 2e-6
 """Errors below this [cells] are not judged: positions are rounded to about 1e-7 of a cell and sums of displacements to
@@ -36,7 +40,8 @@ class Agreement:
 
     predicted: np.ndarray
     true: np.ndarray
-    settings: RunSettings
+    ms_per_simulated_second: float
+    iterations_used: float  #: per step, mean
 
     @property
     def share(self) -> float | None:
@@ -53,27 +58,30 @@ class Agreement:
         return float(np.median(self.predicted / np.maximum(self.true, 1e-12)))
 
 
-def compare(make: Make, settings: RunSettings, steps: int, reference: RunSettings | None = None) -> Agreement:
-    """Runs both worlds; ``reference`` is how truth is found, by default 40 times the iterations, at least 400."""
-    exact = reference or replace(settings, iterations=min(1000, max(400, 40 * settings.iterations)), target_error=0.0)
+def compare(make: Make, settings: RunSettings, steps: int, exact_iterations: int = EXACT_ITERATIONS) -> Agreement:
+    """Runs both worlds; the second one does ``exact_iterations``."""
     world, bodies = make(settings)
     with world:
-        other, other_bodies = make(exact)
+        other, other_bodies = make(replace(settings, iterations=exact_iterations, target_error=0.0))
         with other:
-            pairs = [_step_both(world, bodies, other, other_bodies, settings.dt) for _ in range(steps)]
-    predicted, true = np.array(pairs).T
-    return Agreement(predicted, true, settings)
+            rows = [_step_both(world, bodies, other, other_bodies, settings.dt) for _ in range(steps)]
+    predicted, true, seconds, used = np.array(rows).T
+    return Agreement(predicted, true, 1e3 * float(seconds.mean()) / settings.dt, float(used.mean()))
 
 
 def _step_both(
     world: pbmpm.World, bodies: Bodies, other: pbmpm.World, other_bodies: Bodies, dt: float
-) -> tuple[float, float]:
-    """Predicted and true error of one step of ``world`` [cells]."""
+) -> tuple[float, float, float, float]:
+    """Predicted and true error of one step of ``world`` [cells], its time [s], and its iterations."""
     copy_state(world, bodies, other, other_bodies)
+    begin = time.perf_counter()
     world.step(dt)
+    seconds = time.perf_counter() - begin
     other.step(dt)
     away = _places(world, bodies) - _places(other, other_bodies)
-    return world.stats.predicted_error, float(np.sqrt(np.mean(np.sum(away**2, axis=1))) / world.cell_size)
+    stats = world.stats
+    true = float(np.sqrt(np.mean(np.sum(away**2, axis=1))) / world.cell_size)
+    return stats.predicted_error, true, seconds, float(stats.iterations_used)
 
 
 def _places(world: pbmpm.World, bodies: Bodies) -> np.ndarray:
