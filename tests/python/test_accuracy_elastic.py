@@ -13,7 +13,9 @@ from pbmpm.app.accuracy.case import Setting
 from pbmpm.app.accuracy.elastic import ELASTIC_CASES, strain
 from pbmpm.app.accuracy.elastic.bar import STIFF_BAR
 from pbmpm.app.accuracy.elastic.block import Block, uniaxial_stress, uniaxial_stretch
-from pbmpm.app.accuracy.elastic.cases import AxialBar, SpinningDiscCase, TwoDiscsCase, integrator_of
+from pbmpm.app.accuracy.elastic.beam_cases import AxialBar
+from pbmpm.app.accuracy.elastic.body_cases import SpinningDiscCase, TwoDiscsCase
+from pbmpm.app.accuracy.elastic.case import integrator_of
 from pbmpm.app.accuracy.elastic.prediction import compare, copy_state
 from pbmpm.app.accuracy.elastic.references import uniaxial_curve
 from pbmpm.app.accuracy.elastic.stage import Record, Stage, disc, failures, lattice, run
@@ -185,7 +187,10 @@ def made(settings: RunSettings) -> tuple[pbmpm.World, list[tuple[pbmpm.Material,
 
 
 def test_a_copied_state_goes_the_same_way() -> None:
-    """Equal settings from equal states: equal motion, but for the order of sums. (Only liquids remember their iterations.)"""
+    """Equal settings from equal states: equal motion, but for the order of sums.
+
+    (Only liquids remember their iterations.)
+    """
     one, bodies = made(DUAL)
     other, other_bodies = made(DUAL)
     with one, other:

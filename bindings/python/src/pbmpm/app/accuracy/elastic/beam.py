@@ -44,7 +44,7 @@ class Cantilever:
 
     @property
     def tip_deflection(self) -> float:
-        """How far the tip of the beam's axis hangs below the clamp [m]: the elastica, and the little that shear adds."""
+        """How far the tip of the beam's axis hangs below the clamp [m]: the elastica, and what shear adds."""
         elastica = references.elastica_tip(self.beam.self_weight_load(self.gravity)) * self.beam.length
         return elastica + self.beam.shear_deflection(self.gravity)
 

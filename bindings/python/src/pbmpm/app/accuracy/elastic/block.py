@@ -1,8 +1,9 @@
 """A block under its own weight: the whole curve of stress against stretch from one state at rest.
 
-Hanging from its upper end or standing on a slippery floor, each layer of the block carries the weight of what is beyond
-it, so by statics alone its nominal stress is known: P = rho g Y, with Y the rest distance from the free end. Its stretch
-is measured from where the particles are, and compared with the stretch that the material's law gives for P.
+Hanging from its upper end or standing on a slippery floor, each layer of the block carries the weight of what is
+beyond it, so by statics alone its nominal stress is known: P = rho g Y, with Y the rest distance from the free end.
+Its stretch is measured from where the particles are, and compared with the stretch that the material's law gives for
+P.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A light elastic block that falls into a pool and floats: liquid and elastic matter in one solver.
 
-Archimedes: at rest the block displaces its own weight of liquid. Its mean density is half the liquid's, so half of it is
-under water; it is twice as wide as high, which floats upright.
+Archimedes: at rest the block displaces its own weight of liquid. Its mean density is half the liquid's, so half of it
+is under water; it is twice as wide as high, which floats upright.
 """
 
 from __future__ import annotations

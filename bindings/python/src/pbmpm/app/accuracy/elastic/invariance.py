@@ -49,8 +49,8 @@ class Invariance:
         place = still[1]
         rest, resting = self._lie_turned(settings)
         return [
-            # Positions are a cell and a share of it, but ways of 2 cells round to 2^-22 of a cell, in each of the 9 nodes'
-            # share and in each of the steps.
+            # Positions are a cell and a share of it, but ways of 2 cells round to 2^-22 of a cell, in the share of each
+            # of the 9 nodes and in each of the steps.
             Check("drift by 2 cells per step", self._apart(place, fast[1]), 9.0 * self.steps * 2.0**-22),
             Check("drift by 0.37 cells per step", self._apart(place, slow[1]), 0.02),
             # Sums in another order; 100 steps of float32.
@@ -59,7 +59,9 @@ class Invariance:
             Check("at rest but turned", rest, 1e-5),
         ], [*records, resting]
 
-    def _vibrate(self, settings: RunSettings, drift: float = 0.0, turn: float = 0.0) -> tuple[Record, np.ndarray | None]:
+    def _vibrate(
+        self, settings: RunSettings, drift: float = 0.0, turn: float = 0.0
+    ) -> tuple[Record, np.ndarray | None]:
         """Places of the particles after all steps, without the drift and turned back [cells]; None after a failure."""
         rotation = np.array([[math.cos(turn), -math.sin(turn)], [math.sin(turn), math.cos(turn)]])
         gradient = rotation @ np.diag([self.rate_of_strain, -self.rate_of_strain]) @ rotation.T

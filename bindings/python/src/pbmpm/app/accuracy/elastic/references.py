@@ -34,8 +34,10 @@ def elastica_self_weight() -> Curve:
 
 
 def elastica_tip(load: float) -> float:
-    """Tip deflection over length of an inextensible beam under its own weight; the ratio to the linear theory is smooth,
-    so it is what is interpolated. ValueError outside the table."""
+    """Tip deflection over length of an inextensible beam under its own weight; ValueError outside the table.
+
+    The ratio to the linear theory is smooth, so that is what is interpolated.
+    """
     curve = elastica_self_weight()
     if not 0.0 <= load <= curve.times[-1]:
         raise ValueError(f"load {load:g} is outside the table, 0 to {curve.times[-1]:g}")

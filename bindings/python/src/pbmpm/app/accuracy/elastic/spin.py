@@ -38,7 +38,7 @@ class SpinningDisc:
 
     def spin(self, settings: RunSettings, revolutions: float = 1.0) -> Record:
         """The observed values are the angular momentum over that at the start, the kinetic and the stored energy over
-        the kinetic energy at the start, and the largest distance of a particle from the centre over that at the start."""
+        the kinetic energy at the start, and the reach of the particles from the centre over that at the start."""
         dimension, omega = self.solid.dimension, self.angular_velocity
         points = disc([0.0] * dimension, self.radius, self.cell_size)
         turn = np.zeros((dimension, dimension))

@@ -1,10 +1,10 @@
 """Worlds of elastic bodies that start from a given field of velocities, and their runs.
 
-Bodies are regular lattices of 2 particles per cell and axis, or more, aligned with the grid, so that a body of n cells
-has 2 n particles across and its rest volume is exact. A clamp is a box with sticky friction whose face is where the body ends:
-the library pushes particles out of obstacles, so a body cannot reach into its clamp. The nodes on the face and behind it
-stand still; those before it are free. A body is therefore held over its last cell only, and a little softer there than
-the built-in end of a beam: an error of discretisation that goes with the cell size.
+Bodies are regular lattices of 2 particles per cell and axis, or more, aligned with the grid, so that a body of n
+cells has 2 n particles across and its rest volume is exact. A clamp is a box with sticky friction whose face is where
+the body ends: the library pushes particles out of obstacles, so a body cannot reach into its clamp. The nodes on the
+face and behind it stand still; those before it are free. A body is therefore held over its last cell only, and a
+little softer there than the built-in end of a beam: an error of discretisation that goes with the cell size.
 """
 
 from __future__ import annotations
@@ -104,7 +104,11 @@ class Stage:
         self.world.close()
 
     def add_body(
-        self, points: np.ndarray, volume: float, velocity: VelocityField | None = None, gradient: np.ndarray | None = None
+        self,
+        points: np.ndarray,
+        volume: float,
+        velocity: VelocityField | None = None,
+        gradient: np.ndarray | None = None,
     ) -> np.ndarray:
         """Adds a body of this rest volume [m^d]; gives its particles' identifiers in the order of ``points``.
 
@@ -185,7 +189,9 @@ class Record:
     def stable(self) -> bool:
         return not self.reasons
 
-    def measurement(self, errors: dict[str, float | None], observed: tuple[float, ...] | None, **extra: Any) -> Measurement:
+    def measurement(
+        self, errors: dict[str, float | None], observed: tuple[float, ...] | None, **extra: Any
+    ) -> Measurement:
         """The measurement of a case that consists of this run alone; errors of a run that broke are dropped."""
         return Measurement(
             errors=errors if self.stable else dict.fromkeys(errors),

@@ -90,8 +90,8 @@ class Beam:
     def thick_angular_frequency(self) -> float:
         """First bending vibration of a beam that is not quite slender [rad/s].
 
-        Softness by shear and inertia of rotation lower it by the ratio of two Rayleigh quotients, with and without them;
-        each takes the static shape under the beam's own weight, so their common error cancels.
+        Softness by shear and inertia of rotation lower it by the ratio of two Rayleigh quotients, with and without
+        them; each takes the static shape under the beam's own weight, so their common error cancels.
         """
         return self.angular_frequency() * math.sqrt(self._rayleigh(True) / self._rayleigh(False))
 

@@ -1,0 +1,272 @@
+"""Bars and beams as the accuracy command lists them."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+import pbmpm
+
+from ...simulation import RunSettings
+from ..case import ErrorMeasure, Measurement, Setting
+from .bar import CLASSIC_BAR, STIFF_BAR, Bar
+from .beam import Cantilever, TurekHronBeam, loaded_beam
+from .case import ElasticCase, integrator_of, relative
+from .prediction import EXACT_ITERATIONS, FACTOR, ROUNDING, Bodies, compare
+from .signal import Swing
+from .theory import Solid, discrete_frequency
+
+
+class AxialBar(ElasticCase):
+    """Axial vibration of a bar that is fixed at one end."""
+
+    name = "axial-bar"
+    title = "Axial vibration of a bar"
+    length_name = "bar"
+    cells = (32, 16, 64)
+    bar: Bar = STIFF_BAR
+    error_kinds = (
+        ErrorMeasure("frequency", "discretisation", "%", "frequency against that of the exact motion", 0.02),
+        ErrorMeasure(
+            "of theory",
+            "discretisation",
+            "%",
+            "frequency against what the integrator makes of the exact motion: without the time step's error",
+            0.015,
+        ),
+    )
+
+    def __init__(self) -> None:
+        solid = self.bar.solid
+        self.length = self.bar.length
+        self.truth = (
+            f"omega = pi / (2 L) sqrt(E / rho) with E = {solid.young:g} Pa, rho = {solid.density:g} kg/m^3,"
+            f" L = {self.length:g} m: {self.bar.frequency:.4g} Hz"
+        )
+
+    @property
+    def solid(self) -> Solid:
+        return self.bar.solid
+
+    def measure(self, setting: Setting) -> Measurement:
+        bar = replace(self.bar, cells=setting.cells)
+        record, found = bar.swing(setting.run_settings())
+        frequency = None if found is None else found.frequency
+        theory = discrete_frequency(integrator_of(setting), bar.frequency, setting.dt / setting.substeps)
+        errors = {"frequency": relative(frequency, bar.frequency), "of theory": relative(frequency, theory)}
+        return record.measurement(
+            errors,
+            None if frequency is None else (frequency / bar.frequency,),
+            frequency_hz=frequency,
+            theory_hz=theory,
+            decay_per_s=None if found is None else found.decay,
+        )
+
+
+class ClassicAxialBar(AxialBar):
+    """The same for the soft bar of the literature."""
+
+    name = "axial-bar-soft"
+    title = "Axial vibration of the soft bar of the literature"
+    cells = (50, 25)
+    bar = CLASSIC_BAR
+    rates = (2.0, 5.0, 10.0, 20.0)
+    quick_rates = (5.0,)
+    grid_setting = ("primal-bdf2", 10.0, 20)
+
+    def explicit_rates(self, quick: bool) -> list[float]:
+        return [40.0] if quick else [10.0, 20.0, 40.0, 80.0]
+
+
+class AxialBar3DCase(AxialBar):
+    """The stiff bar in 3D, a few settings."""
+
+    name = "axial-bar-3d"
+    title = "Axial vibration of a bar in 3D"
+    dimension = 3
+    cells = (32,)
+    bar = replace(STIFF_BAR, solid=replace(STIFF_BAR.solid, dimension=3))
+    rates = (60.0, 240.0)
+    iterations = (5, 20)
+
+
+class CantileverCase(ElasticCase):
+    """A beam under its own weight: where it hangs and how fast it swings."""
+
+    name = "cantilever"
+    title = "Cantilever under its own weight"
+    length_name = "height of the beam"
+    cells = (8, 4, 12)
+    load, slenderness = 0.4285, 4.0
+    rates = (60.0, 120.0, 240.0)
+    error_kinds = (
+        ErrorMeasure(
+            "tip", "discretisation", "%", "deflection of the tip at rest against the elastica and shear", 0.05
+        ),
+        ErrorMeasure("frequency", "discretisation", "%", "frequency of the swing against that of small swings"),
+        ErrorMeasure(
+            "of theory", "discretisation", "%", "frequency against what the integrator makes of that of small swings"
+        ),
+        ErrorMeasure(
+            "middle", "discretisation", "%", "middle of the swing against the elastica and shear: creep by swinging"
+        ),
+    )
+    notes = (
+        "One run stops the motion at each maximum of the kinetic energy and gives the tip at rest; another swings"
+        " freely for 4 periods and gives the middle of the swing and its frequency, by a fitted oscillation."
+        " The cost is that of the"
+        " second. Swinging beams creep: they come to hang lower than those at rest."
+    )
+
+    def __init__(self) -> None:
+        self.cantilever = Cantilever(loaded_beam(self.load, self.slenderness, dimension=self.dimension))
+        beam = self.cantilever.beam
+        self.length = beam.height
+        self.truth = (
+            f"elastica under its own weight, q L^3 / (E* I) = {self.load:g}, with shear:"
+            f" {self.cantilever.tip_deflection:.4f} m; L = {beam.length:g} m, h = {beam.height:g} m,"
+            f" E = {beam.solid.young:.4g} Pa, nu = {beam.solid.poisson:g}; {self.cantilever.frequency:.4g} Hz"
+        )
+
+    @property
+    def solid(self) -> Solid:
+        return self.cantilever.beam.solid
+
+    def measure(self, setting: Setting) -> Measurement:
+        cantilever = replace(self.cantilever, cells=setting.cells)
+        resting, tip = cantilever.hang(setting.run_settings())
+        record, found = cantilever.swing(setting.run_settings())
+        frequency, middle = (None, None) if found is None else (found.frequency, -found.offset)
+        theory = discrete_frequency(integrator_of(setting), cantilever.frequency, setting.dt / setting.substeps)
+        errors = {
+            "tip": relative(tip, cantilever.tip_deflection),
+            "frequency": relative(frequency, cantilever.frequency),
+            "of theory": relative(frequency, theory),
+            "middle": relative(middle, cantilever.tip_deflection),
+        }
+        record.reasons = list(dict.fromkeys(resting.reasons + record.reasons))
+        observed = None if tip is None else (tip / cantilever.tip_deflection,)
+        return record.measurement(
+            errors, observed, tip_m=tip, middle_m=middle, frequency_hz=frequency, theory_hz=theory
+        )
+
+
+class LargeCantileverCase(CantileverCase):
+    """A more slender beam that bends far."""
+
+    name = "cantilever-large"
+    title = "Slender cantilever, large deflection"
+    load, slenderness = 1.0, 8.0
+
+
+class Cantilever3DCase(CantileverCase):
+    """The thick beam in 3D, as wide as high; few settings, for the price."""
+
+    name = "cantilever-3d"
+    title = "Cantilever under its own weight in 3D"
+    dimension = 3
+    cells = (6,)
+    rates = (60.0, 240.0)
+    quick_rates = (60.0,)
+    iterations = (10, 20)
+    quick_iterations = (20,)
+    variants = ("dual", "primal", "primal-bdf2")
+
+    def explicit_rates(self, quick: bool) -> list[float]:
+        return [] if quick else super().explicit_rates(True)
+
+
+class PredictionCase(CantileverCase):
+    """Whether the predicted error of a step is its true one."""
+
+    name = "predicted-error-cantilever"
+    title = "Predicted and true error of the steps of a cantilever"
+    kind = "elastic"
+    cells = (8,)
+    iterations = (2, 5, 10, 20)
+    variants = ("dual", "primal")
+    steps = 60
+    error_kinds = (
+        ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
+        ErrorMeasure(
+            "true error", "solver", "cells", "median of the steps: distance from the same step solved to the end"
+        ),
+    )
+    notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.truth = f"the same step from the same state with {EXACT_ITERATIONS} iterations"
+
+    def explicit_rates(self, quick: bool) -> list[float]:
+        return []
+
+    def converged(self, setting: Setting) -> Setting | None:
+        return None
+
+    def measure(self, setting: Setting) -> Measurement:
+        cantilever = replace(self.cantilever, cells=setting.cells)
+
+        def make(settings: RunSettings) -> tuple[pbmpm.World, Bodies]:
+            stage, ids, _ = cantilever.build(settings)
+            return stage.world, [(stage.material, ids)]
+
+        found = compare(make, setting.run_settings(), self.steps)
+        wrong = None if found.share is None else 1.0 - found.share
+        return Measurement(
+            errors={"wrong": wrong, "true error": float(np.median(found.true))},
+            ms_per_simulated_second=found.ms_per_simulated_second,
+            iterations_used=found.iterations_used,
+            predicted_error=float(found.predicted.mean()),
+            stable=True,
+            extra={"median_ratio": found.median_ratio, "steps": self.steps},
+        )
+
+
+class TurekHronCase(ElasticCase):
+    """The undamped beam CSM3 of Turek and Hron."""
+
+    name = "turek-hron"
+    title = "Swinging beam of Turek and Hron (CSM3)"
+    length_name = "height of the beam"
+    length = TurekHronBeam.BEAM.height
+    cells = (6, 4, 8)
+    rates = (60.0, 120.0, 240.0)
+    iterations = (5, 10, 20)
+    grid_setting = ("primal-bdf2", 240.0, 10)
+    error_kinds = (
+        ErrorMeasure("amplitude", "discretisation", "%", "of the tip's height over 5 to 10 s", 0.05),
+        ErrorMeasure("mean", "discretisation", "%", "of the tip's height, over the amplitude", 0.05),
+        ErrorMeasure("frequency", "discretisation", "%", "of the tip's height", 0.05),
+    )
+    notes = "The beam is not damped: every loss of amplitude is the solver's."
+
+    def __init__(self) -> None:
+        up = TurekHronBeam().truth[1]
+        self.truth = (
+            f"finite elements (Turek and Hron 2006, CSM3): tip at {1e3 * up.mean:.2f} +- {1e3 * up.amplitude:.2f} mm,"
+            f" {up.frequency:.4g} Hz"
+        )
+
+    @property
+    def solid(self) -> Solid:
+        return TurekHronBeam.BEAM.solid
+
+    def explicit_rates(self, quick: bool) -> list[float]:
+        return super().explicit_rates(True)
+
+    def measure(self, setting: Setting) -> Measurement:
+        beam = TurekHronBeam(setting.cells)
+        record, _, up = beam.swing(setting.run_settings())
+        truth, found = beam.truth[1], up or Swing(math.nan, math.nan, None)
+        errors = {
+            "amplitude": relative(found.amplitude, truth.amplitude),
+            "mean": abs(found.mean - truth.mean) / truth.amplitude,
+            "frequency": relative(found.frequency, truth.frequency),
+        }
+        observed = (found.amplitude / truth.amplitude,)
+        return record.measurement(
+            errors, observed, tip_mean_m=found.mean, tip_amplitude_m=found.amplitude, frequency_hz=found.frequency
+        )
