@@ -117,8 +117,10 @@ struct KernelArgs {
     K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */
     K_PTR(float) cell_pressure;
     K_PTR(float) cell_pressure_old;
+    K_PTR(float) cell_trace;    /* out: mean of tr D */
     K_PTR(float) cell_change2;  /* out, per node block: as change2 and uphill, of the cells */
     K_PTR(float) cell_uphill;
+    int32_t probing;            /* traces only: elastic particles are left alone */
     float cell_relaxation;      /* w of the cells: the smallest of the liquids */
     float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
     float momentum;             /* beta of the extrapolation */

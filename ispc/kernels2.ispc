@@ -49,3 +49,9 @@ export void viscous2(uniform struct KernelArgs *uniform args, uniform int begin,
 export void viscous_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     viscous_node_blocks(*args, begin, end);
 }
+export void respond_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    respond_node_blocks(*args, begin, end);
+}
+export void cells_respond2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_respond_blocks(*args, begin, end);
+}

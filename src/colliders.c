@@ -118,6 +118,7 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
     o.start = (Solid){.kind = PBMPM_PLANE, .dimension = dimension};
     o.start.position[axis] = upper ? domain->high[axis] : domain->low[axis];
     o.start.normal[axis] = upper ? -1.0 : 1.0;
+    o.side = 2 * axis + (upper ? 1 : 0);
     o.end = o.start;
     return o;
 }
@@ -239,7 +240,8 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
         double point[3], normal[3];
         node_position(frame, block, i, point);
         const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
-        if (distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
+        const bool image = o->wall && frame->mirrors >> o->side & 1 && fabs(distance + 1.0) < 0.5;
+        if (image || distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
         count++;
     }
@@ -377,6 +379,24 @@ void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end)
         for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
             const Contact *contact = (const Contact *)colliders->contact.data + i;
             obey(contact, node + contact->node * K_NODE_WIDTH);
+        }
+    }
+}
+
+void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    if (colliders->contacts == 0) return;
+    const uint32_t *contact_begin = colliders->contact_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        float *node = (float *)frame->grid->node.data + (size_t)block * (size_t)frame->grid->block_cells * K_NODE_WIDTH;
+        for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
+            const Contact *contact = (const Contact *)colliders->contact.data + i;
+            if (contact->gap > 0.0f) continue;
+            float *u = node + contact->node * K_NODE_WIDTH, along = 0.0f;
+            const bool held = contact->friction == PBMPM_FRICTION_STICK;
+            for (int a = 0; a < 3; a++) along += u[a] * contact->normal[a];
+            for (int a = 0; a < 3; a++) u[a] = held ? 0.0f : u[a] - along * contact->normal[a];
         }
     }
 }

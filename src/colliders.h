@@ -20,6 +20,7 @@ typedef struct Obstacle {
     double turn[9]; /* rotation from start to end */
     bool moves;
     bool wall; /* of the domain: particles are always put back inside at once */
+    int side;  /* of a wall: 2 * axis + (1 if upper) */
     pbmpm_friction friction;
     float coefficient;
 } Obstacle;
@@ -70,6 +71,7 @@ typedef struct ContactFrame {
     const Grid *grid;
     double cell_size;
     float max_displacement; /* cells */
+    unsigned mirrors;       /* walls that mirror.h sees to: bit `side`. They have no contacts with the nodes a cell behind them. */
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
@@ -79,6 +81,10 @@ void contacts_open_volume(const ContactFrame *frame, Pool *pool);
 
 /* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);
+
+/* Takes from the nodes of the blocks [begin, end) what would move them against the surfaces they are on or in: the linear part of
+ * contacts_apply(). */
+void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end);
 
 /* Last resort: puts particles of the particle blocks [begin, end) that ended inside an obstacle back to its surface. */
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);

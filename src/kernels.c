@@ -13,6 +13,8 @@
     DO(cells_push, suffix)                                                                                              \
     DO(cells_trace, suffix)                                                                                             \
     DO(cells_update, suffix)                                                                                            \
+    DO(respond_nodes, suffix)                                                                                           \
+    DO(cells_respond, suffix)                                                                                           \
     DO(viscous, suffix)                                                                                                 \
     DO(viscous_nodes, suffix)                                                                                          \
     DO(integrate, suffix)

@@ -22,6 +22,8 @@ typedef struct Kernels {
     Kernel *cells_push;    /* particle blocks: pressures to nodes */
     Kernel *cells_trace;   /* particle blocks: G2P, traces of D to cells */
     Kernel *cells_update;  /* node blocks: proximal step of the cells */
+    Kernel *respond_nodes; /* node blocks: displacement from pressures alone */
+    Kernel *cells_respond; /* node blocks: means of the traces */
     Kernel *viscous;       /* particle blocks: G2P, viscous stress, P2G */
     Kernel *viscous_nodes; /* node blocks: a stage of viscosity */
     int lanes;             /* particles per gang */

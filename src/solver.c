@@ -124,10 +124,21 @@ void solver_over_particles(World *world, Kernel *kernel)
     pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, run_kernel, &job);
 }
 
+static void obey_contacts(void *context, int32_t begin, int32_t end) { contacts_apply(context, begin, end); }
+
+void solver_obey(World *world, const ContactFrame *contacts)
+{
+    ContactFrame frame = *contacts;
+    mirrors_apply(&world->mirrors, &world->grid);
+    pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, obey_contacts, &frame);
+}
+
 void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts)
 {
-    KernelJob job = {kernel, &world->args, contacts};
+    const bool mirrored = contacts && mirrors_any(&world->mirrors); /* images need all nodes */
+    KernelJob job = {kernel, &world->args, mirrored ? NULL : contacts};
     pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, run_kernel, &job);
+    if (mirrored) solver_obey(world, contacts);
 }
 
 void solver_predict(World *world)
@@ -189,7 +200,7 @@ void solver_solve(World *world, const ContactFrame *contacts)
     record->stop = PBMPM_STOP_ITERATIONS;
     record->iterations_used = record->energy_checks_failed = 0;
     record->residual = record->predicted_error = 0.0;
-    contacts_apply(contacts, 0, world->grid.node_blocks); /* the predictor obeys them too */
+    solver_obey(world, contacts); /* the predictor obeys them too */
     if (record->solver != PBMPM_SOLVER_PAPER) viscosity_apply(world, contacts);
     kinds[record->solver].solve(world, contacts);
 }

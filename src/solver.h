@@ -24,6 +24,9 @@ void solver_integrate(World *world);
 /* Runs a kernel over all particle blocks. */
 void solver_over_particles(World *world, Kernel *kernel);
 
+/* Makes the nodes obey the contacts and mirrors. */
+void solver_obey(World *world, const ContactFrame *contacts);
+
 /* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
 void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts);
 

@@ -124,7 +124,12 @@ static pbmpm_result substep(World *world, float dt, int part)
     lap(&record->ms_scatter, &clock);
 
     /* What they may meet on the way. */
-    const ContactFrame contacts = {&world->colliders, &world->grid, (double)world->def.cell_size, world->settings.max_displacement};
+    const double cell_size = (double)world->def.cell_size;
+    const bool mirrored = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
+    const unsigned mirrors = mirrored ? mirror_walls(&world->domain, world->def.dimension, cell_size) : 0;
+    const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrors};
+    if (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &world->domain, cell_size, mirrors))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result != PBMPM_OK) return result;

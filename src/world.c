@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include "background.h"
 #include "cpu.h"
 #include "dual.h"
+#include "guess.h"
 #include "numbers.h"
 #include "result.h"
 
@@ -111,9 +113,15 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 
 void world_destroy(World *world)
 {
-    pool_destroy(&world->memory, world->pool, world->owner == getpid());
+    const bool here = world->owner == getpid();
+    if (!here && background_is_stepping(world)) return; /* the fork froze a step: nobody knows what it has given back */
+    background_stop(world, here);
+    pool_destroy(&world->memory, world->pool, here);
+    background_free(world);
     colliders_free(&world->colliders, &world->memory);
     dual_free(world);
+    guess_free(world);
+    mirrors_free(&world->mirrors, &world->memory);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

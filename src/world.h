@@ -10,9 +10,11 @@
 #include "kernels.h"
 #include "materials.h"
 #include "memory.h"
+#include "mirror.h"
 #include "particles.h"
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
+#include "pyramid.h"
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
@@ -33,6 +35,15 @@ typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_change2, cell_uphill; /* see KernelArgs */
 } DualState;
 
+/* What the guess of the pressure keeps. */
+typedef struct GuessState {
+    Array cells;
+    Pyramid pyramid;
+} GuessState;
+
+/* A step on a thread of its own; see background.c. */
+typedef struct Background Background;
+
 typedef struct World {
     pbmpm_world_def def;
     pbmpm_settings settings;
@@ -48,8 +59,12 @@ typedef struct World {
     Grid grid;
     KernelArgs args;
     DualState dual;
+    GuessState guess;
+    Mirrors mirrors;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
+
+    Background *background; /* null until a step is begun in the background */
 
     Events events;
     StepRecord record;

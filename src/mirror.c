@@ -1,0 +1,111 @@
+#include "mirror.h"
+
+#include <math.h>
+
+/* Two nodes, as indices of all nodes: `image` a cell behind the wall, `real` a cell before it. */
+typedef struct MirrorPair {
+    uint32_t image, real;
+} MirrorPair;
+
+/* The grid line of a wall, in cells. */
+static double wall_line(const Domain *domain, double cell_size, int axis, int upper)
+{
+    return (upper ? domain->high[axis] : domain->low[axis]) / cell_size;
+}
+
+unsigned mirror_walls(const Domain *domain, int dimension, double cell_size)
+{
+    static const double ON_GRID = 1e-3; /* [cells]; corners are given in single precision */
+    unsigned walls = 0;
+    for (int axis = 0; domain->enabled && axis < dimension; axis++)
+        for (int upper = 0; upper < 2; upper++) {
+            const double line = wall_line(domain, cell_size, axis, upper);
+            if (fabs(line - round(line)) < ON_GRID) walls |= 1u << (2 * axis + upper);
+        }
+    return walls;
+}
+
+/* The node two cells from node `local` of a block along an axis, or -1 where it does not exist. */
+static int64_t across(const Grid *grid, int32_t block, const int local[3], int axis, int way)
+{
+    int at[3] = {local[0], local[1], local[2]}, side[3] = {1, 1, grid->dimension == 3 ? 1 : 0};
+    at[axis] += way;
+    if (at[axis] < 0) side[axis] = 0;
+    if (at[axis] >= K_BLOCK_AXIS) side[axis] = 2;
+    at[axis] &= K_BLOCK_AXIS - 1;
+    const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
+    const int32_t other = neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
+    return other < 0 ? -1 : (int64_t)other * grid->block_cells + (at[2] * K_BLOCK_AXIS + at[1]) * K_BLOCK_AXIS + at[0];
+}
+
+/* Pairs of one block at one wall; writes them if `out` is not null, and returns their number. */
+static uint32_t pairs_of_block(const Grid *grid, int32_t block, int axis, int32_t behind, int way, MirrorPair *out)
+{
+    const float *node = grid->node.data;
+    const int32_t *corner = (const int32_t *)grid->coordinate.data + 3 * block;
+    const int32_t local_behind = behind - grid->anchor[axis] - corner[axis] * K_BLOCK_AXIS;
+    uint32_t count = 0;
+    if (local_behind < 0 || local_behind >= K_BLOCK_AXIS) return 0;
+    for (int i = 0; i < grid->block_cells; i++) {
+        const int local[3] = {i & 3, i >> 2 & 3, i >> 4};
+        const int64_t image = (int64_t)block * grid->block_cells + i;
+        if (local[axis] != local_behind || !(node[image * K_NODE_WIDTH + 3] > 0.0f)) continue;
+        const int64_t real = across(grid, block, local, axis, way);
+        if (real < 0 || !(node[real * K_NODE_WIDTH + 3] > 0.0f)) continue;
+        if (out) out[count] = (MirrorPair){(uint32_t)image, (uint32_t)real};
+        count++;
+    }
+    return count;
+}
+
+static uint32_t pairs_of_axis(const Grid *grid, const Domain *domain, double cell_size, unsigned walls, int axis, MirrorPair *out)
+{
+    uint32_t count = 0;
+    for (int upper = 0; upper < 2; upper++) {
+        if (!(walls >> (2 * axis + upper) & 1)) continue;
+        const int32_t behind = (int32_t)round(wall_line(domain, cell_size, axis, upper)) + (upper ? 1 : -1);
+        for (int32_t block = 0; block < grid->node_blocks; block++)
+            count += pairs_of_block(grid, block, axis, behind, upper ? -2 : 2, out ? out + count : NULL);
+    }
+    return count;
+}
+
+bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size, unsigned walls)
+{
+    mirrors_clear(mirrors);
+    for (int axis = 0; axis < grid->dimension; axis++) {
+        const uint32_t count = pairs_of_axis(grid, domain, cell_size, walls, axis, NULL);
+        if (!array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair))) return false;
+        mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, walls, axis, mirrors->pair[axis].data) : 0;
+    }
+    return true;
+}
+
+void mirrors_clear(Mirrors *mirrors)
+{
+    for (int axis = 0; axis < 3; axis++) mirrors->count[axis] = 0;
+}
+
+void mirrors_free(Mirrors *mirrors, Memory *memory)
+{
+    for (int axis = 0; axis < 3; axis++) array_free(memory, &mirrors->pair[axis]);
+    mirrors_clear(mirrors);
+}
+
+void mirrors_apply(const Mirrors *mirrors, const Grid *grid)
+{
+    float *node = grid->node.data;
+    for (int axis = 0; axis < grid->dimension; axis++) { /* one axis after the other: an edge has the image of an image */
+        const MirrorPair *pair = mirrors->pair[axis].data;
+        for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
+            float *image = node + (size_t)pair[i].image * K_NODE_WIDTH, *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
+            const float share = image[3] / (image[3] + real[3]);
+            for (int a = 0; a < grid->dimension; a++) {
+                const float sign = a == axis ? -1.0f : 1.0f;
+                const float mean = real[a] + share * (sign * image[a] - real[a]);
+                real[a] = mean;
+                image[a] = sign * mean;
+            }
+        }
+    }
+}
