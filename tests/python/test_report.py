@@ -186,11 +186,28 @@ def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
 
 def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, Any]) -> None:
     case, verdict = verdicts_of(cases_of(report))[0]
-    crosses = [trace for trace in accuracy_figure(case, verdict).data if trace.name and "not stable" in trace.name]
+    crosses = [trace for trace in accuracy_figure(case).data if trace.name and "not stable" in trace.name]
     assert [len(trace.x) for trace in crosses] == [2]
     # The one without an error is drawn above all others.
     assert max(crosses[0].y) == 2 * 3.0
     assert min(point.cost for point in verdict.front) == 2.0
+
+
+def test_chart_shows_every_error_of_a_case_but_one_at_a_time(report: dict[str, Any]) -> None:
+    case = cases_of(report)[0]
+    case.facts["errors"].append({"name": "speed", "kind": "solver", "unit": "m/s", "meaning": "off"})
+    for item in case.rows:
+        item["errors"]["speed"] = None if item["error"] is None else 7 * item["error"]
+    figure = accuracy_figure(case)
+    heights = [trace for trace in figure.data if trace.visible]
+    speeds = [trace for trace in figure.data if not trace.visible]
+    assert [trace.name for trace in heights] == [trace.name for trace in speeds]
+    assert speeds[1].y == pytest.approx([7 * value for value in heights[1].y])
+    button = figure.layout.updatemenus[0].buttons[1]
+    assert button.args[0]["visible"] == [False] * len(heights) + [True] * len(speeds)
+    assert button.args[1]["yaxis.title.text"] == "speed [m/s]"
+    # Real time and the error called good; the second error calls none so.
+    assert (len(figure.layout.shapes), len(button.args[1]["shapes"])) == (2, 1)
 
 
 def test_error_text() -> None:

@@ -43,7 +43,7 @@ def save_accuracy_page(report: dict[str, Any], command: str, options: str, path:
 
 def _section(case: CaseRows, verdict: Verdict, options: str) -> dict[str, Any]:
     unit = case.measure["unit"]
-    figure = accuracy_figure(case, verdict)
+    figure = accuracy_figure(case)
     return {
         "name": case.name,
         "facts": case.facts,

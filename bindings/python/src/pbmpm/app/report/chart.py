@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import plotly.graph_objects as go
 
 from .pareto import Point
 from .rows import SMALLEST_ERROR, CaseRows, setting_of
-from .verdict import Verdict
+from .views import View, views_of
 from .words import error_text
 
 REAL_TIME_MS = 1000.0
@@ -20,34 +20,8 @@ _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "pentagon", "hexagon",
 _LIMIT_COLOUR = "#b03a48"
 _FRONT_COLOUR = "rgba(40, 40, 40, 0.35)"
 _BROKEN_HEADROOM = 2.0  # how far above the highest error settings are drawn that have none, as a factor
-
-
-def accuracy_figure(case: CaseRows, verdict: Verdict) -> go.Figure:
-    """Dots: settings; crosses: not stable; grey line: the front over all solvers; dashed: the error called good."""
-    figure = go.Figure()
-    _add_front(figure, verdict.front)
-    groups = _groups(case.rows)
-    ceiling = _BROKEN_HEADROOM * max((_shown(row) for row in case.measured), default=1.0)
-    for number, (name, rows) in enumerate(groups.items()):
-        symbol = _SYMBOLS[number % len(_SYMBOLS)]
-        _add_dots(figure, name, [row for row in rows if row["stable"]], symbol, ceiling, case.measure["unit"])
-        _add_dots(figure, name, [row for row in rows if not row["stable"]], "x", ceiling, case.measure["unit"])
-    _add_limits(figure, case)
-    measure = case.measure
-    figure.update_layout(
-        template="plotly_white",
-        height=520,
-        margin={"l": 70, "r": 20, "t": 20, "b": 60},
-        legend={"orientation": "v", "font": {"size": 11}},
-        hoverlabel={"align": "left"},
-    )
-    figure.update_xaxes(type="log", title="wall milliseconds per simulated second", **_AXIS)
-    percent = {"tickformat": "~%"} if measure["unit"] == "%" else {}
-    figure.update_yaxes(type="log", title=_title(measure), **_AXIS, **percent)
-    return figure
-
-
 _AXIS = {
+    "type": "log",
     "dtick": "D2",
     "showline": True,
     "linecolor": "#888888",
@@ -56,80 +30,132 @@ _AXIS = {
 }
 
 
-def _title(measure: dict[str, Any]) -> str:
-    unit = "" if measure["unit"] in ("%", "1", "") else f" [{measure['unit']}]"
-    return f"{measure['name'].replace('_', ' ')}{unit}"
+def accuracy_figure(case: CaseRows) -> go.Figure:
+    """Dots: settings; crosses: not stable; grey line: the front over all solvers; dashed: the error called good. A menu
+    switches between the errors of the case."""
+    views = views_of(case)
+    traces = [_traces(view) for view in views]
+    for number, group in enumerate(traces):
+        for trace in group:
+            trace.visible = number == 0
+    figure = go.Figure([trace for group in traces for trace in group])
+    figure.update_layout(
+        template="plotly_white",
+        height=540,
+        margin={"l": 70, "r": 20, "t": 60, "b": 60},
+        legend={"font": {"size": 11}},
+        hoverlabel={"align": "left"},
+        annotations=[_real_time_text()],
+        updatemenus=[_menu(views, [len(group) for group in traces])] if len(views) > 1 else [],
+        **_layout(views[0]),
+    )
+    figure.update_xaxes(title="wall milliseconds per simulated second", **_AXIS)
+    figure.update_yaxes(**_AXIS)
+    return figure
 
 
-def _groups(rows: Iterable[dict[str, Any]]) -> dict[str, list[dict[str, Any]]]:
-    """Rows by solver with its options and cell size, in the order of their first appearance."""
-    groups: dict[str, list[dict[str, Any]]] = {}
-    for row in rows:
-        groups.setdefault(f"{row.get('variant', row['solver'])}, cell {row['cell_m']:.3g} m", []).append(row)
-    return groups
+def _layout(view: View) -> dict[str, Any]:
+    """What of the layout depends on the view."""
+    return {
+        "yaxis.title.text": view.title,
+        "yaxis.tickformat": "~%" if view.unit == "%" else "~g",
+        "shapes": _limit_lines(view.tolerance),
+    }
 
 
-def _shown(row: dict[str, Any]) -> float:
-    return max(row["error"], SMALLEST_ERROR)
+def _menu(views: Sequence[View], counts: Sequence[int]) -> dict[str, Any]:
+    buttons = []
+    for number, view in enumerate(views):
+        visible = [place == number for place, count in enumerate(counts) for _ in range(count)]
+        buttons.append({"label": view.name, "method": "update", "args": [{"visible": visible}, _layout(view)]})
+    return {"buttons": buttons, "x": 0, "xanchor": "left", "y": 1.02, "yanchor": "bottom"}
 
 
-def _add_dots(
-    figure: go.Figure, name: str, rows: Sequence[dict[str, Any]], symbol: str, ceiling: float, unit: str
-) -> None:
-    rows = [row for row in rows if row["ms_per_simulated_second"] is not None]
-    if not rows:
-        return
-    broken = symbol == "x"
-    figure.add_scatter(
-        x=[row["ms_per_simulated_second"] for row in rows],
-        y=[ceiling if row["error"] is None else _shown(row) for row in rows],
+def _limit_lines(tolerance: float | None) -> list[dict[str, Any]]:
+    real_time = {"type": "line", "x0": REAL_TIME_MS, "x1": REAL_TIME_MS, "y0": 0, "y1": 1, "yref": "paper"}
+    lines = [{**real_time, "line": {"color": _LIMIT_COLOUR, "dash": "dot", "width": 2}}]
+    if tolerance:
+        good = {"type": "line", "x0": 0, "x1": 1, "xref": "paper", "y0": tolerance, "y1": tolerance}
+        lines.append({**good, "line": {"color": "#666666", "dash": "dash", "width": 1}})
+    return lines
+
+
+def _real_time_text() -> dict[str, Any]:
+    """Unlike lines, texts are placed by the logarithm on a logarithmic axis."""
+    return {
+        "x": math.log10(REAL_TIME_MS),
+        "y": 1.0,
+        "yref": "paper",
+        "text": "real time at 60 Hz: 16.7 ms per frame",
+        "textangle": -90,
+        "yanchor": "top",
+        "xanchor": "right",
+        "showarrow": False,
+        "font": {"color": _LIMIT_COLOUR, "size": 11},
+    }
+
+
+def _traces(view: View) -> list[go.Scatter]:
+    """The front, and for each solver with its options and cell size the dots and the crosses."""
+    rows = [(row, error) for row, error in zip(view.rows, view.errors, strict=True) if _has_place(row, error)]
+    ceiling = _BROKEN_HEADROOM * max((_drawn(error) for _, error in rows if error is not None), default=1.0)
+    groups: dict[str, list[tuple[dict[str, Any], float | None]]] = {}
+    for row, error in rows:
+        groups.setdefault(f"{row.get('variant', row['solver'])}, cell {row['cell_m']:.3g} m", []).append((row, error))
+    traces = [_front(view.front())]
+    for number, (name, members) in enumerate(groups.items()):
+        symbol = _SYMBOLS[number % len(_SYMBOLS)]
+        for stable in (True, False):
+            own = [(row, error) for row, error in members if row["stable"] is stable]
+            if own:
+                traces.append(_dots(name, own, symbol if stable else None, ceiling, view.unit))
+    return traces
+
+
+def _has_place(row: dict[str, Any], error: float | None) -> bool:
+    """A setting that broke is drawn even without an error; one without a cost cannot be."""
+    return row["ms_per_simulated_second"] is not None and (error is not None or not row["stable"])
+
+
+def _drawn(error: float) -> float:
+    return max(error, SMALLEST_ERROR)
+
+
+def _dots(
+    name: str, members: Sequence[tuple[dict[str, Any], float | None]], symbol: str | None, ceiling: float, unit: str
+) -> go.Scatter:
+    """Dots with a symbol, or crosses without one."""
+    colour = SOLVER_COLOURS.get(members[0][0]["solver"], _OTHER_COLOUR)
+    return go.Scatter(
+        x=[row["ms_per_simulated_second"] for row, _ in members],
+        y=[ceiling if error is None else _drawn(error) for _, error in members],
         mode="markers",
-        name=f"{name}: not stable" if broken else name,
+        name=name if symbol else f"{name}: not stable",
         marker={
-            "symbol": "x-thin" if broken else symbol,
-            "size": 10 if broken else 8,
-            "color": SOLVER_COLOURS.get(rows[0]["solver"], _OTHER_COLOUR),
-            "line": {"width": 2.5 if broken else 0.5, "color": SOLVER_COLOURS.get(rows[0]["solver"], _OTHER_COLOUR)},
+            "symbol": symbol or "x-thin",
+            "size": 8 if symbol else 10,
+            "color": colour,
+            "line": {"width": 0.5 if symbol else 2.5, "color": colour},
         },
-        text=[_hover(row, unit) for row in rows],
+        text=[_hover(row, error, unit) for row, error in members],
         hovertemplate="%{text}<extra></extra>",
     )
 
 
-def _hover(row: dict[str, Any], unit: str) -> str:
+def _hover(row: dict[str, Any], error: float | None, unit: str) -> str:
     lines = [setting_of(row), f"{row['ms_per_simulated_second']:.4g} ms per simulated second"]
-    lines.append("no error: it broke" if row["error"] is None else f"error {error_text(row['error'], unit)}")
+    lines.append("no error: it broke" if error is None else f"error {error_text(error, unit)}")
     if row.get("iterations_used") is not None:
         lines.append(f"iterations used {row['iterations_used']:.3g}")
     return "<br>".join([*lines, *(f"not stable: {reason}" for reason in row.get("reasons", []))])
 
 
-def _add_front(figure: go.Figure, front: Sequence[Point]) -> None:
-    if front:
-        figure.add_scatter(
-            x=[point.cost for point in front],
-            y=[point.error for point in front],
-            mode="lines",
-            name="front over all solvers",
-            line={"color": _FRONT_COLOUR, "width": 6},
-            hoverinfo="skip",
-        )
-
-
-def _add_limits(figure: go.Figure, case: CaseRows) -> None:
-    figure.add_vline(x=REAL_TIME_MS, line={"color": _LIMIT_COLOUR, "dash": "dot"})
-    # Unlike lines, annotations are placed by the logarithm on a logarithmic axis.
-    figure.add_annotation(
-        x=math.log10(REAL_TIME_MS),
-        y=1.0,
-        yref="paper",
-        text="real time at 60 Hz: 16.7 ms per frame",
-        textangle=-90,
-        yanchor="top",
-        xanchor="right",
-        showarrow=False,
-        font={"color": _LIMIT_COLOUR, "size": 11},
+def _front(front: Sequence[Point]) -> go.Scatter:
+    return go.Scatter(
+        x=[point.cost for point in front],
+        y=[point.error for point in front],
+        mode="lines",
+        name="front over all solvers",
+        line={"color": _FRONT_COLOUR, "width": 6},
+        hoverinfo="skip",
     )
-    tolerance = case.measure.get("tolerance")
-    if tolerance is not None:
-        figure.add_hline(y=tolerance, line={"color": "#666666", "dash": "dash", "width": 1})

@@ -1,0 +1,53 @@
+"""The ways in which a chart can show a case: by each of its errors, and by the distance from the converged solution."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from .pareto import Point, front_of
+from .rows import SMALLEST_ERROR, CaseRows, setting_of
+
+CONVERGED_NAME = "distance from the converged solution"
+
+
+@dataclass(frozen=True)
+class View:
+    """One error of all rows of a case."""
+
+    name: str
+    unit: str
+    tolerance: float | None  #: the error that the case calls good
+    rows: list[dict[str, Any]]
+    errors: list[float | None]  #: of the rows
+
+    @property
+    def title(self) -> str:
+        """For the axis."""
+        return self.name if self.unit in ("%", "1", "") else f"{self.name} [{self.unit}]"
+
+    def front(self) -> list[Point]:
+        """The stable settings that no other beats."""
+        return front_of(
+            Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(error, SMALLEST_ERROR))
+            for row, error in zip(self.rows, self.errors, strict=True)
+            if row["stable"] and error is not None and row["ms_per_simulated_second"] is not None
+        )
+
+
+def views_of(case: CaseRows) -> list[View]:
+    """The headline first; the converged solution only where the sweep has it."""
+    views = [
+        View(
+            measure["name"].replace("_", " "),
+            measure["unit"],
+            measure.get("tolerance"),
+            case.rows,
+            [row["errors"].get(measure["name"]) for row in case.rows],
+        )
+        for measure in case.facts["errors"]
+    ]
+    distances = [row.get("solver_error") for row in case.rows]
+    if any(distance is not None for distance in distances):
+        views.append(View(CONVERGED_NAME, case.measure["unit"], None, case.rows, distances))
+    return [view for view in views if any(error is not None for error in view.errors)] or views[:1]
