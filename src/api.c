@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "api_call.h"
+#include "background.h"
 #include "colliders.h"
 #include "cpu.h"
 #include "edit.h"
@@ -12,10 +13,11 @@
 #include "inspect.h"
 #include "layout.h"
 #include "numbers.h"
+#include "query.h"
 #include "registry.h"
 #include "step.h"
 
-pbmpm_result api_hold(pbmpm_world_id id, Hold *held)
+pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held)
 {
     held->id = id;
     const pbmpm_result result = registry_enter(id, &held->world);
@@ -26,6 +28,13 @@ pbmpm_result api_hold(pbmpm_world_id id, Hold *held)
     }
     held->float_mode = float_mode_enter_from_host();
     return PBMPM_OK;
+}
+
+pbmpm_result api_hold(pbmpm_world_id id, Hold *held)
+{
+    const pbmpm_result result = api_hold_stepping(id, held);
+    if (result != PBMPM_OK || !background_is_stepping(held->world)) return result;
+    return api_let_go(held, fail(PBMPM_ERROR_BUSY, "a step of this world is under way: end it first"));
 }
 
 pbmpm_result api_let_go(const Hold *held, pbmpm_result result)
@@ -136,7 +145,7 @@ pbmpm_result pbmpm_world_destroy(pbmpm_world_id world)
 pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def)
 {
     REQUIRE_SIZE(def);
-    HOLD(world);
+    HOLD_STEPPING(world);
     *def = w->def;
     LET_GO(PBMPM_OK);
 }
@@ -159,23 +168,30 @@ pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings
     LET_GO(PBMPM_OK);
 }
 
+const char *api_step_problem(const World *world, float dt)
+{
+    const double part = (double)dt / world->settings.substeps;
+    if (!(dt > 0.0f && dt <= 10.0f)) return "dt must be in (0, 10] seconds";
+    if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)world->def.cell_size)
+        return "dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size";
+    if (world->settings.solver == PBMPM_SOLVER_EXPLICIT && materials_want_modulus(&world->materials))
+        return "the explicit solver needs a bulk_modulus for every liquid";
+    return NULL;
+}
+
 pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
 {
     HOLD(world);
-    const double part = (double)dt / w->settings.substeps;
-    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
-    if (part < SHORTEST_SUBSTEP || part < SHORTEST_SUBSTEP * (double)w->def.cell_size)
-        LET_GO(api_invalid("dt is too short: a substep must last 1e-25 s, and 1e-25 s per metre of cell size"));
-    if (w->settings.solver == PBMPM_SOLVER_EXPLICIT && materials_want_modulus(&w->materials))
-        LET_GO(api_invalid("the explicit solver needs a bulk_modulus for every liquid"));
+    const char *problem = api_step_problem(w, dt);
+    if (problem) LET_GO(api_invalid(problem));
     LET_GO(world_step(w, dt));
 }
 
 pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation)
 {
     REQUIRE(generation);
-    HOLD(world);
-    *generation = w->generation;
+    HOLD_STEPPING(world);
+    *generation = background_is_stepping(w) ? background_generation(w) : w->generation;
     LET_GO(PBMPM_OK);
 }
 
@@ -341,8 +357,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
     const Solid solid = solid_of(&found->def.shape, w->def.dimension);
-    inspect_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count);
-    LET_GO(PBMPM_OK);
+    LET_GO(query_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count));
 }
 
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
@@ -354,8 +369,7 @@ pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, p
     const char *problem = shape_problem(shape, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
     const Solid solid = solid_of(shape, w->def.dimension);
-    inspect_inside(w, &solid, 0.0, ids, capacity, count);
-    LET_GO(PBMPM_OK);
+    LET_GO(query_inside(w, &solid, 0.0, ids, capacity, count));
 }
 
 /* ---- particles.h ---- */
@@ -403,16 +417,16 @@ pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *
 pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
 {
     REQUIRE(count);
-    HOLD(world);
-    *count = w->particles.count;
+    HOLD_STEPPING(world);
+    *count = background_is_stepping(w) ? background_count(w) : w->particles.count;
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view)
 {
     REQUIRE_SIZE(view);
-    HOLD(world);
-    LET_GO(inspect_view(w, field, view));
+    HOLD_STEPPING(world);
+    LET_GO(background_is_stepping(w) ? background_view(w, field, view) : inspect_view(w, field, view));
 }
 
 pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)

@@ -29,6 +29,15 @@ pbmpm_result api_let_go(const Hold *held, pbmpm_result result);
     if (hold_result != PBMPM_OK) return hold_result;                                                                    \
     World *w = held.world
 
+/* The same for the few calls that a world takes while a step runs in the background. */
+pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held);
+
+#define HOLD_STEPPING(id)                                                                                               \
+    Hold held;                                                                                                          \
+    const pbmpm_result hold_result = api_hold_stepping(id, &held);                                                      \
+    if (hold_result != PBMPM_OK) return hold_result;                                                                    \
+    World *w = held.world
+
 #define LET_GO(result) return api_let_go(&held, result)
 
 /* Writes the defaults of a structure whose first member is its size. */
@@ -36,6 +45,9 @@ pbmpm_result api_init_structure(void *structure, size_t size, const void *defaul
 
 #define INIT(structure, size, defaults)                                                                                 \
     return api_init_structure(structure, size, &(defaults), sizeof(defaults))
+
+/* Null if a step of this length is allowed, else what is wrong. */
+const char *api_step_problem(const World *world, float dt);
 
 pbmpm_result api_invalid(const char *problem);
 

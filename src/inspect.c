@@ -19,6 +19,24 @@ static pbmpm_view packed(const void *first, uint32_t components)
     return (pbmpm_view){.data = first, .components = components, .component_stride = 4, .stride = 4 * components};
 }
 
+uint32_t inspect_components(const World *world, pbmpm_field field)
+{
+    const uint32_t d = (uint32_t)world->def.dimension;
+    switch (field) {
+    case PBMPM_POSITION:
+    case PBMPM_VELOCITY: return d;
+    case PBMPM_AFFINE_VELOCITY:
+    case PBMPM_DEFORMATION: return d * d;
+    case PBMPM_PARTICLE: return 2;
+    default: return 1;
+    }
+}
+
+bool inspect_has(const World *world, pbmpm_field field)
+{
+    return (field != PBMPM_DEFORMATION || world->particles.deformation[0]) && (field != PBMPM_PRESSURE || world->particles.pressure);
+}
+
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
 {
     Particles *p = &world->particles;
@@ -50,28 +68,13 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
     return PBMPM_OK;
 }
 
-/* ---- Queries ---- */
+/* ---- Statistics ---- */
 
 static void position_of(const World *world, uint32_t row, double point[3])
 {
     for (int a = 0; a < 3; a++)
         point[a] = a < world->def.dimension ? particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size : 0.0;
 }
-
-void inspect_inside(World *world, const Solid *solid, double margin, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
-{
-    uint32_t found = 0;
-    for (uint32_t row = 0; row < world->particles.count; row++) {
-        double point[3], normal[3];
-        position_of(world, row, point);
-        if (solid_distance(solid, point, normal) > margin) continue;
-        if (found < capacity) ids[found] = world->particles.id[row];
-        found++;
-    }
-    *count = found;
-}
-
-/* ---- Statistics ---- */
 
 /* Sums over all particles, in storage order and double precision. */
 typedef struct Sums {
@@ -190,6 +193,14 @@ static uint64_t mix(uint64_t hash, const void *array, uint32_t count)
     return hash;
 }
 
+/* A world that has room for pressures, but none yet, is as one that has no room. */
+static bool any_pressure(const Particles *p)
+{
+    for (uint32_t i = 0; i < p->count && p->pressure; i++)
+        if (p->pressure[i] != 0.0f) return true;
+    return false;
+}
+
 uint64_t inspect_hash(const World *world)
 {
     const Particles *p = &world->particles;
@@ -204,7 +215,7 @@ uint64_t inspect_hash(const World *world)
         }
     }
     hash = mix(hash, p->volume_ratio, p->count);
-    if (p->pressure) hash = mix(hash, p->pressure, p->count);
+    if (any_pressure(p)) hash = mix(hash, p->pressure, p->count);
     hash = mix(hash, p->material, p->count);
     return mix(hash, p->mass, p->count);
 }

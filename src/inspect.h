@@ -1,4 +1,4 @@
-/* Reading a world: views, queries, statistics, hash. Nothing here changes the state. */
+/* Reading a world: views, statistics, hash. Nothing here changes the state. */
 #ifndef PBMPM_SRC_INSPECT_H
 #define PBMPM_SRC_INSPECT_H
 
@@ -6,8 +6,9 @@
 
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view);
 
-/* Rows of particles nearer than `margin` [m] to the inside of the solid, in storage order. */
-void inspect_inside(World *world, const Solid *solid, double margin, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
+/* Values per particle of a field, and whether this world has it. */
+uint32_t inspect_components(const World *world, pbmpm_field field);
+bool inspect_has(const World *world, pbmpm_field field);
 
 pbmpm_result inspect_stats(World *world, pbmpm_stats *stats);
 uint64_t inspect_hash(const World *world);

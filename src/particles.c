@@ -16,6 +16,24 @@ int particles_components(const Particles *p, int class)
 
 size_t particles_element_size(int class) { return class == CLASS_ID ? sizeof(pbmpm_particle_id) : 4; }
 
+int particles_class(uint32_t tag)
+{
+    switch (tag) {
+    case FIELD_CELL:
+    case FIELD_FRACTION:
+    case FIELD_VELOCITY: return CLASS_VECTOR;
+    case FIELD_AFFINE:
+    case FIELD_DEFORMATION: return CLASS_MATRIX;
+    case FIELD_VOLUME_RATIO:
+    case FIELD_MASS:
+    case FIELD_MATERIAL:
+    case FIELD_STATUS:
+    case FIELD_PRESSURE: return CLASS_SCALAR;
+    case FIELD_ID: return CLASS_ID;
+    default: return -1;
+    }
+}
+
 static size_t field_bytes(const Particles *p, int class)
 {
     return (size_t)particles_components(p, class) * p->array_bytes * (particles_element_size(class) / 4);
@@ -28,8 +46,9 @@ static void bind_field(const Particles *p, const Field *field)
 }
 
 /* `pointers`: the first of the component pointers; those of a matrix stand in rows of three. */
-static bool add_field(Particles *p, Memory *memory, FieldTag tag, int class, void **pointers)
+static bool add_field(Particles *p, Memory *memory, FieldTag tag, void **pointers)
 {
+    const int class = particles_class(tag);
     Field *field = &p->field[p->field_count];
     *field = (Field){.base = memory_take(memory, field_bytes(p, class)), .class = class, .tag = tag};
     if (!field->base) return false;
@@ -46,15 +65,15 @@ static bool add_field(Particles *p, Memory *memory, FieldTag tag, int class, voi
 
 static bool add_fields(Particles *p, Memory *memory)
 {
-    return add_field(p, memory, FIELD_CELL, CLASS_VECTOR, (void **)p->cell) &&
-           add_field(p, memory, FIELD_FRACTION, CLASS_VECTOR, (void **)p->fraction) &&
-           add_field(p, memory, FIELD_VELOCITY, CLASS_VECTOR, (void **)p->velocity) &&
-           add_field(p, memory, FIELD_AFFINE, CLASS_MATRIX, (void **)p->affine) &&
-           add_field(p, memory, FIELD_VOLUME_RATIO, CLASS_SCALAR, (void **)&p->volume_ratio) &&
-           add_field(p, memory, FIELD_MASS, CLASS_SCALAR, (void **)&p->mass) &&
-           add_field(p, memory, FIELD_MATERIAL, CLASS_SCALAR, (void **)&p->material) &&
-           add_field(p, memory, FIELD_STATUS, CLASS_SCALAR, (void **)&p->status) &&
-           add_field(p, memory, FIELD_ID, CLASS_ID, (void **)&p->id);
+    return add_field(p, memory, FIELD_CELL, (void **)p->cell) &&
+           add_field(p, memory, FIELD_FRACTION, (void **)p->fraction) &&
+           add_field(p, memory, FIELD_VELOCITY, (void **)p->velocity) &&
+           add_field(p, memory, FIELD_AFFINE, (void **)p->affine) &&
+           add_field(p, memory, FIELD_VOLUME_RATIO, (void **)&p->volume_ratio) &&
+           add_field(p, memory, FIELD_MASS, (void **)&p->mass) &&
+           add_field(p, memory, FIELD_MATERIAL, (void **)&p->material) &&
+           add_field(p, memory, FIELD_STATUS, (void **)&p->status) &&
+           add_field(p, memory, FIELD_ID, (void **)&p->id);
 }
 
 static size_t table_bytes(const Particles *p) { return (size_t)p->capacity * sizeof(uint32_t); }
@@ -88,7 +107,7 @@ void particles_free(Particles *p, Memory *memory)
 pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
 {
     if (p->deformation[0]) return PBMPM_OK;
-    if (!add_field(p, memory, FIELD_DEFORMATION, CLASS_MATRIX, (void **)p->deformation))
+    if (!add_field(p, memory, FIELD_DEFORMATION, (void **)p->deformation))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the deformation of %u particles", p->capacity);
     for (int r = 0; r < p->dimension; r++)
         for (uint32_t i = 0; i < p->capacity; i++) p->deformation[r * 4][i] = 1.0f;
@@ -97,7 +116,7 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory)
 
 pbmpm_result particles_enable_pressure(Particles *p, Memory *memory)
 {
-    if (p->pressure || add_field(p, memory, FIELD_PRESSURE, CLASS_SCALAR, (void **)&p->pressure)) return PBMPM_OK;
+    if (p->pressure || add_field(p, memory, FIELD_PRESSURE, (void **)&p->pressure)) return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressure of %u particles", p->capacity);
 }
 
@@ -115,6 +134,14 @@ const Field *particles_field(const Particles *p, FieldTag tag)
     for (int i = 0; i < p->field_count; i++)
         if (p->field[i].tag == tag) return &p->field[i];
     return NULL;
+}
+
+void particles_rest(Particles *p, const Field *field)
+{
+    for (int c = 0; c < particles_components(p, field->class); c++)
+        memset(*field->component[c], 0, p->count * particles_element_size(field->class));
+    for (int a = 0; a < p->dimension && field->tag == FIELD_DEFORMATION; a++)
+        for (uint32_t i = 0; i < p->count; i++) p->deformation[a * 4][i] = 1.0f;
 }
 
 /* Sets one coordinate to `cell` + `place`. */

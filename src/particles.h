@@ -78,6 +78,12 @@ pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag);
 /* The field, or null if the particles do not have it. */
 const Field *particles_field(const Particles *p, FieldTag tag);
 
+/* The class of any field that there can be, or -1. */
+int particles_class(uint32_t tag);
+
+/* Sets a field to what it is in new particles: 0, F to the identity. */
+void particles_rest(Particles *p, const Field *field);
+
 /* Bytes per particle and component, and components, of a class of fields. */
 size_t particles_element_size(int class);
 int particles_components(const Particles *p, int class);

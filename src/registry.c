@@ -4,6 +4,7 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
+#include "background.h"
 #include "result.h"
 
 /* A slot lives forever, so an identifier can be looked at without a lock whatever became of its world. */
@@ -21,6 +22,12 @@ uint32_t registry_next_generation(void)
 {
     uint32_t generation = atomic_fetch_add(&last_generation, 1) + 1;
     return generation ? generation : registry_next_generation();
+}
+
+void registry_skip_generations(uint32_t last)
+{
+    unsigned seen = atomic_load(&last_generation);
+    while (seen < last && !atomic_compare_exchange_weak(&last_generation, &seen, last)) continue;
 }
 
 pbmpm_result registry_add(World *world, pbmpm_world_id *id)
@@ -78,9 +85,11 @@ void registry_clear_at_unload(void)
         World *world = NULL;
         const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
         if (id.generation == 0 || registry_remove(id, &world) != PBMPM_OK) continue;
-        if (!world->def.allocator.allocate)
+        if (!world->def.allocator.allocate) {
             world_destroy(world);
-        else if (world->owner == getpid())
+        } else if (world->owner == getpid()) {
+            background_stop(world, true);
             pool_stop(world->pool);
+        }
     }
 }

@@ -7,6 +7,9 @@
 /* A number that no object of this process had before; never 0. */
 uint32_t registry_next_generation(void);
 
+/* Numbers up to this are taken: they stand in stored data. */
+void registry_skip_generations(uint32_t last);
+
 /* Makes a world known. */
 pbmpm_result registry_add(World *world, pbmpm_world_id *id);
 

@@ -27,6 +27,12 @@ pbmpm_result fail(pbmpm_result result, const char *format, ...)
     return result;
 }
 
+pbmpm_result result_pass_on(pbmpm_result result, const char *text)
+{
+    snprintf(message, sizeof message, "%s", text);
+    return result;
+}
+
 void result_log(const char *format, ...)
 {
     if (!log_callback) return;

@@ -118,6 +118,7 @@ void world_destroy(World *world)
     background_stop(world, here);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
+    lookup_free(&world->lookup, &world->memory);
     colliders_free(&world->colliders, &world->memory);
     dual_free(world);
     guess_free(world);

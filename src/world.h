@@ -8,6 +8,7 @@
 #include "events.h"
 #include "grid.h"
 #include "kernels.h"
+#include "lookup.h"
 #include "materials.h"
 #include "memory.h"
 #include "mirror.h"
@@ -64,6 +65,7 @@ typedef struct World {
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
+    Lookup lookup;          /* of queries; empty until the first */
     Background *background; /* null until a step is begun in the background */
 
     Events events;

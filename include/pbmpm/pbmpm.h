@@ -10,11 +10,14 @@
 #ifndef PBMPM_H
 #define PBMPM_H
 
+#include "async.h"
 #include "base.h"
 #include "collider.h"
 #include "material.h"
 #include "particles.h"
+#include "query.h"
 #include "shape.h"
+#include "snapshot.h"
 #include "stats.h"
 #include "version.h"
 #include "world.h"

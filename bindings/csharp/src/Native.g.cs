@@ -31,6 +31,8 @@ namespace Pbmpm
         public const int MaxCell = 4194304;
         /// <summary>per world</summary>
         public const int MaxColliders = 1024;
+        /// <summary>of the format that this library writes, and the only one it reads</summary>
+        public const int SnapshotVersion = 1;
     }
 
     /// <summary>What a call came to. Zero is success; everything else left the world as it was before the call, except
@@ -568,6 +570,69 @@ namespace Pbmpm
         }
     }
 
+    /// <summary>What one material has in a region.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct RegionShare
+    {
+        public MaterialId Material;
+        /// <summary>particles whose centre is inside</summary>
+        public ulong Count;
+        /// <summary>of these [kg] (2D: per metre of depth)</summary>
+        public double Mass;
+        /// <summary>present volume, rest volume times VOLUME_RATIO [m^d]</summary>
+        public double Volume;
+        /// <summary>[m^d]</summary>
+        public double RestVolume;
+    }
+
+    /// <summary>A ray. Fill it with pbmpm_ray_init(), then change what differs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Ray
+    {
+        /// <summary>sizeof(pbmpm_ray), set by pbmpm_ray_init()</summary>
+        public uint Size;
+        /// <summary>filling that stops the ray, in (0, 100]; default 0.5: the surface</summary>
+        public float Level;
+        /// <summary>[m]; default 0</summary>
+        public Float3 Origin;
+        /// <summary>any length above 1e-6; default (0, -1, 0)</summary>
+        public Float3 Direction;
+        /// <summary>[m], in [0, 1e9]; default 1e9</summary>
+        public float MaxDistance;
+
+        /// <summary>The library's defaults.</summary>
+        public static Ray Default
+        {
+            get
+            {
+                Library.Check();
+                Ray it;
+                Library.Require(Methods.pbmpm_ray_init(&it, (UIntPtr)sizeof(Ray)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>Where a ray met matter. Without a hit all but `size` is 0.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct RayHit
+    {
+        /// <summary>sizeof(pbmpm_ray_hit), set by the caller</summary>
+        public uint Size;
+        /// <summary>1: the ray met matter</summary>
+        public int Hit;
+        /// <summary>from the origin [m]</summary>
+        public float Distance;
+        /// <summary>[m]</summary>
+        public Float3 Position;
+        /// <summary>unit vector out of the matter: against the gradient of the filling; 0 where that is 0</summary>
+        public Float3 Normal;
+        /// <summary>of `particle`</summary>
+        public MaterialId Material;
+        /// <summary>nearest to the position of those that count there (W_p &gt; 0); of equals the first in storage order</summary>
+        public ParticleId Particle;
+    }
+
     /// <summary>Figures of the last step. Times are of the whole step (all substeps); state is that at its end. Momentum and angular
     /// momentum are relative to the world's origin; in 2D only component 2 of the angular momentum is used.</summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -951,6 +1016,25 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
 
+        /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
+        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
+        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
+
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
+        /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
+        /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
+
+        /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
+        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_end(WorldId world, int wait);
+
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
@@ -982,6 +1066,68 @@ namespace Pbmpm.Native
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
+
+        /// <summary>What is inside a shape, by material: one entry for each material that has particles there, in the order of their indices.
+        /// Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_region(WorldId world, Shape* shape, RegionShare* shares, uint capacity, uint* count);
+
+        /// <summary>Fields at points. `points`: count * d floats [m]. Each of the others may be null:
+        /// `filling`: count floats, as defined above;
+        /// `density`: count floats, sum_p m_p W_p / dx^d [kg/m^3] (2D: kg/m^2);
+        /// `velocity`: count * d floats, sum_p m_p W_p (v_p + C_p (x - x_p)) / sum_p m_p W_p [m/s], C_p the affine velocity; 0 where
+        /// there is no matter. A velocity that is linear in x comes out exactly.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null points, a coordinate that is not finite), OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_points(WorldId world, float* points, uint count, float* filling, float* density, float* velocity);
+
+        /// <summary>The highest matter over (or under) points. "Up" is the unit vector u along `direction` (d floats, any length above 1e-6), or, if that
+        /// is null, against gravity. On the line through a point x, take the samples x + k dx/4 u for all integers k: the highest one where the
+        /// filling reaches `level`, moved up by 12 halvings of the way to the next sample, is the surface. heights[i] is its coordinate
+        /// along u, u . x [m], so with u = +y it is its y; -infinity where the line meets no matter.
+        /// `points`: count * d floats [m]; `level`: in (0, 100], 0.5 is the surface.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (also: null direction without gravity), OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_heights(WorldId world, float* points, uint count, float* direction, float level, float* heights);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_ray_init(Ray* ray, UIntPtr size);
+
+        /// <summary>The first point along a ray where the filling reaches the level. Samples lie dx/4 apart, the first one at the origin; the way
+        /// from the last sample below the level to the first one that reaches it is halved 12 times. A ray that begins in matter
+        /// hits at distance 0. `hit-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_query_ray(WorldId world, Ray* ray, RayHit* hit);
+
+        /// <summary>How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_snapshot_size(WorldId world, ulong* bytes, uint* bytesPerParticle);
+
+        /// <summary>Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there; *bytes (may be null): how many are
+        /// needed, also on CAPACITY, and written otherwise. Takes no memory of the world and expires no views.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), CAPACITY (less room than pbmpm_snapshot_size() says; nothing is written),
+        /// BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_snapshot_save(WorldId world, IntPtr buffer, ulong capacity, ulong* bytes);
+
+        /// <summary>Puts a world back into the state of a snapshot. `bytes`: as many as were written, or more. Everything is checked first: on
+        /// failure nothing has changed. All particles of before are gone; identifiers of particles are those of the snapshot, and
+        /// live in every world that it was restored into. Identifiers of materials and colliders stay the world's own: they
+        /// correspond by index. Views expire, events are cleared, and the figures of the last step are 0 until the next one.
+        ///
+        /// The world must have the dimension, cell size and domain box of the snapshot's; the same materials with the same
+        /// parameters at the same indices; colliders of the same shape, friction and kind at the same indices; and room for
+        /// the particles and their identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+        ///
+        /// Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
+        /// of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);
+        /// INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes);
 
         /// <summary>Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
         /// the particles, and only when called. `stats-&gt;size` must be set.
@@ -1018,6 +1164,9 @@ namespace Pbmpm.Native
             FillDef(fields);
             View(fields);
             ColliderDef(fields);
+            RegionShare(fields);
+            Ray(fields);
+            RayHit(fields);
             Stats(fields);
             Event(fields);
             return fields;
@@ -1214,6 +1363,41 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void RegionShare(List<MirrorField> fields)
+        {
+            var it = default(RegionShare);
+            fields.Add(new MirrorField("pbmpm_region_share", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "mass", &it, &it.Mass, &it.Mass + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "volume", &it, &it.Volume, &it.Volume + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "rest_volume", &it, &it.RestVolume, &it.RestVolume + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "", &it, &it, &it + 1, false));
+        }
+
+        static void Ray(List<MirrorField> fields)
+        {
+            var it = default(Ray);
+            fields.Add(new MirrorField("pbmpm_ray", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray", "level", &it, &it.Level, &it.Level + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray", "origin", &it, &it.Origin, &it.Origin + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray", "direction", &it, &it.Direction, &it.Direction + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray", "max_distance", &it, &it.MaxDistance, &it.MaxDistance + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray", "", &it, &it, &it + 1, true));
+        }
+
+        static void RayHit(List<MirrorField> fields)
+        {
+            var it = default(RayHit);
+            fields.Add(new MirrorField("pbmpm_ray_hit", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "hit", &it, &it.Hit, &it.Hit + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "distance", &it, &it.Distance, &it.Distance + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "position", &it, &it.Position, &it.Position + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "normal", &it, &it.Normal, &it.Normal + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "particle", &it, &it.Particle, &it.Particle + 1, false));
+            fields.Add(new MirrorField("pbmpm_ray_hit", "", &it, &it, &it + 1, true));
         }
 
         static void Stats(List<MirrorField> fields)

@@ -1,0 +1,56 @@
+/* pbmpm: steps that run while the host does something else. */
+#ifndef PBMPM_ASYNC_H
+#define PBMPM_ASYNC_H
+
+#include "particles.h"
+#include "world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks. It computes
+ * what pbmpm_world_step() would have: results do not depend on how a step was made. From the begin to an end that did not
+ * give BUSY the world takes these calls only, and answers all others with BUSY:
+ *
+ *   pbmpm_world_step_end()        waits, or looks whether the step is done;
+ *   pbmpm_particles_view()        of a published field: the state that the step began with;
+ *   pbmpm_particles_count()       of that state;
+ *   pbmpm_world_generation()      of those views;
+ *   pbmpm_world_get_def()
+ *   pbmpm_world_destroy(), pbmpm_shutdown()  wait for the step; its result is lost.
+ *
+ * As ever, one thread at a time per world; any thread may begin, view and end.
+ *
+ * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy,
+ * and are valid until the end. The copy is made by the step's thread before anything else: a view that is asked for right after
+ * the begin may wait for it, some milliseconds for a million particles.
+ *
+ * Memory: the copy of the published fields, for `particle_capacity` particles: 28 bytes per particle in 2D and 36 in 3D for the
+ * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
+ * begins a step has neither.
+ *
+ * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world.
+ * After a fork the step goes on in the parent. The child cannot know how far it was: there, destroying the world gives no
+ * memory back. */
+
+/** Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
+ *  MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
+ *  memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
+
+/** Begins a step of `dt` seconds and returns. Expires all views.
+ *  Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
+ *  published fields), THREAD (no thread for the step): then no step was begun and nothing has changed. */
+PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);
+
+/** Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
+ *  done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY. */
+PBMPM_API pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,117 @@
+/* Exported functions of snapshot.h, async.h and query.h: check the arguments, hold the world, forward, let go. */
+#include "pbmpm/pbmpm.h"
+
+#include "api_call.h"
+#include "background.h"
+#include "query.h"
+#include "snapshot.h"
+
+/* ---- snapshot.h ---- */
+
+pbmpm_result pbmpm_snapshot_size(pbmpm_world_id world, uint64_t *bytes, uint32_t *bytes_per_particle)
+{
+    REQUIRE(bytes);
+    HOLD(world);
+    *bytes = snapshot_size(w);
+    if (bytes_per_particle) *bytes_per_particle = snapshot_bytes_per_particle(w);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, uint64_t capacity, uint64_t *bytes)
+{
+    REQUIRE(buffer);
+    HOLD(world);
+    const uint64_t needed = snapshot_size(w);
+    if (bytes) *bytes = needed;
+    if (needed > capacity)
+        LET_GO(fail(PBMPM_ERROR_CAPACITY, "the snapshot needs %llu bytes; there are %llu", (unsigned long long)needed,
+                    (unsigned long long)capacity));
+    snapshot_save(w, buffer);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes)
+{
+    REQUIRE(snapshot);
+    HOLD(world);
+    LET_GO(snapshot_restore(w, snapshot, bytes));
+}
+
+/* ---- async.h ---- */
+
+pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count)
+{
+    if (count) REQUIRE(fields);
+    HOLD(world);
+    const char *problem = background_fields_problem(fields, count);
+    if (problem) LET_GO(api_invalid(problem));
+    LET_GO(background_publish(w, fields, count));
+}
+
+pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt)
+{
+    HOLD(world);
+    const char *problem = api_step_problem(w, dt);
+    if (problem) LET_GO(api_invalid(problem));
+    LET_GO(background_begin(w, dt));
+}
+
+pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
+{
+    HOLD_STEPPING(world);
+    LET_GO(background_end(w, wait != 0));
+}
+
+/* ---- query.h ---- */
+
+pbmpm_result pbmpm_ray_init(pbmpm_ray *ray, size_t size)
+{
+    const pbmpm_ray defaults = query_ray_defaults();
+    INIT(ray, size, defaults);
+}
+
+pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_region_share *shares, uint32_t capacity,
+                                uint32_t *count)
+{
+    REQUIRE_SIZE(shape);
+    REQUIRE(count);
+    if (capacity) REQUIRE(shares);
+    HOLD(world);
+    const char *problem = shape_problem(shape, w->def.dimension);
+    if (problem) LET_GO(api_invalid(problem));
+    const Solid solid = solid_of(shape, w->def.dimension);
+    LET_GO(query_region(w, &solid, shares, capacity, count));
+}
+
+pbmpm_result pbmpm_query_points(pbmpm_world_id world, const float *points, uint32_t count, float *filling, float *density, float *velocity)
+{
+    if (count) REQUIRE(points);
+    HOLD(world);
+    const char *problem = query_points_problem(w, points, count);
+    if (problem) LET_GO(api_invalid(problem));
+    LET_GO(query_points(w, points, count, filling, density, velocity));
+}
+
+pbmpm_result pbmpm_query_heights(pbmpm_world_id world, const float *points, uint32_t count, const float *direction, float level,
+                                 float *heights)
+{
+    if (count) REQUIRE(points);
+    if (count) REQUIRE(heights);
+    HOLD(world);
+    double up[3];
+    const char *problem = query_points_problem(w, points, count);
+    if (!problem) problem = query_level_problem(level);
+    if (!problem && !query_direction(w, direction, up)) problem = "the direction must be finite and longer than 1e-6; without one there must be gravity";
+    if (problem) LET_GO(api_invalid(problem));
+    LET_GO(query_heights(w, points, count, up, level, heights));
+}
+
+pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_ray_hit *hit)
+{
+    REQUIRE_SIZE(ray);
+    REQUIRE_SIZE(hit);
+    HOLD(world);
+    const char *problem = query_ray_problem(w, ray);
+    if (problem) LET_GO(api_invalid(problem));
+    LET_GO(query_ray(w, ray, hit));
+}

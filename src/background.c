@@ -1,0 +1,243 @@
+#include "background.h"
+
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cpu.h"
+#include "inspect.h"
+#include "result.h"
+#include "step.h"
+
+enum { FIELDS = PBMPM_PRESSURE + 1 };
+
+/* What the step's thread is at. It goes from COPYING to DONE; callers do the rest. */
+typedef enum Stage { IDLE, COPYING, STEPPING, DONE } Stage;
+
+struct Background {
+    World *world;
+    pbmpm_field wanted[FIELDS];
+    uint32_t wanted_count;
+
+    /* Copies of published fields, by field. They stay until the end, for a view may expire but not dangle. */
+    char *copy[FIELDS];
+    pbmpm_view view[FIELDS]; /* of the copies; size 0: not published in this step */
+    uint32_t count;
+    uint64_t generation;
+
+    bool begun; /* from a begin to its end */
+    float dt;
+    pbmpm_result result;
+    char message[256];
+
+    bool has_thread;
+    pthread_t thread;
+    pthread_mutex_t lock; /* guards what follows */
+    pthread_cond_t changed;
+    Stage stage;
+    bool quit;
+};
+
+/* ---- Published fields ---- */
+
+const char *background_fields_problem(const pbmpm_field *fields, uint32_t count)
+{
+    bool seen[FIELDS] = {false};
+    for (uint32_t i = 0; i < count; i++) {
+        if (fields[i] < PBMPM_POSITION || (int)fields[i] >= FIELDS) return "a field to publish does not exist";
+        if (seen[fields[i]]) return "a field is to be published twice";
+        seen[fields[i]] = true;
+    }
+    return NULL;
+}
+
+static size_t copy_bytes(const World *world, pbmpm_field field)
+{
+    return (size_t)world->particles.capacity * inspect_components(world, field) * sizeof(float);
+}
+
+/* Copies a field, its components as far apart as they have to be, or side by side as they are. */
+static void copy_field(Background *background, pbmpm_field field)
+{
+    pbmpm_view *view = &background->view[field];
+    *view = (pbmpm_view){.size = sizeof *view};
+    if (inspect_view(background->world, field, view) != PBMPM_OK) return;
+    const char *from = view->data;
+    char *to = background->copy[field];
+    view->data = view->count ? to : NULL;
+    view->generation = background->generation;
+    if (view->stride == (uint64_t)view->components * view->component_stride) {
+        memcpy(to, from, view->count ? view->count * view->stride : 0);
+        return;
+    }
+    const uint32_t apart = (uint32_t)(background->world->particles.capacity * sizeof(float));
+    for (uint32_t c = 0; c < view->components && view->count; c++)
+        memcpy(to + (size_t)c * apart, from + (size_t)c * view->component_stride, view->count * sizeof(float));
+    view->component_stride = apart;
+}
+
+static void copy_fields(Background *background)
+{
+    memset(background->view, 0, sizeof background->view);
+    for (uint32_t i = 0; i < background->wanted_count; i++)
+        if (inspect_has(background->world, background->wanted[i])) copy_field(background, background->wanted[i]);
+}
+
+static pbmpm_result reserve_copies(World *world)
+{
+    Background *background = world->background;
+    for (uint32_t i = 0; i < background->wanted_count; i++) {
+        const pbmpm_field field = background->wanted[i];
+        if (background->copy[field]) continue;
+        background->copy[field] = memory_take(&world->memory, copy_bytes(world, field));
+        if (!background->copy[field]) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to publish field %d", (int)field);
+    }
+    return PBMPM_OK;
+}
+
+/* ---- The thread ---- */
+
+static void enter_stage(Background *background, Stage stage)
+{
+    pthread_mutex_lock(&background->lock);
+    background->stage = stage;
+    pthread_cond_broadcast(&background->changed);
+    pthread_mutex_unlock(&background->lock);
+}
+
+/* Returns false when the thread has to end; a step that has not started is then given up. */
+static bool wait_for_step(Background *background)
+{
+    pthread_mutex_lock(&background->lock);
+    while (background->stage != COPYING && !background->quit) pthread_cond_wait(&background->changed, &background->lock);
+    const bool go = !background->quit;
+    pthread_mutex_unlock(&background->lock);
+    return go;
+}
+
+static void *thread_main(void *context)
+{
+    Background *background = context;
+    while (wait_for_step(background)) {
+        const uint32_t mode = float_mode_enter_from_host();
+        copy_fields(background);
+        enter_stage(background, STEPPING);
+        background->result = world_step(background->world, background->dt);
+        snprintf(background->message, sizeof background->message, "%s", background->result == PBMPM_OK ? "" : result_message());
+        float_mode_leave_to_host(mode);
+        enter_stage(background, DONE);
+    }
+    return NULL;
+}
+
+/* ---- Life ---- */
+
+static pbmpm_result make(World *world)
+{
+    static const pbmpm_field usual[] = {PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_MATERIAL, PBMPM_PARTICLE};
+    if (world->background) return PBMPM_OK;
+    Background *background = memory_take(&world->memory, sizeof *background);
+    if (!background) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for steps in the background");
+    background->world = world;
+    memcpy(background->wanted, usual, sizeof usual);
+    background->wanted_count = sizeof usual / sizeof *usual;
+    world->background = background;
+    return PBMPM_OK;
+}
+
+static pbmpm_result start_thread(Background *background)
+{
+    if (background->has_thread) return PBMPM_OK;
+    pthread_mutex_init(&background->lock, NULL);
+    pthread_cond_init(&background->changed, NULL);
+    background->has_thread = pthread_create(&background->thread, NULL, thread_main, background) == 0;
+    if (background->has_thread) return PBMPM_OK;
+    pthread_cond_destroy(&background->changed);
+    pthread_mutex_destroy(&background->lock);
+    return fail(PBMPM_ERROR_THREAD, "could not start the thread of the step");
+}
+
+void background_stop(World *world, bool here)
+{
+    Background *background = world->background;
+    if (!background || !background->has_thread || !here) return;
+    pthread_mutex_lock(&background->lock);
+    background->quit = true;
+    pthread_cond_broadcast(&background->changed);
+    pthread_mutex_unlock(&background->lock);
+    pthread_join(background->thread, NULL);
+    pthread_cond_destroy(&background->changed);
+    pthread_mutex_destroy(&background->lock);
+    background->has_thread = false;
+}
+
+void background_free(World *world)
+{
+    Background *background = world->background;
+    if (!background) return;
+    for (int field = 0; field < FIELDS; field++)
+        memory_give(&world->memory, background->copy[field], copy_bytes(world, (pbmpm_field)field));
+    memory_give(&world->memory, background, sizeof *background);
+    world->background = NULL;
+}
+
+/* ---- Calls ---- */
+
+pbmpm_result background_publish(World *world, const pbmpm_field *fields, uint32_t count)
+{
+    const pbmpm_result result = make(world);
+    if (result != PBMPM_OK) return result;
+    if (count) memcpy(world->background->wanted, fields, count * sizeof *fields);
+    world->background->wanted_count = count;
+    return PBMPM_OK;
+}
+
+bool background_is_stepping(const World *world) { return world->background && world->background->begun; }
+
+pbmpm_result background_begin(World *world, float dt)
+{
+    pbmpm_result result = make(world);
+    if (result == PBMPM_OK) result = reserve_copies(world);
+    if (result == PBMPM_OK) result = start_thread(world->background);
+    if (result != PBMPM_OK) return result;
+    Background *background = world->background;
+    world_touch(world);
+    background->count = world->particles.count;
+    background->generation = world->generation;
+    background->dt = dt;
+    background->begun = true;
+    enter_stage(background, COPYING);
+    return PBMPM_OK;
+}
+
+pbmpm_result background_end(World *world, bool wait)
+{
+    Background *background = world->background;
+    if (!background_is_stepping(world)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "no step is under way: none was begun");
+    pthread_mutex_lock(&background->lock);
+    while (wait && background->stage != DONE) pthread_cond_wait(&background->changed, &background->lock);
+    const bool done = background->stage == DONE;
+    if (done) background->stage = IDLE;
+    pthread_mutex_unlock(&background->lock);
+    if (!done) return fail(PBMPM_ERROR_BUSY, "the step is not done yet");
+    background->begun = false;
+    return background->result == PBMPM_OK ? PBMPM_OK : result_pass_on(background->result, background->message);
+}
+
+pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
+{
+    Background *background = world->background;
+    bool wanted = false;
+    for (uint32_t i = 0; i < background->wanted_count; i++) wanted |= background->wanted[i] == field;
+    if (!wanted) return fail(PBMPM_ERROR_BUSY, "field %d is not published, and a step is under way", (int)field);
+    pthread_mutex_lock(&background->lock);
+    while (background->stage == COPYING) pthread_cond_wait(&background->changed, &background->lock);
+    pthread_mutex_unlock(&background->lock);
+    if (background->view[field].size == 0) return fail(PBMPM_ERROR_UNSUPPORTED, "the world does not have field %d yet", (int)field);
+    *view = background->view[field];
+    return PBMPM_OK;
+}
+
+uint32_t background_count(const World *world) { return world->background->count; }
+
+uint64_t background_generation(const World *world) { return world->background->generation; }

@@ -1,0 +1,28 @@
+/* A step on a thread of its own, and the copy of the particles that can be viewed meanwhile. */
+#ifndef PBMPM_SRC_BACKGROUND_H
+#define PBMPM_SRC_BACKGROUND_H
+
+#include "world.h"
+
+/* Null if the list is valid, else what is wrong. */
+const char *background_fields_problem(const pbmpm_field *fields, uint32_t count);
+
+pbmpm_result background_publish(World *world, const pbmpm_field *fields, uint32_t count);
+
+/* Whether a step was begun and not ended; if so, only the functions below may be called. */
+bool background_is_stepping(const World *world);
+
+/* `dt` is valid. */
+pbmpm_result background_begin(World *world, float dt);
+pbmpm_result background_end(World *world, bool wait);
+
+/* Of the state that the step began with. */
+pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view);
+uint32_t background_count(const World *world);
+uint64_t background_generation(const World *world);
+
+/* Waits for the step and ends the thread; after a fork (`here` false) there is none. */
+void background_stop(World *world, bool here);
+void background_free(World *world);
+
+#endif
