@@ -113,14 +113,14 @@ class Simulation:
         self.world.close()
 
     def _populate(self) -> None:
-        materials = {name: self.world.add_material(_material(part)) for name, part in self.scene.materials.items()}
-        self._rows = np.zeros(max(m.index for m in materials.values()) + 1, dtype=np.uint8)
-        for row, material in enumerate(materials.values()):
+        self.materials = {name: self.world.add_material(_material(part)) for name, part in self.scene.materials.items()}
+        self._rows = np.zeros(max(m.index for m in self.materials.values()) + 1, dtype=np.uint8)
+        for row, material in enumerate(self.materials.values()):
             self._rows[material.index] = row
         for index, fill in enumerate(self.scene.fills):
             added = self.world.fill(
                 _shape(fill.shape),
-                materials[fill.material],
+                self.materials[fill.material],
                 particles_per_axis=fill.particles_per_axis,
                 jitter=fill.jitter,
                 seed=fill.seed,

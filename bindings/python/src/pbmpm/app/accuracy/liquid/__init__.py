@@ -9,6 +9,7 @@ from .dam_break import DamBreak
 from .drop import EllipticalDrop
 from .invariance import Invariance
 from .obstacle import ObstacleDamBreak
+from .prediction import ColumnPrediction, DamBreakPrediction
 from .vortex import TaylorGreen
 from .wave import StandingWave
 
@@ -22,6 +23,8 @@ LIQUID_CASES = (
     Couette,
     Poiseuille,
     Invariance,
+    ColumnPrediction,
+    DamBreakPrediction,
     StabilityClaim,
     StiffnessClaim,
     VolumeClaim,
