@@ -6,6 +6,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,8 +14,9 @@ import pytest
 
 import pbmpm
 from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Setting, find_case
-from pbmpm.app.hardcases.case import EXPLICIT
+from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
 from pbmpm.app.hardcases.energy import energy_density
+from pbmpm.app.stability.plan import Selection, plan
 
 #: The explicit solver is the one to compare with: it is expected to fail.
 TESTED_SOLVERS = tuple(solver for solver in SOLVERS if solver != EXPLICIT)
@@ -66,14 +68,19 @@ def test_catalogue_is_complete_and_in_order() -> None:
     assert all(case.title and case.origin and case.criterion for case in CASES)
 
 
-def test_known_failures_name_settings_that_exist() -> None:
+def test_every_known_failure_covers_a_setting_of_the_map() -> None:
+    settings = {case.id: [run.setting for run in plan(Selection(cases=(case,)))] for case in CASES}
     for case in CASES:
-        settings = {
-            (solver, setting.material, setting.dimension, setting.variant)
-            for solver in SOLVERS
-            for setting in case.settings(solver=solver)
-        }
-        assert set(case.known_failures) <= settings
+        for known in case.known_failures:
+            assert any(map(known.covers, settings[case.id])), known.reason
+
+
+def test_known_failure_covers_what_it_names() -> None:
+    known = KnownFailure("why", solvers=("paper",), variants=("clamp",), most_iterations=1)
+    setting = Setting("elastic", 2, "clamp", 60.0, 1)
+    assert known.covers(setting)
+    others = ({"solver": "dual"}, {"variant": "delete"}, {"iterations": 2})
+    assert not any(known.covers(replace(setting, **other)) for other in others)
 
 
 def test_find_case() -> None:
