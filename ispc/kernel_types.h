@@ -96,6 +96,7 @@ struct KernelArgs {
     K_PTR(float) tile_volume; /* the same for rest volume, one float per node; null when no material asks for it */
     K_PTR(float) node;        /* per node block: displacement and mass */
     K_PTR(float) node_base;   /* per node block: displacement of the predictor, unconstrained, and mass; not the paper's solver */
+    K_PTR(float) node_before; /* the same without forces: what particles brought, and gravity */
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
     K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */

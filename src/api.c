@@ -271,6 +271,7 @@ pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id mate
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     for (uint32_t row = 0; row < w->particles.count; row++)
         if (w->particles.material[row] == material.index) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
+    if (emitters_use(&w->emitters, material)) LET_GO(fail(PBMPM_ERROR_IN_USE, "an emitter still uses this material"));
     w->materials.generation[material.index] = 0;
     LET_GO(PBMPM_OK);
 }

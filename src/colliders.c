@@ -79,20 +79,10 @@ void collider_place(Collider *collider, const float position[3], const float *ro
 
 /* ---- Obstacles of a substep ---- */
 
-/* The pose at the share `t` of the way; quaternions along the shorter arc, normalised by solid_of(). */
+/* The pose at the share `t` of the way. */
 static pbmpm_shape pose_between(const Collider *collider, float t)
 {
-    pbmpm_shape shape = collider->def.shape;
-    float dot = 0.0f;
-    for (int a = 0; a < 4; a++) dot += shape.rotation[a] * collider->target_rotation[a];
-    for (int a = 0; a < 3; a++) shape.position[a] += t * (collider->target_position[a] - shape.position[a]);
-    const float sign = dot < 0.0f ? -1.0f : 1.0f;
-    for (int a = 0; a < 4; a++) shape.rotation[a] += t * (sign * collider->target_rotation[a] - shape.rotation[a]);
-    if (t == 1.0f) { /* exactly, whatever rounding says */
-        memcpy(shape.position, collider->target_position, sizeof shape.position);
-        memcpy(shape.rotation, collider->target_rotation, sizeof shape.rotation);
-    }
-    return shape;
+    return shape_between(&collider->def.shape, collider->target_position, collider->target_rotation, t);
 }
 
 static Obstacle obstacle_of(const Collider *collider, int dimension, int part, int parts)
@@ -144,6 +134,8 @@ void colliders_end_step(Colliders *colliders)
             collider_place(collider, collider->target_position, collider->target_rotation, true);
     }
 }
+
+double obstacle_distance(const Obstacle *o, const double point[3], double normal[3]) { return solid_distance(&o->end, point, normal); }
 
 /* Where the obstacle carries a point of its own, in cells, at most `limit`: x -> end + turn (x - start). */
 static void surface_displacement(const Obstacle *o, const double point[3], double cell_size, float limit, float out[3])
@@ -307,6 +299,12 @@ static double open_share(double distance)
     if (distance > 0.5) return 1.0 - rest * rest * rest / 6.0;
     if (distance < -0.5) return rest * rest * rest / 6.0;
     return 0.5 + distance * (0.75 - distance * distance / 3.0);
+}
+
+double obstacle_open_share(const Obstacle *o, const double node[3], double cell_size)
+{
+    double normal[3];
+    return open_share(obstacle_distance(o, node, normal) / cell_size);
 }
 
 static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t block)

@@ -65,6 +65,12 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
 /* After the last part: the targets are reached. */
 void colliders_end_step(Colliders *colliders);
 
+/* Distance [m] of a point from an obstacle at the end of the substep, negative inside, and the outward normal. */
+double obstacle_distance(const Obstacle *obstacle, const double point[3], double normal[3]);
+
+/* The share of the support of a node [m] that an obstacle leaves open at the end of the substep; never 0. */
+double obstacle_open_share(const Obstacle *obstacle, const double node[3], double cell_size);
+
 /* Lists the contacts of all blocks; needs node_reach of the predictor. */
 typedef struct ContactFrame {
     Colliders *colliders;

@@ -4,6 +4,7 @@
 
 #include "numbers.h"
 #include "result.h"
+#include "scatter.h"
 
 static const double VALUE_LIMIT = 1e9; /* of velocities and their gradients: far above any use, far below float overflow */
 
@@ -120,15 +121,6 @@ static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice 
         lattice->first[a] = 0.5 * (low[a] + high[a]) - 0.5 * (size - 1.0) * lattice->spacing;
     }
     return true;
-}
-
-/* A number in [-1/2, 1/2) from a counter: the finaliser of SplitMix64 (G. Steele, D. Lea, C. Flood, OOPSLA 2014). */
-static double scatter_number(uint64_t seed, uint64_t counter)
-{
-    uint64_t x = (seed << 32 ^ counter) + 0x9e3779b97f4a7c15u;
-    x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27) * 0x94d049bb133111ebu;
-    return (double)((x ^ x >> 31) >> 11) * 0x1p-53 - 0.5;
 }
 
 /* The jittered lattice point, or false if it is not in the shape or not in the domain. Jitter never leaves the domain. */

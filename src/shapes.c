@@ -83,6 +83,21 @@ Solid solid_of(const pbmpm_shape *shape, int dimension)
     return s;
 }
 
+pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], const float rotation[4], float t)
+{
+    pbmpm_shape shape = *start;
+    float dot = 0.0f;
+    for (int a = 0; a < 4; a++) dot += shape.rotation[a] * rotation[a];
+    for (int a = 0; a < 3; a++) shape.position[a] += t * (position[a] - shape.position[a]);
+    const float sign = dot < 0.0f ? -1.0f : 1.0f;
+    for (int a = 0; a < 4; a++) shape.rotation[a] += t * (sign * rotation[a] - shape.rotation[a]);
+    if (t == 1.0f) { /* exactly, whatever rounding says */
+        memcpy(shape.position, position, sizeof shape.position);
+        memcpy(shape.rotation, rotation, sizeof shape.rotation);
+    }
+    return shape;
+}
+
 static double length_of(const double v[3], int d)
 {
     double sum = 0.0;

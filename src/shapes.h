@@ -26,6 +26,9 @@ Solid solid_of(const pbmpm_shape *shape, int dimension);
 void rotation_from_quaternion(const float q[4], double r[9]);
 void normalise_quaternion(float q[4]);
 
+/* A shape on its way to another pose, at the share `t` of the way: positions along a line, quaternions along the shorter arc. */
+pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], const float rotation[4], float t);
+
 /* Distance of a point from the surface, negative inside, and the outward unit normal of the nearest surface point. In
  * 2D the third component is neither read nor written to anything but 0. */
 double solid_distance(const Solid *solid, const double point[3], double normal[3]);

@@ -76,6 +76,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .tile_volume = with_volume ? grid->tile_volume.data : NULL,
                       .node = grid->node.data,
                       .node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
                       .node_volume = with_volume ? grid->node_volume.data : NULL,
                       .node_reach = grid->node_reach.data,
                       .clamped = grid->clamped.data,

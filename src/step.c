@@ -38,7 +38,7 @@ static void report_lost(World *world, int32_t block, uint32_t substep)
     const uint32_t *begin = world->grid.block_begin.data;
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         const int32_t status = world->particles.status[row];
-        if (status == K_ALIVE) continue;
+        if (status == K_ALIVE || status == K_REMOVED) continue;
         const pbmpm_event event = particle_event(world, kinds[status], row, substep);
         events_add(&world->events, &event);
     }
@@ -60,8 +60,8 @@ static uint32_t fastest_row(const World *world, int32_t block)
     return fastest;
 }
 
-/* Reports what the kernels counted and removes the particles that have to go. */
-static void collect_events(World *world, uint32_t substep)
+/* Reports what the kernels counted and removes the particles that have to go, with the `drained` ones that are marked. */
+static void collect_events(World *world, uint32_t substep, uint32_t drained)
 {
     const uint32_t *lost = world->grid.lost.data, *clamped = world->grid.clamped.data, *moved = world->grid.moved.data;
     const float *travel = world->grid.travel.data;
@@ -84,11 +84,12 @@ static void collect_events(World *world, uint32_t substep)
     }
     world->clamped_total += total_clamped;
     world->deleted_total += total_lost;
-    if (total_lost) {
+    if (total_lost + drained) {
         particles_compact(&world->particles);
         world_touch(world);
-        result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
     }
+    if (total_lost)
+        result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
 }
 
 /* ---- Phases ---- */
@@ -121,6 +122,8 @@ static pbmpm_result substep(World *world, float dt, int part)
     if (result != PBMPM_OK) return result;
     solver_bind(world, dt, with_volume);
     solver_predict(world);
+    result = forces_apply(world, dt);
+    if (result != PBMPM_OK) return result;
     lap(&record->ms_scatter, &clock);
 
     /* What they may meet on the way. */
@@ -144,8 +147,17 @@ static pbmpm_result substep(World *world, float dt, int part)
     solver_integrate(world);
     PushJob push = {world, &contacts, dt};
     pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
-    collect_events(world, (uint32_t)part);
+    forces_account(&world->forces, world->grid.node_blocks);
+    collect_events(world, (uint32_t)part, sinks_mark(world, (uint32_t)part));
     lap(&record->ms_integrate, &clock);
+    return PBMPM_OK;
+}
+
+/* Without particles only the obstacles move. */
+static pbmpm_result empty_substep(World *world, int part)
+{
+    grid_clear(&world->grid);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     return PBMPM_OK;
 }
 
@@ -156,17 +168,20 @@ pbmpm_result world_step(World *world, float dt)
     const float part_dt = (float)((double)dt / parts);
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
+    forces_begin_step(&world->forces);
     world_touch(world);
     pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
-        if (world->particles.count == 0) grid_clear(&world->grid);
         world->record.deadline_ms = begin + (double)world->settings.time_budget_ms * (part + 1) / parts;
-        const pbmpm_result result = world->particles.count ? substep(world, part_dt, part) : PBMPM_OK;
+        pbmpm_result result = emitters_prepare(world, part, part_dt);
+        if (result == PBMPM_OK) result = world->particles.count ? substep(world, part_dt, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
+        emitters_run(world, part, part_dt);
         world->simulated_seconds += (double)part_dt;
         world->record.substeps++;
     }
     colliders_end_step(&world->colliders);
+    emitters_end_step(&world->emitters);
     world->step_count++;
     world->record.ms_total = now_ms() - begin;
     return PBMPM_OK;

@@ -93,6 +93,8 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     if (!world) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a world");
     world->def = *def;
     world->settings = settings_defaults();
+    world->sinks.bounds = kill_bounds_defaults();
+    world->flow.size = sizeof world->flow;
     world->memory = memory;
     world->owner = getpid();
     world->kernels = kernels_for(isa, def->dimension);
@@ -120,6 +122,9 @@ void world_destroy(World *world)
     background_free(world);
     lookup_free(&world->lookup, &world->memory);
     colliders_free(&world->colliders, &world->memory);
+    emitters_free(&world->emitters, &world->memory);
+    sinks_free(&world->sinks, &world->memory);
+    forces_free(&world->forces, &world->memory);
     dual_free(world);
     guess_free(world);
     mirrors_free(&world->mirrors, &world->memory);

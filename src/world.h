@@ -5,7 +5,9 @@
 #include <sys/types.h>
 
 #include "colliders.h"
+#include "emitters.h"
 #include "events.h"
+#include "forces.h"
 #include "grid.h"
 #include "kernels.h"
 #include "lookup.h"
@@ -16,6 +18,7 @@
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
 #include "pyramid.h"
+#include "sinks.h"
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
@@ -57,6 +60,10 @@ typedef struct World {
     Particles particles;
     Materials materials;
     Colliders colliders;
+    Emitters emitters;
+    Sinks sinks;
+    Forces forces;
+    pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     KernelArgs args;
     DualState dual;

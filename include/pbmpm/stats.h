@@ -63,6 +63,9 @@ typedef enum pbmpm_event_kind {
     PBMPM_EVENT_DELETED_CONDITION = 3,    /**< strain beyond condition_max */
     PBMPM_EVENT_SPEED_CLAMPED = 4,        /**< slowed to max_displacement */
     PBMPM_EVENT_CAPACITY = 5,             /**< a call asked for more particles than there is room for; count: how many */
+    PBMPM_EVENT_EMISSION_REFUSED = 6,     /**< an emitter had no space, no budget or no room for particles that were due; count: how many; at
+                                               the emitter's position */
+    PBMPM_EVENT_KILLED = 7,               /**< left the kill bounds; count: how many; the first of them */
     PBMPM_EVENT_KIND_FORCE32 = 0x7fffffff
 } pbmpm_event_kind;
 

@@ -31,6 +31,12 @@ namespace Pbmpm
         public const int MaxCell = 4194304;
         /// <summary>per world</summary>
         public const int MaxColliders = 1024;
+        /// <summary>per world</summary>
+        public const int MaxDrains = 256;
+        /// <summary>per world</summary>
+        public const int MaxEmitters = 256;
+        /// <summary>per world</summary>
+        public const int MaxForces = 64;
         /// <summary>of the format that this library writes, and the only one it reads</summary>
         public const int SnapshotVersion = 1;
     }
@@ -187,7 +193,8 @@ namespace Pbmpm
         Particle = 6,
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
-        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones</summary>
+        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
+        /// over a few cells say something: what the pressures of neighbours differ by moves nothing.</summary>
         Pressure = 8,
     }
 
@@ -200,6 +207,48 @@ namespace Pbmpm
         Stick = 1,
         /// <summary>no tangential impulse</summary>
         Slip = 2,
+    }
+
+    /// <summary>Where an emitter's particles are born.</summary>
+    public enum EmitterRegion : int
+    {
+        /// <summary>anywhere inside the shape</summary>
+        Volume = 0,
+        /// <summary>on the disc of the shape's `radius` around its `position` that is perpendicular to `direction` (2D: on
+        /// that line); the kind of the shape does not matter</summary>
+        Disc = 1,
+    }
+
+    /// <summary>What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size, over which
+    /// what has no direction at the centre goes to 0.</summary>
+    public enum ForceKind : int
+    {
+        /// <summary>acceleration strength * s along `direction`</summary>
+        Uniform = 0,
+        /// <summary>acceleration strength * s * r / max(|r|, dx): pushes away, or pulls when negative</summary>
+        Radial = 1,
+        /// <summary>acceleration strength * s * (n cross r) / max(|n cross r|, dx) about the axis n = `direction` through c; 2D:
+        /// n points along the third axis: counter-clockwise</summary>
+        Vortex = 2,
+        /// <summary>acceleration -k (v - w) with k = strength * s and w = velocity + spin * (n cross r): wind, a whirl, or,
+        /// with w = 0, a brake. Negative strengths are refused.</summary>
+        Drag = 3,
+        /// <summary>matter takes on w, as above: DRAG with k = -60 ln(1 - s) per second, infinite where s = 1: there its
+        /// velocity is w but for what materials and obstacles do</summary>
+        Grab = 4,
+    }
+
+    /// <summary>The share s of a force at the distance d outside of its shape; inside of it s = 1.</summary>
+    public enum Falloff : int
+    {
+        /// <summary>1 up to d = range, then 0</summary>
+        None = 0,
+        /// <summary>1 - d / range, not below 0</summary>
+        Linear = 1,
+        /// <summary>(1 - (d / range)^2)^2 up to d = range, then 0</summary>
+        Smooth = 2,
+        /// <summary>(1 + d / range)^-2 at any distance: gravity of a ball of the radius `range`</summary>
+        InverseSquare = 3,
     }
 
     /// <summary>What an event tells.</summary>
@@ -215,6 +264,11 @@ namespace Pbmpm
         SpeedClamped = 4,
         /// <summary>a call asked for more particles than there is room for; count: how many</summary>
         Capacity = 5,
+        /// <summary>an emitter had no space, no budget or no room for particles that were due; count: how many; at
+        /// the emitter's position</summary>
+        EmissionRefused = 6,
+        /// <summary>left the kill bounds; count: how many; the first of them</summary>
+        Killed = 7,
     }
 
     /// <summary>3 numbers, in C an array.</summary>
@@ -568,6 +622,259 @@ namespace Pbmpm
                 return it;
             }
         }
+    }
+
+    /// <summary>A drain of one world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct DrainId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    /// <summary>A shape that takes out the particles inside it. Particles are looked at where they are at the end of each substep: one that crosses a
+    /// thin drain within a substep is not seen. A particle inside several drains is counted by the one in the lowest slot.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct DrainDef
+    {
+        /// <summary>sizeof(pbmpm_drain_def), set by pbmpm_drain_def_init()</summary>
+        public uint Size;
+        /// <summary>1 (default) or 0</summary>
+        public int Enabled;
+        /// <summary>what it takes; null (default): everything</summary>
+        public MaterialId Material;
+        /// <summary>any kind</summary>
+        public Shape Shape;
+
+        /// <summary>The library's defaults.</summary>
+        public static DrainDef Default
+        {
+            get
+            {
+                Library.Check();
+                DrainDef it;
+                Library.Require(Methods.pbmpm_drain_def_init(&it, (UIntPtr)sizeof(DrainDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What a drain has taken since it was created.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct DrainStatus
+    {
+        /// <summary>sizeof(pbmpm_drain_status), set by the caller</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>particles</summary>
+        public ulong Drained;
+        /// <summary>[kg] (2D: per metre of depth)</summary>
+        public double DrainedMass;
+    }
+
+    /// <summary>The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
+    /// PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct KillBounds
+    {
+        /// <summary>sizeof(pbmpm_kill_bounds), set by pbmpm_kill_bounds_init()</summary>
+        public uint Size;
+        /// <summary>0 (default): no bounds; 1: bounds</summary>
+        public int Enabled;
+        /// <summary>lower corner [m], relative to the origin, in [-1e9, 1e9]; default 0</summary>
+        public Float3 Low;
+        /// <summary>upper corner [m], above the lower one per axis, in [-1e9, 1e9]; default 1</summary>
+        public Float3 High;
+
+        /// <summary>The library's defaults.</summary>
+        public static KillBounds Default
+        {
+            get
+            {
+                Library.Check();
+                KillBounds it;
+                Library.Require(Methods.pbmpm_kill_bounds_init(&it, (UIntPtr)sizeof(KillBounds)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What came and went in the life of a world, with that of emitters and drains that are no more. Particles now = those added by calls -
+    /// those removed by calls + emitted - drained - killed - pbmpm_stats.deleted_total.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Flow
+    {
+        /// <summary>sizeof(pbmpm_flow), set by the caller</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>particles</summary>
+        public ulong Emitted;
+        /// <summary>particles that were due and not emitted, for any reason</summary>
+        public ulong Refused;
+        /// <summary>particles</summary>
+        public ulong Drained;
+        /// <summary>particles that left the kill bounds</summary>
+        public ulong Killed;
+        /// <summary>[kg] (2D: per metre of depth)</summary>
+        public double EmittedMass;
+        /// <summary>[kg]</summary>
+        public double DrainedMass;
+        /// <summary>[kg]</summary>
+        public double KilledMass;
+    }
+
+    /// <summary>An emitter of one world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct EmitterId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    /// <summary>A source of particles. Fill it with pbmpm_emitter_def_init(), then change what differs.
+    ///
+    /// With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
+    /// (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
+    /// A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
+    /// velocity that it would have in gravity: a stream has no pulses. If an obstacle is in the way it appears where it was born.
+    /// Places follow a sequence that fills the region evenly.
+    ///
+    /// A particle that is due is refused, and never made up for, when the matter at its place already fills the share
+    /// `fill_limit` of the grid, when the budget is spent, or when the world has no room. Refusals are counted in
+    /// pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct EmitterDef
+    {
+        /// <summary>sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init()</summary>
+        public uint Size;
+        /// <summary>of places and directions; equal seeds give equal particles; default 1</summary>
+        public uint Seed;
+        /// <summary>of the particles; it cannot be destroyed while the emitter exists</summary>
+        public MaterialId Material;
+        /// <summary>any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within 2^21 cells of the origin</summary>
+        public Shape Shape;
+        /// <summary>default PBMPM_EMIT_VOLUME</summary>
+        public EmitterRegion Region;
+        /// <summary>1 (default): emits; 0: rests, and no time passes for it</summary>
+        public int Enabled;
+        /// <summary>rest volume per second [m^3/s] (2D: m^2/s), in [0, 1e12]; default 0. A disc of the area A runs
+        /// full with A * speed.</summary>
+        public float Rate;
+        /// <summary>[m/s], in [0, 1e6]; default 0</summary>
+        public float Speed;
+        /// <summary>of the speed before the shape's rotation, any length &gt; 1e-6; default (0, -1, 0)</summary>
+        public Float3 Direction;
+        /// <summary>largest angle between a particle's velocity and `direction` [rad], in [0, pi], evenly spread over
+        /// the cone; default 0</summary>
+        public float Spread;
+        /// <summary>size of the particles: so many per cell and axis, in [0.25, 16]; default 2</summary>
+        public float ParticlesPerAxis;
+        /// <summary>rest volume per volume of the grid where nothing more is emitted, in [0.1, 100]; default 1.2</summary>
+        public float FillLimit;
+        /// <summary>particles that it may emit in its life; 0 (default): no limit</summary>
+        public ulong Budget;
+
+        /// <summary>The library's defaults.</summary>
+        public static EmitterDef Default
+        {
+            get
+            {
+                Library.Check();
+                EmitterDef it;
+                Library.Require(Methods.pbmpm_emitter_def_init(&it, (UIntPtr)sizeof(EmitterDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What an emitter has done since it was created. due = emitted + refused_full + refused_budget + refused_capacity.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct EmitterStatus
+    {
+        /// <summary>sizeof(pbmpm_emitter_status), set by the caller</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>particles</summary>
+        public ulong Emitted;
+        /// <summary>[kg] (2D: per metre of depth): emitted times the mass of a particle</summary>
+        public double EmittedMass;
+        /// <summary>particles that were due where there was no space: matter, an obstacle, or the outside of the domain</summary>
+        public ulong RefusedFull;
+        /// <summary>... after the budget was spent</summary>
+        public ulong RefusedBudget;
+        /// <summary>... when the world was full</summary>
+        public ulong RefusedCapacity;
+    }
+
+    /// <summary>A force of one world.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct ForceId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
+    /// <summary>A force. Fill it with pbmpm_force_def_init(), then change what differs.
+    ///
+    /// Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles, and only on blocks in range.
+    /// A node with the velocity v after the transfer feels the sum a of gravity and of all accelerations, and the sum k of all drags
+    /// with the mean w of their winds weighted by k. Its velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
+    /// v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
+    /// so drag is stable for any k and dt, falling matter ends at exactly w + a / k, and the order of forces does not matter.
+    /// The impulse of each force is what it adds to the momentum of the nodes, see pbmpm_force_status.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct ForceDef
+    {
+        /// <summary>sizeof(pbmpm_force_def), set by pbmpm_force_def_init()</summary>
+        public uint Size;
+        /// <summary>default PBMPM_FORCE_UNIFORM</summary>
+        public ForceKind Kind;
+        /// <summary>1 (default) or 0</summary>
+        public int Enabled;
+        /// <summary>1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff.</summary>
+        public int Everywhere;
+        /// <summary>any kind</summary>
+        public Shape Shape;
+        /// <summary>default PBMPM_FALLOFF_NONE</summary>
+        public Falloff Falloff;
+        /// <summary>of the falloff [m], in [0, 1e9], &gt; 0 for INVERSE_SQUARE; default 0: nothing outside of the shape</summary>
+        public float Range;
+        /// <summary>acceleration [m/s^2], in [-1e9, 1e9]; DRAG: coefficient [1/s], in [0, 1e9]; GRAB: not used; default 1</summary>
+        public float Strength;
+        /// <summary>UNIFORM: of the acceleration; VORTEX, DRAG and GRAB in 3D: the axis. Any length &gt; 1e-6; default (0, 1, 0)</summary>
+        public Float3 Direction;
+        /// <summary>DRAG and GRAB [m/s], in [-1e9, 1e9]; default 0</summary>
+        public Float3 Velocity;
+        /// <summary>DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0</summary>
+        public float Spin;
+
+        /// <summary>The library's defaults.</summary>
+        public static ForceDef Default
+        {
+            get
+            {
+                Library.Check();
+                ForceDef it;
+                Library.Require(Methods.pbmpm_force_def_init(&it, (UIntPtr)sizeof(ForceDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>What a force did in the last step.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct ForceStatus
+    {
+        /// <summary>sizeof(pbmpm_force_status), set by the caller</summary>
+        public uint Size;
+        /// <summary>nodes with matter that felt it in the last substep</summary>
+        public uint Nodes;
+        /// <summary>sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
+        /// materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.</summary>
+        public Double3 Impulse;
     }
 
     /// <summary>What one material has in a region.</summary>
@@ -1067,6 +1374,102 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
 
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_def_init(DrainDef* def, UIntPtr size);
+
+        /// <summary>Adds a drain. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_create(WorldId world, DrainDef* def, DrainId* drain);
+
+        /// <summary>Takes a drain away. Errors: INVALID_ID, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_destroy(WorldId world, DrainId drain);
+
+        /// <summary>Reads the definition. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def);
+
+        /// <summary>Changes a drain (its place, too); the counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_set(WorldId world, DrainId drain, DrainDef* def);
+
+        /// <summary>Counts since creation. `status-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_status_get(WorldId world, DrainId drain, DrainStatus* status);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_kill_bounds_init(KillBounds* bounds, UIntPtr size);
+
+        /// <summary>Sets or removes the bounds. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_set_kill_bounds(WorldId world, KillBounds* bounds);
+
+        /// <summary>Reads the bounds. `bounds-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_kill_bounds(WorldId world, KillBounds* bounds);
+
+        /// <summary>The account. `flow-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_flow(WorldId world, Flow* flow);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_def_init(EmitterDef* def, UIntPtr size);
+
+        /// <summary>Adds an emitter; it begins with the next step. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
+        /// OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_create(WorldId world, EmitterDef* def, EmitterId* emitter);
+
+        /// <summary>Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_destroy(WorldId world, EmitterId emitter);
+
+        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def);
+
+        /// <summary>Changes an emitter; the fraction of a particle that was due and the counts are kept, the pose is taken at once.
+        /// Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def);
+
+        /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
+        /// motion. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_move(WorldId world, EmitterId emitter, Float3* position, Float4* rotation);
+
+        /// <summary>Counts since creation. `status-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_status_get(WorldId world, EmitterId emitter, EmitterStatus* status);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_def_init(ForceDef* def, UIntPtr size);
+
+        /// <summary>Adds a force. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_create(WorldId world, ForceDef* def, ForceId* force);
+
+        /// <summary>Takes a force away. Errors: INVALID_ID, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_destroy(WorldId world, ForceId force);
+
+        /// <summary>Reads the definition. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_get(WorldId world, ForceId force, ForceDef* def);
+
+        /// <summary>Changes a force (its kind and place, too); takes effect with the next step. Errors as pbmpm_force_create(), but CAPACITY and
+        /// OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_set(WorldId world, ForceId force, ForceDef* def);
+
+        /// <summary>Figures of the last step. `status-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_status_get(WorldId world, ForceId force, ForceStatus* status);
+
         /// <summary>What is inside a shape, by material: one entry for each material that has particles there, in the order of their indices.
         /// Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY, FORKED.</summary>
@@ -1164,6 +1567,17 @@ namespace Pbmpm.Native
             FillDef(fields);
             View(fields);
             ColliderDef(fields);
+            DrainId(fields);
+            DrainDef(fields);
+            DrainStatus(fields);
+            KillBounds(fields);
+            Flow(fields);
+            EmitterId(fields);
+            EmitterDef(fields);
+            EmitterStatus(fields);
+            ForceId(fields);
+            ForceDef(fields);
+            ForceStatus(fields);
             RegionShare(fields);
             Ray(fields);
             RayHit(fields);
@@ -1363,6 +1777,133 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void DrainId(List<MirrorField> fields)
+        {
+            var it = default(DrainId);
+            fields.Add(new MirrorField("pbmpm_drain_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void DrainDef(List<MirrorField> fields)
+        {
+            var it = default(DrainDef);
+            fields.Add(new MirrorField("pbmpm_drain_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void DrainStatus(List<MirrorField> fields)
+        {
+            var it = default(DrainStatus);
+            fields.Add(new MirrorField("pbmpm_drain_status", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_status", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_status", "drained", &it, &it.Drained, &it.Drained + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_status", "drained_mass", &it, &it.DrainedMass, &it.DrainedMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_status", "", &it, &it, &it + 1, true));
+        }
+
+        static void KillBounds(List<MirrorField> fields)
+        {
+            var it = default(KillBounds);
+            fields.Add(new MirrorField("pbmpm_kill_bounds", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_kill_bounds", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
+            fields.Add(new MirrorField("pbmpm_kill_bounds", "low", &it, &it.Low, &it.Low + 1, false));
+            fields.Add(new MirrorField("pbmpm_kill_bounds", "high", &it, &it.High, &it.High + 1, false));
+            fields.Add(new MirrorField("pbmpm_kill_bounds", "", &it, &it, &it + 1, true));
+        }
+
+        static void Flow(List<MirrorField> fields)
+        {
+            var it = default(Flow);
+            fields.Add(new MirrorField("pbmpm_flow", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "emitted", &it, &it.Emitted, &it.Emitted + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "refused", &it, &it.Refused, &it.Refused + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "drained", &it, &it.Drained, &it.Drained + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "killed", &it, &it.Killed, &it.Killed + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "emitted_mass", &it, &it.EmittedMass, &it.EmittedMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "drained_mass", &it, &it.DrainedMass, &it.DrainedMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "killed_mass", &it, &it.KilledMass, &it.KilledMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_flow", "", &it, &it, &it + 1, true));
+        }
+
+        static void EmitterId(List<MirrorField> fields)
+        {
+            var it = default(EmitterId);
+            fields.Add(new MirrorField("pbmpm_emitter_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void EmitterDef(List<MirrorField> fields)
+        {
+            var it = default(EmitterDef);
+            fields.Add(new MirrorField("pbmpm_emitter_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "seed", &it, &it.Seed, &it.Seed + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "region", &it, &it.Region, &it.Region + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "rate", &it, &it.Rate, &it.Rate + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "speed", &it, &it.Speed, &it.Speed + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "direction", &it, &it.Direction, &it.Direction + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "spread", &it, &it.Spread, &it.Spread + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "particles_per_axis", &it, &it.ParticlesPerAxis, &it.ParticlesPerAxis + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "fill_limit", &it, &it.FillLimit, &it.FillLimit + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "budget", &it, &it.Budget, &it.Budget + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void EmitterStatus(List<MirrorField> fields)
+        {
+            var it = default(EmitterStatus);
+            fields.Add(new MirrorField("pbmpm_emitter_status", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "emitted", &it, &it.Emitted, &it.Emitted + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "emitted_mass", &it, &it.EmittedMass, &it.EmittedMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "refused_full", &it, &it.RefusedFull, &it.RefusedFull + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "refused_budget", &it, &it.RefusedBudget, &it.RefusedBudget + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "refused_capacity", &it, &it.RefusedCapacity, &it.RefusedCapacity + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_status", "", &it, &it, &it + 1, true));
+        }
+
+        static void ForceId(List<MirrorField> fields)
+        {
+            var it = default(ForceId);
+            fields.Add(new MirrorField("pbmpm_force_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_id", "", &it, &it, &it + 1, false));
+        }
+
+        static void ForceDef(List<MirrorField> fields)
+        {
+            var it = default(ForceDef);
+            fields.Add(new MirrorField("pbmpm_force_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "kind", &it, &it.Kind, &it.Kind + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "everywhere", &it, &it.Everywhere, &it.Everywhere + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "falloff", &it, &it.Falloff, &it.Falloff + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "range", &it, &it.Range, &it.Range + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "strength", &it, &it.Strength, &it.Strength + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "direction", &it, &it.Direction, &it.Direction + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "spin", &it, &it.Spin, &it.Spin + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void ForceStatus(List<MirrorField> fields)
+        {
+            var it = default(ForceStatus);
+            fields.Add(new MirrorField("pbmpm_force_status", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_status", "nodes", &it, &it.Nodes, &it.Nodes + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_status", "impulse", &it, &it.Impulse, &it.Impulse + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_status", "", &it, &it, &it + 1, true));
         }
 
         static void RegionShare(List<MirrorField> fields)

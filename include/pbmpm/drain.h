@@ -1,0 +1,95 @@
+/* pbmpm: drains and kill bounds, which take matter out while the world runs, and the account of what came and went. */
+#ifndef PBMPM_DRAIN_H
+#define PBMPM_DRAIN_H
+
+#include "material.h"
+#include "shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    PBMPM_MAX_DRAINS = 256 /**< per world */
+};
+
+/** A drain of one world. */
+typedef struct pbmpm_drain_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_drain_id;
+
+/** A shape that takes out the particles inside it. Particles are looked at where they are at the end of each substep: one that crosses a
+ *  thin drain within a substep is not seen. A particle inside several drains is counted by the one in the lowest slot. */
+typedef struct pbmpm_drain_def {
+    uint32_t size;              /**< sizeof(pbmpm_drain_def), set by pbmpm_drain_def_init() */
+    int32_t enabled;            /**< 1 (default) or 0 */
+    pbmpm_material_id material; /**< what it takes; null (default): everything */
+    pbmpm_shape shape;          /**< any kind */
+} pbmpm_drain_def;
+
+/** What a drain has taken since it was created. */
+typedef struct pbmpm_drain_status {
+    uint32_t size;       /**< sizeof(pbmpm_drain_status), set by the caller */
+    uint32_t reserved;   /**< 0 */
+    uint64_t drained;    /**< particles */
+    double drained_mass; /**< [kg] (2D: per metre of depth) */
+} pbmpm_drain_status;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_drain_def_init(pbmpm_drain_def *def, size_t size);
+
+/** Adds a drain. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, pbmpm_drain_id *drain);
+
+/** Takes a drain away. Errors: INVALID_ID, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain);
+
+/** Reads the definition. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def);
+
+/** Changes a drain (its place, too); the counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */
+PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def);
+
+/** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status);
+
+/** The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
+ *  PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls. */
+typedef struct pbmpm_kill_bounds {
+    uint32_t size;   /**< sizeof(pbmpm_kill_bounds), set by pbmpm_kill_bounds_init() */
+    int32_t enabled; /**< 0 (default): no bounds; 1: bounds */
+    float low[3];    /**< lower corner [m], relative to the origin, in [-1e9, 1e9]; default 0 */
+    float high[3];   /**< upper corner [m], above the lower one per axis, in [-1e9, 1e9]; default 1 */
+} pbmpm_kill_bounds;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_kill_bounds_init(pbmpm_kill_bounds *bounds, size_t size);
+
+/** Sets or removes the bounds. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_set_kill_bounds(pbmpm_world_id world, const pbmpm_kill_bounds *bounds);
+
+/** Reads the bounds. `bounds->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_kill_bounds(pbmpm_world_id world, pbmpm_kill_bounds *bounds);
+
+/** What came and went in the life of a world, with that of emitters and drains that are no more. Particles now = those added by calls -
+ *  those removed by calls + emitted - drained - killed - pbmpm_stats.deleted_total. */
+typedef struct pbmpm_flow {
+    uint32_t size;       /**< sizeof(pbmpm_flow), set by the caller */
+    uint32_t reserved;   /**< 0 */
+    uint64_t emitted;    /**< particles */
+    uint64_t refused;    /**< particles that were due and not emitted, for any reason */
+    uint64_t drained;    /**< particles */
+    uint64_t killed;     /**< particles that left the kill bounds */
+    double emitted_mass; /**< [kg] (2D: per metre of depth) */
+    double drained_mass; /**< [kg] */
+    double killed_mass;  /**< [kg] */
+} pbmpm_flow;
+
+/** The account. `flow->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_flow(pbmpm_world_id world, pbmpm_flow *flow);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

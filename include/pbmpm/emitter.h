@@ -1,0 +1,97 @@
+/* pbmpm: emitters, which add matter while the world runs. */
+#ifndef PBMPM_EMITTER_H
+#define PBMPM_EMITTER_H
+
+#include "material.h"
+#include "shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    PBMPM_MAX_EMITTERS = 256 /**< per world */
+};
+
+/** An emitter of one world. */
+typedef struct pbmpm_emitter_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_emitter_id;
+
+/** Where an emitter's particles are born. */
+typedef enum pbmpm_emitter_region {
+    PBMPM_EMIT_VOLUME = 0, /**< anywhere inside the shape */
+    PBMPM_EMIT_DISC = 1,   /**< on the disc of the shape's `radius` around its `position` that is perpendicular to `direction` (2D: on
+                                that line); the kind of the shape does not matter */
+    PBMPM_EMITTER_REGION_FORCE32 = 0x7fffffff
+} pbmpm_emitter_region;
+
+/** A source of particles. Fill it with pbmpm_emitter_def_init(), then change what differs.
+ *
+ *  With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
+ *  (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
+ *  A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
+ *  velocity that it would have in gravity: a stream has no pulses. If an obstacle is in the way it appears where it was born.
+ *  Places follow a sequence that fills the region evenly.
+ *
+ *  A particle that is due is refused, and never made up for, when the matter at its place already fills the share
+ *  `fill_limit` of the grid, when the budget is spent, or when the world has no room. Refusals are counted in
+ *  pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
+typedef struct pbmpm_emitter_def {
+    uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
+    uint32_t seed;               /**< of places and directions; equal seeds give equal particles; default 1 */
+    pbmpm_material_id material;  /**< of the particles; it cannot be destroyed while the emitter exists */
+    pbmpm_shape shape;           /**< any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within 2^21 cells of the origin */
+    pbmpm_emitter_region region; /**< default PBMPM_EMIT_VOLUME */
+    int32_t enabled;             /**< 1 (default): emits; 0: rests, and no time passes for it */
+    float rate;                  /**< rest volume per second [m^3/s] (2D: m^2/s), in [0, 1e12]; default 0. A disc of the area A runs
+                                      full with A * speed. */
+    float speed;                 /**< [m/s], in [0, 1e6]; default 0 */
+    float direction[3];          /**< of the speed before the shape's rotation, any length > 1e-6; default (0, -1, 0) */
+    float spread;                /**< largest angle between a particle's velocity and `direction` [rad], in [0, pi], evenly spread over
+                                      the cone; default 0 */
+    float particles_per_axis;    /**< size of the particles: so many per cell and axis, in [0.25, 16]; default 2 */
+    float fill_limit;            /**< rest volume per volume of the grid where nothing more is emitted, in [0.1, 100]; default 1.2 */
+    uint64_t budget;             /**< particles that it may emit in its life; 0 (default): no limit */
+} pbmpm_emitter_def;
+
+/** What an emitter has done since it was created. due = emitted + refused_full + refused_budget + refused_capacity. */
+typedef struct pbmpm_emitter_status {
+    uint32_t size;             /**< sizeof(pbmpm_emitter_status), set by the caller */
+    uint32_t reserved;         /**< 0 */
+    uint64_t emitted;          /**< particles */
+    double emitted_mass;       /**< [kg] (2D: per metre of depth): emitted times the mass of a particle */
+    uint64_t refused_full;     /**< particles that were due where there was no space: matter, an obstacle, or the outside of the domain */
+    uint64_t refused_budget;   /**< ... after the budget was spent */
+    uint64_t refused_capacity; /**< ... when the world was full */
+} pbmpm_emitter_status;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_emitter_def_init(pbmpm_emitter_def *def, size_t size);
+
+/** Adds an emitter; it begins with the next step. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
+ *  OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, pbmpm_emitter_id *emitter);
+
+/** Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitter);
+
+/** Reads the definition with the current pose. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def);
+
+/** Changes an emitter; the fraction of a particle that was due and the counts are kept, the pose is taken at once.
+ *  Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY. */
+PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def);
+
+/** Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
+ *  motion. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, const float position[3], const float rotation[4]);
+
+/** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_status_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_status *status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,96 @@
+/* pbmpm: forces on matter besides gravity. */
+#ifndef PBMPM_FORCE_H
+#define PBMPM_FORCE_H
+
+#include "shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+enum {
+    PBMPM_MAX_FORCES = 64 /**< per world */
+};
+
+/** A force of one world. */
+typedef struct pbmpm_force_id {
+    uint32_t index;
+    uint32_t generation;
+} pbmpm_force_id;
+
+/** What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size, over which
+ *  what has no direction at the centre goes to 0. */
+typedef enum pbmpm_force_kind {
+    PBMPM_FORCE_UNIFORM = 0, /**< acceleration strength * s along `direction` */
+    PBMPM_FORCE_RADIAL = 1,  /**< acceleration strength * s * r / max(|r|, dx): pushes away, or pulls when negative */
+    PBMPM_FORCE_VORTEX = 2,  /**< acceleration strength * s * (n cross r) / max(|n cross r|, dx) about the axis n = `direction` through c; 2D:
+                                  n points along the third axis: counter-clockwise */
+    PBMPM_FORCE_DRAG = 3,    /**< acceleration -k (v - w) with k = strength * s and w = velocity + spin * (n cross r): wind, a whirl, or,
+                                  with w = 0, a brake. Negative strengths are refused. */
+    PBMPM_FORCE_GRAB = 4,    /**< matter takes on w, as above: DRAG with k = -60 ln(1 - s) per second, infinite where s = 1: there its
+                                  velocity is w but for what materials and obstacles do */
+    PBMPM_FORCE_KIND_FORCE32 = 0x7fffffff
+} pbmpm_force_kind;
+
+/** The share s of a force at the distance d outside of its shape; inside of it s = 1. */
+typedef enum pbmpm_falloff {
+    PBMPM_FALLOFF_NONE = 0,           /**< 1 up to d = range, then 0 */
+    PBMPM_FALLOFF_LINEAR = 1,         /**< 1 - d / range, not below 0 */
+    PBMPM_FALLOFF_SMOOTH = 2,         /**< (1 - (d / range)^2)^2 up to d = range, then 0 */
+    PBMPM_FALLOFF_INVERSE_SQUARE = 3, /**< (1 + d / range)^-2 at any distance: gravity of a ball of the radius `range` */
+    PBMPM_FALLOFF_FORCE32 = 0x7fffffff
+} pbmpm_falloff;
+
+/** A force. Fill it with pbmpm_force_def_init(), then change what differs.
+ *
+ *  Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles, and only on blocks in range.
+ *  A node with the velocity v after the transfer feels the sum a of gravity and of all accelerations, and the sum k of all drags
+ *  with the mean w of their winds weighted by k. Its velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
+ *      v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
+ *  so drag is stable for any k and dt, falling matter ends at exactly w + a / k, and the order of forces does not matter.
+ *  The impulse of each force is what it adds to the momentum of the nodes, see pbmpm_force_status. */
+typedef struct pbmpm_force_def {
+    uint32_t size;         /**< sizeof(pbmpm_force_def), set by pbmpm_force_def_init() */
+    pbmpm_force_kind kind; /**< default PBMPM_FORCE_UNIFORM */
+    int32_t enabled;       /**< 1 (default) or 0 */
+    int32_t everywhere;    /**< 1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff. */
+    pbmpm_shape shape;     /**< any kind */
+    pbmpm_falloff falloff; /**< default PBMPM_FALLOFF_NONE */
+    float range;           /**< of the falloff [m], in [0, 1e9], > 0 for INVERSE_SQUARE; default 0: nothing outside of the shape */
+    float strength;        /**< acceleration [m/s^2], in [-1e9, 1e9]; DRAG: coefficient [1/s], in [0, 1e9]; GRAB: not used; default 1 */
+    float direction[3];    /**< UNIFORM: of the acceleration; VORTEX, DRAG and GRAB in 3D: the axis. Any length > 1e-6; default (0, 1, 0) */
+    float velocity[3];     /**< DRAG and GRAB [m/s], in [-1e9, 1e9]; default 0 */
+    float spin;            /**< DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0 */
+} pbmpm_force_def;
+
+/** What a force did in the last step. */
+typedef struct pbmpm_force_status {
+    uint32_t size;     /**< sizeof(pbmpm_force_status), set by the caller */
+    uint32_t nodes;    /**< nodes with matter that felt it in the last substep */
+    double impulse[3]; /**< sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
+                            materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w. */
+} pbmpm_force_status;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_force_def_init(pbmpm_force_def *def, size_t size);
+
+/** Adds a force. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, pbmpm_force_id *force);
+
+/** Takes a force away. Errors: INVALID_ID, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force);
+
+/** Reads the definition. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def);
+
+/** Changes a force (its kind and place, too); takes effect with the next step. Errors as pbmpm_force_create(), but CAPACITY and
+ *  OUT_OF_MEMORY. */
+PBMPM_API pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def);
+
+/** Figures of the last step. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_status_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_status *status);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

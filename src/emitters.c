@@ -1,0 +1,553 @@
+#include "emitters.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "numbers.h"
+#include "registry.h"
+#include "result.h"
+#include "scatter.h"
+#include "world.h"
+
+/* Of the bounds of an emitter; with its float per node that is 16 MB. */
+static const double CELLS_MAX = 4194304.0;
+
+/* How far from the origin an emitter may stand [cells]: its particles appear up to PBMPM_MAX_CELLS_PER_SUBSTEP further. */
+static const double DISTANCE_MAX = 2097152.0;
+
+pbmpm_emitter_def emitter_defaults(void)
+{
+    return (pbmpm_emitter_def){.size = sizeof(pbmpm_emitter_def),
+                               .seed = 1,
+                               .shape = shape_defaults(),
+                               .enabled = 1,
+                               .direction = {0.0f, -1.0f, 0.0f},
+                               .particles_per_axis = 2.0f,
+                               .fill_limit = 1.2f};
+}
+
+/* ---- Checking ---- */
+
+/* The shape whose bounds hold the region: for a disc the ball around it. */
+static pbmpm_shape enclosing_shape(const pbmpm_emitter_def *def)
+{
+    pbmpm_shape shape = def->shape;
+    if (def->region == PBMPM_EMIT_DISC) shape.kind = PBMPM_SPHERE;
+    return shape;
+}
+
+static const char *shape_trouble(const pbmpm_emitter_def *def, int dimension, double cell_size)
+{
+    const pbmpm_shape shape = enclosing_shape(def);
+    const char *problem = shape_problem(&shape, dimension);
+    if (problem) return problem;
+    if (shape.kind == PBMPM_PLANE) return "emitter.shape: a plane has no end";
+    const Solid solid = solid_of(&shape, dimension);
+    double low[3], high[3], cells = 1.0;
+    solid_bounds(&solid, low, high);
+    for (int a = 0; a < dimension; a++) {
+        if (low[a] < -DISTANCE_MAX * cell_size || high[a] > DISTANCE_MAX * cell_size)
+            return "emitter.shape must be within 2^21 cells of the origin";
+        cells *= fmax(1.0, (high[a] - low[a]) / cell_size);
+    }
+    return cells <= CELLS_MAX ? NULL : "emitter.shape is too large: its bounds hold more than 2^22 cells";
+}
+
+const char *emitter_problem(const pbmpm_emitter_def *def, int dimension, double cell_size)
+{
+    double length = 0.0;
+    if (def->size != sizeof *def) return "emitter.size is unknown: fill the definition with pbmpm_emitter_def_init()";
+    if (def->region != PBMPM_EMIT_VOLUME && def->region != PBMPM_EMIT_DISC) return "emitter.region is unknown";
+    if (def->enabled != 0 && def->enabled != 1) return "emitter.enabled must be 0 or 1";
+    if (!in_range(def->rate, 0.0, 1e12)) return "emitter.rate must be in [0, 1e12]";
+    if (!in_range(def->speed, 0.0, 1e6)) return "emitter.speed must be in [0, 1e6]";
+    if (!in_range(def->spread, 0.0, M_PI)) return "emitter.spread must be in [0, pi]";
+    if (!in_range(def->particles_per_axis, 0.25, 16.0)) return "emitter.particles_per_axis must be in [0.25, 16]";
+    if (!in_range(def->fill_limit, 0.1, 100.0)) return "emitter.fill_limit must be in [0.1, 100]";
+    if (!all_finite(def->direction, (size_t)dimension)) return "emitter.direction must be finite";
+    for (int a = 0; a < dimension; a++) length += (double)def->direction[a] * (double)def->direction[a];
+    if (!(length > 1e-12)) return "emitter.direction must be longer than 1e-6";
+    return shape_trouble(def, dimension, cell_size);
+}
+
+/* ---- Slots ---- */
+
+void emitters_free(Emitters *emitters, Memory *memory)
+{
+    memory_give(memory, emitters->slot, PBMPM_MAX_EMITTERS * sizeof(Emitter));
+    array_free(memory, &emitters->crowd);
+    *emitters = (Emitters){0};
+}
+
+void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def)
+{
+    emitter->def = *def;
+    emitter->moving = false;
+}
+
+pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitter_def *def, uint32_t generation, pbmpm_emitter_id *id)
+{
+    if (!emitters->slot && !(emitters->slot = memory_take(memory, PBMPM_MAX_EMITTERS * sizeof(Emitter))))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for emitters");
+    for (uint32_t slot = 0; slot < PBMPM_MAX_EMITTERS; slot++) {
+        Emitter *emitter = &emitters->slot[slot];
+        if (emitter->generation != 0) continue;
+        *emitter = (Emitter){.generation = generation, .state = {.due = 0.5}};
+        emitter_set(emitter, def);
+        if (slot >= emitters->used) emitters->used = slot + 1;
+        *id = (pbmpm_emitter_id){slot, generation};
+        return PBMPM_OK;
+    }
+    return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d emitters", PBMPM_MAX_EMITTERS);
+}
+
+Emitter *emitters_find(const Emitters *emitters, pbmpm_emitter_id id)
+{
+    if (id.index >= emitters->used || id.generation == 0) return NULL;
+    Emitter *emitter = &emitters->slot[id.index];
+    return emitter->generation == id.generation ? emitter : NULL;
+}
+
+void emitter_move(Emitter *emitter, const float position[3], const float *rotation)
+{
+    memcpy(emitter->target_position, position, sizeof emitter->target_position);
+    memcpy(emitter->target_rotation, rotation ? rotation : emitter->def.shape.rotation, sizeof emitter->target_rotation);
+    emitter->moving = true;
+}
+
+void emitters_end_step(Emitters *emitters)
+{
+    for (uint32_t slot = 0; slot < emitters->used; slot++) {
+        Emitter *emitter = &emitters->slot[slot];
+        if (!emitter->moving) continue;
+        memcpy(emitter->def.shape.position, emitter->target_position, sizeof emitter->target_position);
+        memcpy(emitter->def.shape.rotation, emitter->target_rotation, sizeof emitter->target_rotation);
+        emitter->moving = false;
+    }
+}
+
+bool emitters_use(const Emitters *emitters, pbmpm_material_id material)
+{
+    for (uint32_t slot = 0; slot < emitters->used; slot++) {
+        const Emitter *emitter = &emitters->slot[slot];
+        if (emitter->generation != 0 && emitter->def.material.index == material.index) return true;
+    }
+    return false;
+}
+
+/* ---- Amounts ---- */
+
+/* Rest volume of a particle [cells]. */
+static double particle_volume(const pbmpm_emitter_def *def, int dimension)
+{
+    const double edge = 1.0 / (double)def->particles_per_axis;
+    return dimension == 3 ? edge * edge * edge : edge * edge;
+}
+
+/* As it is stored [kg/m^d]. */
+static float particle_mass(const World *world, const pbmpm_emitter_def *def)
+{
+    const double density = (double)world->materials.def[def->material.index].density;
+    return (float)(density * particle_volume(def, world->def.dimension));
+}
+
+void emitter_report(const Emitter *emitter, pbmpm_emitter_status *status)
+{
+    const EmitterState *state = &emitter->state;
+    *status = (pbmpm_emitter_status){.size = sizeof *status,
+                                     .emitted = state->emitted,
+                                     .refused_full = state->refused_full,
+                                     .refused_budget = state->refused_budget,
+                                     .refused_capacity = state->refused_capacity,
+                                     .emitted_mass = state->emitted_mass};
+}
+
+/* Particles per second. */
+static double particle_rate(const World *world, const pbmpm_emitter_def *def)
+{
+    return (double)def->rate / (particle_volume(def, world->def.dimension) * world_cell_volume(world));
+}
+
+static bool works(const Emitter *emitter)
+{
+    return emitter->generation != 0 && emitter->def.enabled && emitter->def.rate > 0.0f;
+}
+
+/* ---- Where ---- */
+
+/* The region at one time, and what the particles born in it do. */
+typedef struct Nozzle {
+    pbmpm_emitter_region region;
+    Solid solid;
+    double axis[3], across[2][3]; /* unit vectors: along the speed, and perpendicular to it (2D: only the first) */
+} Nozzle;
+
+/* Two unit vectors that are perpendicular to `axis` and each other; the second only in 3D. */
+static void find_across(const double axis[3], int dimension, double across[2][3])
+{
+    memset(across, 0, 2 * sizeof *across);
+    if (dimension == 2) {
+        across[0][0] = -axis[1];
+        across[0][1] = axis[0];
+        return;
+    }
+    int thin = 0; /* the axis of the world that is farthest from `axis` */
+    for (int a = 1; a < 3; a++)
+        if (fabs(axis[a]) < fabs(axis[thin])) thin = a;
+    double length = 0.0;
+    for (int a = 0; a < 3; a++) {
+        across[0][a] = (a == thin ? 1.0 : 0.0) - axis[thin] * axis[a];
+        length += across[0][a] * across[0][a];
+    }
+    for (int a = 0; a < 3; a++) across[0][a] /= sqrt(length);
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        across[1][a] = axis[b] * across[0][c] - axis[c] * across[0][b];
+    }
+}
+
+/* At the share `t` of the way of the step. */
+static Nozzle nozzle_at(const Emitter *emitter, int dimension, float t)
+{
+    const pbmpm_emitter_def *def = &emitter->def;
+    pbmpm_shape shape = enclosing_shape(def);
+    if (emitter->moving) shape = shape_between(&shape, emitter->target_position, emitter->target_rotation, t);
+    Nozzle nozzle = {.region = def->region, .solid = solid_of(&shape, dimension)};
+    double length = 0.0;
+    for (int a = 0; a < dimension; a++) length += (double)def->direction[a] * (double)def->direction[a];
+    for (int a = 0; a < dimension; a++)
+        for (int b = 0; b < dimension; b++)
+            nozzle.axis[a] += nozzle.solid.rotation[a * 3 + b] * (double)def->direction[b] / sqrt(length);
+    find_across(nozzle.axis, dimension, nozzle.across);
+    return nozzle;
+}
+
+/* The additive sequence with the steps 1/g, 1/g^2, .. where g^(n+1) = g + 1 for n dimensions, which fills a square or cube evenly
+ * however many of its points are taken (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). In [-1, 1). */
+static double sequence(const pbmpm_emitter_def *def, uint64_t number, int axis, int axes)
+{
+    static const double root[] = {1.6180339887498949, 1.3247179572447460, 1.2207440846057596};
+    const double step = pow(root[axes - 1], -(axis + 1.0));
+    const uint64_t offset = (uint64_t)((scatter_number(def->seed, (uint64_t)axis) + 0.5) * 0x1p64);
+    const uint64_t point = offset + number * (uint64_t)(step * 0x1p64); /* modulo 1, exactly */
+    return (double)(point >> 11) * 0x1p-52 - 1.0;
+}
+
+/* A point of the ball, capsule or box in its own axes; `u` in the cube. False: outside. */
+static bool point_in_shape(const Solid *solid, const double u[3], double local[3])
+{
+    double beyond = 0.0;
+    for (int a = 0; a < solid->dimension; a++) {
+        const double along = solid->kind == PBMPM_CAPSULE && a == 0 ? solid->half_extents[0] : 0.0;
+        const double half = solid->kind == PBMPM_BOX ? solid->half_extents[a] : solid->radius + along;
+        local[a] = u[a] * half;
+        const double past = fmax(0.0, fabs(local[a]) - along);
+        beyond += past * past;
+    }
+    return solid->kind == PBMPM_BOX || beyond <= solid->radius * solid->radius;
+}
+
+static bool point_of(const Nozzle *nozzle, const double u[3], double point[3])
+{
+    const Solid *solid = &nozzle->solid;
+    const int d = solid->dimension;
+    memcpy(point, solid->position, 3 * sizeof *point);
+    if (nozzle->region == PBMPM_EMIT_DISC) {
+        const double length2 = u[0] * u[0] + (d == 3 ? u[1] * u[1] : 0.0);
+        for (int a = 0; a < d; a++) point[a] += solid->radius * (u[0] * nozzle->across[0][a] + (d == 3 ? u[1] * nozzle->across[1][a] : 0.0));
+        return length2 <= 1.0;
+    }
+    double local[3] = {0};
+    const bool within = point_in_shape(solid, u, local);
+    for (int a = 0; a < d; a++)
+        for (int b = 0; b < d; b++) point[a] += solid->rotation[a * 3 + b] * local[b];
+    return within;
+}
+
+/* The next point of the region. A ball takes half of a cube's points, so that none of 64 is in it does not happen; then it is the last. */
+static void draw_point(Emitter *emitter, const Nozzle *nozzle, double point[3])
+{
+    const int axes = nozzle->solid.dimension - (nozzle->region == PBMPM_EMIT_DISC ? 1 : 0);
+    for (int attempt = 0; attempt < 64; attempt++) {
+        double u[3] = {0};
+        const uint64_t number = emitter->state.drawn++;
+        for (int a = 0; a < axes; a++) u[a] = sequence(&emitter->def, number, a, axes);
+        if (point_of(nozzle, u, point)) return;
+    }
+}
+
+/* A velocity inside the cone, evenly over its solid angle (2D: its angle). */
+static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double velocity[3])
+{
+    enum { NUMBERS_PER_PARTICLE = 2, AFTER_OFFSETS = 3 };
+    const pbmpm_emitter_def *def = &emitter->def;
+    const uint64_t counter = AFTER_OFFSETS + emitter->state.born * NUMBERS_PER_PARTICLE;
+    const double first = scatter_number(def->seed, counter) + 0.5, second = scatter_number(def->seed, counter + 1);
+    const bool deep = nozzle->solid.dimension == 3;
+    const double cosine = deep ? 1.0 - first * (1.0 - cos((double)def->spread)) : cos((2.0 * first - 1.0) * (double)def->spread);
+    const double sine = deep ? sqrt(fmax(0.0, 1.0 - cosine * cosine)) : sin((2.0 * first - 1.0) * (double)def->spread);
+    const double turn = deep ? 2.0 * M_PI * second : 0.0;
+    for (int a = 0; a < 3; a++)
+        velocity[a] = (double)def->speed *
+                      (cosine * nozzle->axis[a] + sine * (cos(turn) * nozzle->across[0][a] + sin(turn) * nozzle->across[1][a]));
+}
+
+/* ---- Whether there is space: the rest volume on the nodes around the emitter, as the grid will see it ---- */
+
+typedef struct Crowd {
+    int32_t low[3];
+    int32_t size[3]; /* nodes */
+    float *volume;
+} Crowd;
+
+/* The nodes that particles which appear in this part can touch. */
+static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, float dt)
+{
+    const double dx = (double)world->def.cell_size, parts = world->settings.substeps;
+    double gravity2 = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    const double way = ((double)emitter->def.speed + sqrt(gravity2) * (double)dt) * (double)dt / dx;
+    const double reach = fmin(way, (double)world->settings.max_displacement) + 2.0;
+    Crowd crowd = {.size = {1, 1, 1}};
+    double low[2][3], high[2][3];
+    for (int end = 0; end < 2; end++) {
+        const Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + end) / parts));
+        solid_bounds(&nozzle.solid, low[end], high[end]);
+    }
+    for (int a = 0; a < world->def.dimension; a++) {
+        crowd.low[a] = (int32_t)floor(fmin(low[0][a], low[1][a]) / dx - reach);
+        crowd.size[a] = (int32_t)ceil(fmax(high[0][a], high[1][a]) / dx + reach) - crowd.low[a] + 1;
+    }
+    return crowd;
+}
+
+static double crowd_nodes(const Crowd *crowd) { return (double)crowd->size[0] * (double)crowd->size[1] * (double)crowd->size[2]; }
+
+/* Quadratic B-spline weights of the nodes below, at and above the nearest; f in [-1/2, 1/2). */
+static void weights_of(double f, double w[3])
+{
+    w[0] = 0.5 * (0.5 - f) * (0.5 - f);
+    w[1] = 0.75 - f * f;
+    w[2] = 0.5 * (0.5 + f) * (0.5 + f);
+}
+
+/* A point between the nodes of the crowd. */
+typedef struct Spot {
+    size_t corner; /* of its stencil */
+    double w[3][3];
+} Spot;
+
+/* False: some node that it touches is not in the crowd. `place` in cells. */
+static bool find_spot(const Crowd *crowd, int dimension, const double place[3], Spot *spot)
+{
+    size_t stride = 1;
+    *spot = (Spot){.w = {[2] = {1.0, 0.0, 0.0}}};
+    for (int a = 0; a < dimension; a++) {
+        const double node = floor(place[a] + 0.5);
+        const double first = node - 1.0 - crowd->low[a];
+        if (first < 0.0 || first + 3.0 > crowd->size[a]) return false;
+        weights_of(place[a] - node, spot->w[a]);
+        spot->corner += (size_t)first * stride;
+        stride *= (size_t)crowd->size[a];
+    }
+    return true;
+}
+
+static size_t spot_node(const Crowd *crowd, const Spot *spot, int i, int j, int k)
+{
+    return spot->corner + (size_t)i + (size_t)crowd->size[0] * ((size_t)j + (size_t)crowd->size[1] * (size_t)k);
+}
+
+static void crowd_add(Crowd *crowd, int dimension, const Spot *spot, double volume)
+{
+    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++)
+                crowd->volume[spot_node(crowd, spot, i, j, k)] += (float)(volume * spot->w[0][i] * spot->w[1][j] * spot->w[2][k]);
+}
+
+static void crowd_measure(const World *world, Crowd *crowd)
+{
+    const Particles *p = &world->particles;
+    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
+    for (uint32_t row = 0; row < p->count; row++) {
+        bool near = true;
+        for (int a = 0; a < p->dimension; a++) {
+            const int32_t from_low = p->cell[a][row] - crowd->low[a];
+            near = near && from_low >= 1 && from_low < crowd->size[a] - 1;
+        }
+        double place[3] = {0};
+        Spot spot;
+        if (!near) continue;
+        for (int a = 0; a < p->dimension; a++) place[a] = particles_coordinate(p, row, a);
+        if (!find_spot(crowd, p->dimension, place, &spot)) continue;
+        crowd_add(crowd, p->dimension, &spot, (double)(p->mass[row] * world->materials.kernel[p->material[row]].inverse_density));
+    }
+}
+
+/* The share of a node's cell that obstacles leave open. */
+static double open_share_at(const World *world, const double node[3])
+{
+    double share = 1.0;
+    for (int i = 0; i < world->colliders.obstacle_count; i++)
+        share *= obstacle_open_share(&world->colliders.obstacle[i], node, (double)world->def.cell_size);
+    return share;
+}
+
+/* Rest volume per volume that is open, at a place. Obstacles count only if `walled`. */
+static double crowd_at(const World *world, const Crowd *crowd, const double place[3], const Spot *spot, bool walled)
+{
+    const int d = world->def.dimension;
+    double held = 0.0;
+    for (int k = 0; k < (d == 3 ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++) {
+                const double volume = (double)crowd->volume[spot_node(crowd, spot, i, j, k)];
+                const int offset[3] = {i - 1, j - 1, k - 1};
+                double node[3] = {0}, share = 1.0;
+                for (int a = 0; a < d; a++) node[a] = (floor(place[a] + 0.5) + offset[a]) * (double)world->def.cell_size;
+                if (walled && volume > 0.0) share = open_share_at(world, node);
+                held += spot->w[0][i] * spot->w[1][j] * spot->w[2][k] * volume / share;
+            }
+    return held;
+}
+
+/* How near the next obstacle is [cells]; negative inside. */
+static double clearance(const World *world, const double point[3])
+{
+    double nearest = INFINITY, normal[3];
+    for (int i = 0; i < world->colliders.obstacle_count; i++)
+        nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
+    return nearest / (double)world->def.cell_size;
+}
+
+/* Nodes farther from an obstacle than this are open [cells]: a particle's own stencil, and the support of its nodes. */
+static const double FREE = 5.0;
+/* A place on a surface is not inside it, whatever rounding says. */
+static const double SURFACE = 0.01;
+
+/* ---- Births ---- */
+
+/* A particle of an emitter in one part of a step. */
+typedef struct Birth {
+    double since;    /* from its birth to the end of the part [s] */
+    double point[3]; /* where it was born [m] */
+    double velocity[3];
+} Birth;
+
+/* Whether there is space for it at the point [m]; then it is added. */
+static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *birth, const double point[3], double clear, uint32_t generation)
+{
+    const int d = world->def.dimension;
+    const double dx = (double)world->def.cell_size;
+    double place[3] = {0};
+    Spot spot;
+    for (int a = 0; a < d; a++) place[a] = point[a] / dx;
+    if (!find_spot(crowd, d, place, &spot)) return false;
+    if (crowd_at(world, crowd, place, &spot, clear < FREE) > (double)emitter->def.fill_limit) return false;
+    NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index};
+    for (int a = 0; a < d; a++) {
+        particle.position[a] = place[a];
+        particle.velocity[a] = (float)(birth->velocity[a] + (double)world->settings.gravity[a] * birth->since);
+    }
+    particles_append(&world->particles, &particle, generation);
+    crowd_add(crowd, d, &spot, particle_volume(&emitter->def, d));
+    emitter->state.emitted++;
+    return true;
+}
+
+/* Where it has come to, x + v t + g t^2 / 2, at most max_displacement; where it was born if something is in the way. */
+static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *birth, uint32_t generation)
+{
+    double point[3] = {0}, way[3] = {0}, length = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) {
+        way[a] = (birth->velocity[a] + 0.5 * (double)world->settings.gravity[a] * birth->since) * birth->since;
+        length += way[a] * way[a];
+    }
+    const double limit = (double)world->settings.max_displacement * (double)world->def.cell_size;
+    const double slow = length > limit * limit ? limit / sqrt(length) : 1.0;
+    for (int a = 0; a < world->def.dimension; a++) point[a] = birth->point[a] + slow * way[a];
+    double clear = clearance(world, point);
+    const bool blocked = clear < -SURFACE;
+    if (blocked) clear = clearance(world, birth->point);
+    if (clear < -SURFACE) return false;
+    return settle(world, emitter, crowd, birth, blocked ? birth->point : point, clear, generation);
+}
+
+/* Particles that come due in a part of the length dt, counted as far as anybody can. */
+static double count_due(const World *world, const Emitter *emitter, float dt)
+{
+    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * (double)dt), 1e15);
+}
+
+static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused, int part)
+{
+    if (refused == 0) return;
+    pbmpm_event event = {.kind = PBMPM_EVENT_EMISSION_REFUSED, .count = refused > UINT32_MAX ? UINT32_MAX : (uint32_t)refused,
+                         .substep = (uint32_t)part, .step = world->step_count};
+    for (int a = 0; a < world->def.dimension; a++) event.position[a] = emitter->def.shape.position[a];
+    events_add(&world->events, &event);
+    world->flow.refused += refused;
+}
+
+/* The j-th birth is when `due` passes the number j. */
+static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int part, float dt)
+{
+    EmitterState *state = &emitter->state;
+    const EmitterState before = *state;
+    const double rate = particle_rate(world, &emitter->def), parts = world->settings.substeps;
+    const uint32_t generation = registry_next_generation();
+    const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
+    Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + 1) / parts));
+    uint64_t j = 1;
+    for (; j <= due && j <= world->particles.capacity; j++) {
+        if (state->emitted >= budget || world->particles.count >= world->particles.capacity) break;
+        const double after = fmin(fmax(((double)j - before.due) / rate, 0.0), (double)dt);
+        Birth birth = {.since = (double)dt - after};
+        if (emitter->moving) nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + after / (double)dt) / parts));
+        draw_point(emitter, &nozzle, birth.point);
+        draw_velocity(emitter, &nozzle, birth.velocity);
+        state->born++;
+        if (!be_born(world, emitter, crowd, &birth, generation)) state->refused_full++;
+    }
+    const uint64_t rest = due - (j - 1);
+    state->born += rest;
+    *(state->emitted >= budget ? &state->refused_budget : &state->refused_capacity) += rest;
+    const uint64_t emitted = state->emitted - before.emitted;
+    const double mass = (double)emitted * (double)particle_mass(world, &emitter->def) * world_cell_volume(world);
+    state->emitted_mass += mass;
+    world->flow.emitted += emitted;
+    world->flow.emitted_mass += mass;
+    tell_refusals(world, emitter, due - emitted, part);
+}
+
+pbmpm_result emitters_prepare(World *world, int part, float dt)
+{
+    Emitters *emitters = &world->emitters;
+    for (uint32_t slot = 0; slot < emitters->used; slot++) {
+        const Emitter *emitter = &emitters->slot[slot];
+        if (!works(emitter) || count_due(world, emitter, dt) < 1.0) continue;
+        const Crowd crowd = crowd_bounds(world, emitter, part, dt);
+        if (crowd_nodes(&crowd) > 1e9 || !array_reserve(&world->memory, &emitters->crowd, (size_t)crowd_nodes(&crowd), sizeof(float)))
+            return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", crowd_nodes(&crowd));
+    }
+    return PBMPM_OK;
+}
+
+void emitters_run(World *world, int part, float dt)
+{
+    Emitters *emitters = &world->emitters;
+    for (uint32_t slot = 0; slot < emitters->used; slot++) {
+        Emitter *emitter = &emitters->slot[slot];
+        if (!works(emitter)) continue;
+        const double due = count_due(world, emitter, dt);
+        if (due >= 1.0) {
+            Crowd crowd = crowd_bounds(world, emitter, part, dt);
+            crowd.volume = emitters->crowd.data;
+            crowd_measure(world, &crowd);
+            emit(world, emitter, &crowd, (uint64_t)due, part, dt);
+        }
+        const double total = emitter->state.due + particle_rate(world, &emitter->def) * (double)dt;
+        emitter->state.due = total - floor(total);
+    }
+}
