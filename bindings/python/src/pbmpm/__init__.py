@@ -31,6 +31,8 @@ from .errors import (
     UnsupportedCpuError,
     UnsupportedError,
 )
+from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
+from .forces import Falloff, Force, ForceKind
 from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Box, Capsule, Plane, Shape, Sphere
@@ -50,18 +52,26 @@ def isa() -> str:
 __all__ = [
     "Box",
     "BusyError",
-    "Capsule",
     "CapacityError",
+    "Capsule",
     "ClosedError",
     "Collider",
     "DamagedError",
+    "Drain",
+    "DrainStatus",
     "Effective",
     "Elastic",
     "ElasticModel",
+    "Emitter",
+    "EmitterStatus",
     "Event",
     "EventKind",
     "ExpiredViewError",
+    "Falloff",
     "Field",
+    "Flow",
+    "Force",
+    "ForceKind",
     "ForeignError",
     "ForkedError",
     "Friction",
@@ -76,6 +86,7 @@ __all__ = [
     "PbmpmError",
     "Plane",
     "Pressure",
+    "Region",
     "Shape",
     "Solver",
     "Sphere",

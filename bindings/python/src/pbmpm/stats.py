@@ -62,6 +62,8 @@ class EventKind(enum.Enum):
     DELETED_CONDITION = ffi.integer_const("PBMPM_EVENT_DELETED_CONDITION")  #: strained beyond condition_max
     SPEED_CLAMPED = ffi.integer_const("PBMPM_EVENT_SPEED_CLAMPED")  #: slowed to max_displacement
     CAPACITY = ffi.integer_const("PBMPM_EVENT_CAPACITY")  #: a call asked for more particles than there is room for
+    EMISSION_REFUSED = ffi.integer_const("PBMPM_EVENT_EMISSION_REFUSED")  #: an emitter had no space, budget or room
+    KILLED = ffi.integer_const("PBMPM_EVENT_KILLED")  #: left the kill bounds
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,8 @@ from ._handle import WorldHandle
 from ._library import lib
 from .colliders import Collider, Friction
 from .errors import ClosedError, InvalidArgumentError, check
+from .flow import WorldFlow
+from .forces import WorldForces
 from .materials import Material, Parameters
 from .settings import Integrator, Pressure, Solver, WorldSettings
 from .shapes import Shape
@@ -25,7 +27,7 @@ from .views import MATRICES, Field, View
 Ids = npt.NDArray[np.uint32]
 
 
-class World(WorldSettings):
+class World(WorldSettings, WorldFlow, WorldForces):
     """A world of liquid and elastic matter.
 
     Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one
