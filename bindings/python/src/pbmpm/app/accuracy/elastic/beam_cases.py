@@ -30,7 +30,7 @@ class AxialBar(ElasticCase):
     error_kinds = (
         ErrorMeasure("frequency", "discretisation", "%", "frequency against that of the exact motion", 0.02),
         ErrorMeasure(
-            "of theory",
+            "of_theory",
             "discretisation",
             "%",
             "frequency against what the integrator makes of the exact motion: without the time step's error",
@@ -55,7 +55,7 @@ class AxialBar(ElasticCase):
         record, found = bar.swing(setting.run_settings())
         frequency = None if found is None else found.frequency
         theory = discrete_frequency(integrator_of(setting), bar.frequency, setting.dt / setting.substeps)
-        errors = {"frequency": relative(frequency, bar.frequency), "of theory": relative(frequency, theory)}
+        errors = {"frequency": relative(frequency, bar.frequency), "of_theory": relative(frequency, theory)}
         return record.measurement(
             errors,
             None if frequency is None else (frequency / bar.frequency,),
@@ -107,7 +107,7 @@ class CantileverCase(ElasticCase):
         ),
         ErrorMeasure("frequency", "discretisation", "%", "frequency of the swing against that of small swings"),
         ErrorMeasure(
-            "of theory", "discretisation", "%", "frequency against what the integrator makes of that of small swings"
+            "of_theory", "discretisation", "%", "frequency against what the integrator makes of that of small swings"
         ),
         ErrorMeasure(
             "middle", "discretisation", "%", "middle of the swing against the elastica and shear: creep by swinging"
@@ -143,7 +143,7 @@ class CantileverCase(ElasticCase):
         errors = {
             "tip": relative(tip, cantilever.tip_deflection),
             "frequency": relative(frequency, cantilever.frequency),
-            "of theory": relative(frequency, theory),
+            "of_theory": relative(frequency, theory),
             "middle": relative(middle, cantilever.tip_deflection),
         }
         record.reasons = list(dict.fromkeys(resting.reasons + record.reasons))
@@ -191,7 +191,7 @@ class PredictionCase(CantileverCase):
     error_kinds = (
         ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
         ErrorMeasure(
-            "true error", "solver", "cells", "median of the steps: distance from the same step solved to the end"
+            "true_error", "solver", "cells", "median of the steps: distance from the same step solved to the end"
         ),
     )
     notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
@@ -216,7 +216,7 @@ class PredictionCase(CantileverCase):
         found = compare(make, setting.run_settings(), self.steps)
         wrong = None if found.share is None else 1.0 - found.share
         return Measurement(
-            errors={"wrong": wrong, "true error": float(np.median(found.true))},
+            errors={"wrong": wrong, "true_error": float(np.median(found.true))},
             ms_per_simulated_second=found.ms_per_simulated_second,
             iterations_used=found.iterations_used,
             predicted_error=float(found.predicted.mean()),

@@ -116,10 +116,10 @@ class TwoDiscsCase(ElasticCase):
     quick_rates = (60.0, 240.0)
     grid_setting = ("primal-bdf2", 240.0, 10)
     error_kinds = (
-        ErrorMeasure("energy lost", "discretisation", "%", "of the energy at the start, kinetic and stored, at 3.5 s"),
-        ErrorMeasure("energy gained", "discretisation", "%", "most above the start at any time", 0.001),
+        ErrorMeasure("energy_lost", "discretisation", "%", "of the energy at the start, kinetic and stored, at 3.5 s"),
+        ErrorMeasure("energy_gained", "discretisation", "%", "most above the start at any time", 0.001),
         ErrorMeasure(
-            "gap at contact",
+            "gap_at_contact",
             "discretisation",
             "cells",
             "how far along an axis the discs are apart when they first brake",
@@ -149,9 +149,9 @@ class TwoDiscsCase(ElasticCase):
         closing = 2.0 * discs.speed / math.sqrt(2.0) / discs.cell_size  # cells per second and axis
         early = None if contact is None else (discs.facts["geometric_contact_time_s"] - contact) * closing
         errors = {
-            "energy lost": max(0.0, 1.0 - float(total[-1])),
-            "energy gained": max(0.0, float(total.max()) - 1.0),
-            "gap at contact": early,
+            "energy_lost": max(0.0, 1.0 - float(total[-1])),
+            "energy_gained": max(0.0, float(total.max()) - 1.0),
+            "gap_at_contact": early,
             "momentum": float(np.abs(record.values[:, 2]).max()),
         }
         return record.measurement(
@@ -171,7 +171,7 @@ class SpinningDiscCase(ElasticCase):
     error_kinds = (
         ErrorMeasure("lost", "discretisation", "%", "of the angular momentum, in one revolution"),
         ErrorMeasure(
-            "of theory",
+            "of_theory",
             "discretisation",
             "%",
             "angular momentum against what the integrator leaves to a rigid ring",
@@ -193,11 +193,11 @@ class SpinningDiscCase(ElasticCase):
         disc = SpinningDisc(cells=setting.cells)
         record = disc.spin(setting.run_settings())
         kept, moving, stored, reach = (float(value) for value in record.values[-1])
-        errors: dict[str, float | None] = {"lost": abs(1.0 - kept), "of theory": None, "grown": abs(reach - 1.0)}
+        errors: dict[str, float | None] = {"lost": abs(1.0 - kept), "of_theory": None, "grown": abs(reach - 1.0)}
         if setting.solver != "explicit":
             steps = round(disc.period / setting.dt) * setting.substeps
             dt = setting.dt / setting.substeps
-            errors["of theory"] = relative(kept, rotation_kept(setting.integrator, disc.angular_velocity, dt, steps))
+            errors["of_theory"] = relative(kept, rotation_kept(setting.integrator, disc.angular_velocity, dt, steps))
         return record.measurement(errors, (kept,), kinetic_kept=moving, stored=stored)
 
 
@@ -213,13 +213,13 @@ class InvarianceCase(ElasticCase):
     iterations = (5, 20)
     error_kinds = (
         ErrorMeasure(
-            "drift by cells", "discretisation", "cells", "change of places by a drift of 2 cells per step", 2.1e-4
+            "drift_by_cells", "discretisation", "cells", "change of places by a drift of 2 cells per step", 2.1e-4
         ),
         ErrorMeasure("drift", "discretisation", "cells", "change of places by a drift of 0.37 cells per step", 0.02),
-        ErrorMeasure("turned 90", "discretisation", "cells", "change of places by a set-up turned by 90 degrees", 1e-3),
-        ErrorMeasure("turned 45", "discretisation", "cells", "change of places by a set-up turned by 45 degrees"),
+        ErrorMeasure("turned_90", "discretisation", "cells", "change of places by a set-up turned by 90 degrees", 1e-3),
+        ErrorMeasure("turned_45", "discretisation", "cells", "change of places by a set-up turned by 45 degrees"),
         ErrorMeasure(
-            "at rest", "discretisation", "cells", "motion in a step of a body at rest whose F is a rotation", 1e-5
+            "at_rest", "discretisation", "cells", "motion in a step of a body at rest whose F is a rotation", 1e-5
         ),
     )
     truth = (
