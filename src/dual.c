@@ -129,7 +129,6 @@ static double start(World *world, const ContactFrame *contacts)
     push(world, contacts, cells);
     if (guesses > 0) {
         guess_pressure(world, contacts, guesses);
-        world->record.iterations_used += (uint32_t)guesses;
         push(world, contacts, true);
     }
     return mass;
@@ -178,12 +177,26 @@ void dual_solve(World *world, const ContactFrame *contacts)
     }
 }
 
-double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+/* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */
+static double stiffness_of(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double cells = substep / (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
     const double shear = 0.5 * (double)def->young_modulus / (1.0 + poisson);
     const double lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    const double stiffness = 4.0 * cells * cells / (double)def->density * (2.0 * shear + lambda);
-    const double held = world->settings.iterations / 2.5;
-    return fmin(1.0, held * held / stiffness);
+    return 4.0 * cells * cells / (double)def->density * (2.0 * shear + lambda);
+}
+
+/* A stress takes about as many iterations as sound takes cells per substep: n iterations get a stiffness of (n / 2.5)^2 to about a tenth
+ * (bars and blocks). Bodies in a liquid hold together better if they are asked for more, and best above about (4 n)^2; more only makes
+ * the unfinished solution rougher. */
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+{
+    const double held = (world->settings.iterations - guess_iterations(world)) / 2.5;
+    return fmin(1.0, held * held / stiffness_of(world, def, substep));
+}
+
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
+{
+    const double asked = 4.0 * (world->settings.iterations - guess_iterations(world));
+    return fmin(1.0, asked * asked / stiffness_of(world, def, substep));
 }

@@ -12,7 +12,8 @@ void dual_free(World *world);
 
 void dual_solve(World *world, const ContactFrame *contacts);
 
-/* The share of an elastic material's stiffness that the iterations of a substep can hold. */
+/* The share of an elastic material's stiffness that the iterations of a substep can hold, and the share that they are asked for. */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);
 
 #endif

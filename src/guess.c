@@ -112,7 +112,8 @@ static void conjugate_gradients(Guess *g, int iterations)
     precondition(g);
     memcpy(g->direction, g->better, g->cells * sizeof(float));
     double rz = dot(g, g->residual, g->better);
-    for (int k = 0; k < iterations && rz > 0.0; k++) {
+    for (int k = 0; k < iterations && rz > 0.0 && !solver_time_is_up(g->world); k++) {
+        g->world->record.iterations_used++;
         respond(g, g->direction);
         trace(g, g->response);
         for (size_t i = 0; i < g->cells; i++) g->response[i] = (g->response[i] + soft[i] * g->direction[i]) * g->mask[i];

@@ -48,7 +48,7 @@ static void set_moduli(World *world, float dt)
         } else {
             const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
             const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
-            if (world->record.solver == PBMPM_SOLVER_DUAL) c *= dual_stiffness_share(world, def, (double)dt);
+            if (world->record.solver == PBMPM_SOLVER_DUAL) c *= dual_stiffness_cap(world, def, (double)dt);
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
         }
@@ -151,6 +151,11 @@ void solver_predict(World *world)
 
 /* ---- Solving ---- */
 
+bool solver_time_is_up(const World *world)
+{
+    return world->settings.time_budget_ms > 0.0f && now_ms() > world->record.deadline_ms;
+}
+
 bool solver_may_go_on(World *world, double predicted_error)
 {
     const pbmpm_settings *settings = &world->settings;
@@ -159,7 +164,7 @@ bool solver_may_go_on(World *world, double predicted_error)
     record->stop = PBMPM_STOP_ITERATIONS;
     if (record->iterations_used >= (uint32_t)settings->iterations) return false;
     if (settings->target_error > 0.0f && predicted_error < (double)settings->target_error) record->stop = PBMPM_STOP_ERROR;
-    if (settings->time_budget_ms > 0.0f && now_ms() > record->deadline_ms) record->stop = PBMPM_STOP_TIME;
+    if (solver_time_is_up(world)) record->stop = PBMPM_STOP_TIME;
     return record->stop == PBMPM_STOP_ITERATIONS;
 }
 

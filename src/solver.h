@@ -30,6 +30,9 @@ void solver_obey(World *world, const ContactFrame *contacts);
 /* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
 void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts);
 
+/* Whether the time budget of the step is spent. */
+bool solver_time_is_up(const World *world);
+
 /* Whether another iteration is wanted after record.iterations_used of them, with the error that is predicted now [cells].
  * Records the prediction and, at the end, what ended the iterations. */
 bool solver_may_go_on(World *world, double predicted_error);

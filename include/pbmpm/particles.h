@@ -66,7 +66,8 @@ typedef enum pbmpm_field {
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
-    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones */
+    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
+                                    over a few cells say something: what the pressures of neighbours differ by moves nothing. */
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
