@@ -296,9 +296,10 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     *collider = (pbmpm_collider_id){0, 0};
     REQUIRE_SIZE(def);
     HOLD(world);
-    const char *problem = collider_problem(def, w->def.dimension);
+    const char *problem = collider_problem(def, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    LET_GO(colliders_add(&w->colliders, def, registry_next_generation(), collider));
+    const DistanceGrid *grid = def->shape.kind == PBMPM_BAKED ? baked_find(&w->baked, def->shape.baked) : NULL;
+    LET_GO(colliders_add(&w->colliders, &w->memory, def, grid, registry_next_generation(), collider));
 }
 
 static pbmpm_result no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
@@ -330,7 +331,7 @@ static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const f
     pbmpm_shape shape = found->def.shape;
     memcpy(shape.position, position, sizeof shape.position);
     if (rotation) memcpy(shape.rotation, rotation, sizeof shape.rotation);
-    const char *problem = shape_problem(&shape, w->def.dimension);
+    const char *problem = shape_problem_among(&shape, w->def.dimension, &w->baked);
     if (problem) return api_invalid(problem);
     collider_place(found, position, rotation, at_once);
     return PBMPM_OK;
@@ -357,7 +358,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
     HOLD(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
-    const Solid solid = solid_of(&found->def.shape, w->def.dimension);
+    const Solid solid = solid_among(&found->def.shape, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count));
 }
 
@@ -367,9 +368,9 @@ pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, p
     REQUIRE(count);
     if (capacity) REQUIRE(ids);
     HOLD(world);
-    const char *problem = shape_problem(shape, w->def.dimension);
+    const char *problem = shape_problem_among(shape, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    const Solid solid = solid_of(shape, w->def.dimension);
+    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, 0.0, ids, capacity, count));
 }
 

@@ -77,9 +77,9 @@ pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, 
     REQUIRE(count);
     if (capacity) REQUIRE(shares);
     HOLD(world);
-    const char *problem = shape_problem(shape, w->def.dimension);
+    const char *problem = shape_problem_among(shape, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    const Solid solid = solid_of(shape, w->def.dimension);
+    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
     LET_GO(query_region(w, &solid, shares, capacity, count));
 }
 

@@ -3,10 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "concave.h"
 #include "numbers.h"
 #include "result.h"
-
-enum { DOMAIN_WALLS = 6 };
 
 pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 {
@@ -23,6 +22,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     memory_give(memory, colliders->obstacle, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
+    impulses_free(&colliders->impulses, memory);
     *colliders = (Colliders){0};
 }
 
@@ -34,28 +34,40 @@ pbmpm_collider_def collider_defaults(void)
                                 .shape = shape_defaults()};
 }
 
-const char *collider_problem(const pbmpm_collider_def *def, int dimension)
+const char *collider_problem(const pbmpm_collider_def *def, int dimension, const BakedTable *baked)
 {
     if (def->size != sizeof *def) return "collider.size is unknown: fill the definition with pbmpm_collider_def_init()";
     if (def->friction != PBMPM_FRICTION_COULOMB && def->friction != PBMPM_FRICTION_STICK && def->friction != PBMPM_FRICTION_SLIP)
         return "collider.friction is unknown";
     if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
-    return shape_problem(&def->shape, dimension);
+    if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
+    return shape_problem_among(&def->shape, dimension, baked);
 }
 
-pbmpm_result colliders_add(Colliders *colliders, const pbmpm_collider_def *def, uint32_t generation, pbmpm_collider_id *id)
+pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const DistanceGrid *grid,
+                           uint32_t generation, pbmpm_collider_id *id)
 {
+    const pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
+    if (result != PBMPM_OK) return result;
     for (uint32_t slot = 0; slot < PBMPM_MAX_COLLIDERS; slot++) {
         Collider *collider = &colliders->slot[slot];
         if (collider->generation != 0) continue;
-        *collider = (Collider){.generation = generation, .def = *def};
+        *collider = (Collider){.generation = generation, .def = *def, .grid = grid};
         collider_place(collider, def->shape.position, def->shape.rotation, true);
         if (slot >= colliders->used) colliders->used = slot + 1;
+        if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
         *id = (pbmpm_collider_id){slot, generation};
         return PBMPM_OK;
     }
     return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d colliders", PBMPM_MAX_COLLIDERS);
+}
+
+bool colliders_use(const Colliders *colliders, const DistanceGrid *grid)
+{
+    for (uint32_t slot = 0; slot < colliders->used; slot++)
+        if (colliders->slot[slot].generation != 0 && colliders->slot[slot].grid == grid) return true;
+    return false;
 }
 
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id)
@@ -85,17 +97,25 @@ static pbmpm_shape pose_between(const Collider *collider, float t)
     return shape_between(&collider->def.shape, collider->target_position, collider->target_rotation, t);
 }
 
+static Solid solid_at(const Collider *collider, const pbmpm_shape *shape, int dimension)
+{
+    Solid solid = solid_of(shape, dimension);
+    solid.grid = collider->grid;
+    return solid;
+}
+
 static Obstacle obstacle_of(const Collider *collider, int dimension, int part, int parts)
 {
-    Obstacle o = {.moves = collider->moving, .friction = collider->def.friction, .coefficient = collider->def.friction_coefficient};
+    const pbmpm_collider_def *def = &collider->def;
+    Obstacle o = {.moves = collider->moving, .friction = def->friction, .coefficient = def->friction_coefficient, .measures = def->measures_impulse};
     if (!collider->moving) {
-        o.start = o.end = solid_of(&collider->def.shape, dimension);
+        o.start = o.end = solid_at(collider, &def->shape, dimension);
         return o;
     }
     const pbmpm_shape start = pose_between(collider, (float)part / (float)parts);
     const pbmpm_shape end = pose_between(collider, (float)(part + 1) / (float)parts);
-    o.start = solid_of(&start, dimension);
-    o.end = solid_of(&end, dimension);
+    o.start = solid_at(collider, &start, dimension);
+    o.end = solid_at(collider, &end, dimension);
     for (int r = 0; r < 3; r++)
         for (int c = 0; c < 3; c++)
             for (int k = 0; k < 3; k++) o.turn[r * 3 + c] += o.end.rotation[r * 3 + k] * o.start.rotation[c * 3 + k];
@@ -104,11 +124,12 @@ static Obstacle obstacle_of(const Collider *collider, int dimension, int part, i
 
 static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool upper)
 {
-    Obstacle o = {.wall = true, .friction = PBMPM_FRICTION_COULOMB, .coefficient = domain->friction};
+    Obstacle o = {.wall = true, .friction = PBMPM_FRICTION_COULOMB, .coefficient = domain->friction, .measures = domain->measures};
     o.start = (Solid){.kind = PBMPM_PLANE, .dimension = dimension};
     o.start.position[axis] = upper ? domain->high[axis] : domain->low[axis];
     o.start.normal[axis] = upper ? -1.0 : 1.0;
     o.side = 2 * axis + (upper ? 1 : 0);
+    o.place = (uint16_t)(PBMPM_MAX_COLLIDERS + o.side);
     o.end = o.start;
     return o;
 }
@@ -116,9 +137,14 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
 void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts)
 {
     int count = 0;
-    for (uint32_t slot = 0; slot < colliders->used; slot++)
-        if (colliders->slot[slot].generation != 0)
-            colliders->obstacle[count++] = obstacle_of(&colliders->slot[slot], dimension, part, parts);
+    colliders->measures = domain->enabled && domain->measures;
+    for (uint32_t slot = 0; slot < colliders->used; slot++) {
+        if (colliders->slot[slot].generation == 0) continue;
+        Obstacle *o = &colliders->obstacle[count++];
+        *o = obstacle_of(&colliders->slot[slot], dimension, part, parts);
+        o->place = (uint16_t)slot;
+        colliders->measures = colliders->measures || o->measures;
+    }
     for (int axis = 0; domain->enabled && axis < dimension; axis++) {
         colliders->obstacle[count++] = domain_wall(domain, dimension, axis, false);
         colliders->obstacle[count++] = domain_wall(domain, dimension, axis, true);
@@ -137,8 +163,8 @@ void colliders_end_step(Colliders *colliders)
 
 double obstacle_distance(const Obstacle *o, const double point[3], double normal[3]) { return solid_distance(&o->end, point, normal); }
 
-/* Where the obstacle carries a point of its own, in cells, at most `limit`: x -> end + turn (x - start). */
-static void surface_displacement(const Obstacle *o, const double point[3], double cell_size, float limit, float out[3])
+/* x -> end + turn (x - start). */
+void obstacle_motion(const Obstacle *o, const double point[3], double cell_size, float limit, float out[3])
 {
     memset(out, 0, 3 * sizeof *out);
     if (!o->moves) return;
@@ -160,7 +186,7 @@ typedef struct FindJob {
     bool write; /* first pass counts, second writes */
 } FindJob;
 
-static void node_position(const ContactFrame *frame, int32_t block, int node, double point[3])
+void contacts_node_position(const ContactFrame *frame, int32_t block, int node, double point[3])
 {
     const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
     const int local[3] = {node & 3, node >> 2 & 3, node >> 4};
@@ -171,9 +197,9 @@ static void node_position(const ContactFrame *frame, int32_t block, int node, do
 /* What the iterations may add to the way of a node [cells]. */
 static const double WAY_MARGIN = 1.0;
 
-static void block_centre(const ContactFrame *frame, int32_t block, double centre[3])
+void contacts_block_centre(const ContactFrame *frame, int32_t block, double centre[3])
 {
-    node_position(frame, block, 0, centre);
+    contacts_node_position(frame, block, 0, centre);
     for (int a = 0; a < frame->grid->dimension; a++) centre[a] += 0.5 * (K_BLOCK_AXIS - 1) * frame->cell_size;
 }
 
@@ -182,7 +208,7 @@ static void block_centre(const ContactFrame *frame, int32_t block, double centre
 static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t block, const double centre[3])
 {
     float surface[3];
-    surface_displacement(o, centre, frame->cell_size, frame->max_displacement, surface);
+    obstacle_motion(o, centre, frame->cell_size, frame->max_displacement, surface);
     double motion = 0.0;
     for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
     const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
@@ -192,15 +218,16 @@ static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t blo
 static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
                           const double normal[3])
 {
-    Contact contact = {.node = (uint32_t)node, .friction = o->friction, .coefficient = o->coefficient};
+    Contact contact = {.node = (uint16_t)node, .friction = o->friction, .coefficient = o->coefficient};
+    contact.obstacle = (uint16_t)(o - frame->colliders->obstacle);
     contact.gap = distance > 0.0 ? (float)distance : 0.0f;
     for (int a = 0; a < 3; a++) contact.normal[a] = (float)normal[a];
-    surface_displacement(o, point, frame->cell_size, frame->max_displacement, contact.surface);
+    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, contact.surface);
     return contact;
 }
 
 /* Whether the way of a node, as predicted, passes the obstacle at more than the margin: then it needs no contact, which would
- * brake it although nothing is in its way. All solids are convex, so along the way the distance is a convex function, and
+ * brake it although nothing is in its way. The solid is convex, so along the way the distance is a convex function, and
  * lies above its tangents at both ends. */
 static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], double distance,
                        const double normal[3])
@@ -208,7 +235,7 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
     float surface[3];
     double end[3] = {0}, end_normal[3], leaving = 0.0, arriving = 0.0;
     if (distance <= WAY_MARGIN) return false;
-    surface_displacement(o, point, frame->cell_size, frame->max_displacement, surface);
+    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
     for (int a = 0; a < frame->grid->dimension; a++) end[a] = point[a] + ((double)u[a] - surface[a]) * frame->cell_size;
     const double end_distance = solid_distance(&o->start, end, end_normal) / frame->cell_size;
     for (int a = 0; a < frame->grid->dimension; a++) {
@@ -221,6 +248,20 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
     return distance + crossing * leaving > WAY_MARGIN;
 }
 
+/* Contacts of a node with an obstacle of any form; written if `out` is not null. */
+static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], int node,
+                                   double distance, const double normal[3], Contact *out)
+{
+    float surface[3];
+    double way[3];
+    Plane plane[PLANES_MAX];
+    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
+    for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
+    const int count = concave_planes(&o->start, frame->cell_size, point, distance, normal, way, WAY_MARGIN, plane);
+    for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, plane[i].gap, plane[i].normal);
+    return (uint32_t)count;
+}
+
 /* Contacts of one obstacle with one block's nodes; writes them if `out` is not null, and returns their number. */
 static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int32_t block, double reach, Contact *out)
 {
@@ -230,9 +271,14 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
     for (int i = 0; i < grid->block_cells; i++) {
         if (node[i * K_NODE_WIDTH + 3] == 0.0f) continue; /* no mass, nobody listens */
         double point[3], normal[3];
-        node_position(frame, block, i, point);
+        contacts_node_position(frame, block, i, point);
         const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
         const bool image = o->wall && frame->mirrors >> o->side & 1 && fabs(distance + 1.0) < 0.5;
+        if (o->start.grid) {
+            if (distance <= reach)
+                count += contacts_in_hollow(frame, o, node + i * K_NODE_WIDTH, point, i, distance, normal, out ? out + count : NULL);
+            continue;
+        }
         if (image || distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
         count++;
@@ -249,12 +295,12 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
     const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
     for (int32_t block = begin; block < end; block++) {
         uint32_t contacts = 0;
-        double centre[3], normal[3];
-        block_centre(frame, block, centre);
+        double centre[3];
+        contacts_block_centre(frame, block, centre);
         for (int i = 0; i < colliders->obstacle_count; i++) {
             const Obstacle *o = &colliders->obstacle[i];
             const double reach = reach_of(frame, o, block, centre);
-            if (solid_distance(&o->start, centre, normal) / frame->cell_size > reach + half_diagonal) continue;
+            if (solid_least(&o->start, centre) / frame->cell_size > reach + half_diagonal) continue;
             const bool listed = job->write && colliders->contact.data;
             Contact *out = listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
             contacts += contacts_with(frame, o, block, reach, out);
@@ -279,9 +325,12 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     for (int32_t b = 0; b < blocks; b++) contact_begin[b + 1] += contact_begin[b];
     if (!array_reserve(memory, &colliders->contact, contact_begin[blocks], sizeof(Contact)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u contacts", contact_begin[blocks]);
+    if (colliders->measures && !array_reserve(memory, &colliders->impulses.contact, 3 * (size_t)contact_begin[blocks], sizeof(double)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the impulses of %u contacts", contact_begin[blocks]);
     job.write = true;
     pool_for(pool, blocks, 16, find_in_blocks, &job);
     colliders->contacts = contact_begin[blocks];
+    if (colliders->measures && colliders->contacts) memset(colliders->impulses.contact.data, 0, 3 * colliders->contacts * sizeof(double));
     return PBMPM_OK;
 }
 
@@ -314,7 +363,7 @@ static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t blo
     for (int i = 0; i < cells; i++) {
         double point[3], normal[3];
         if (volume[i] == 0.0f) continue;
-        node_position(frame, block, i, point);
+        contacts_node_position(frame, block, i, point);
         volume[i] /= (float)open_share(solid_distance(&o->start, point, normal) / frame->cell_size);
     }
 }
@@ -324,11 +373,11 @@ static void open_blocks(void *context, int32_t begin, int32_t end)
     const ContactFrame *frame = context;
     const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension);
     for (int32_t block = begin; block < end; block++) {
-        double centre[3], normal[3];
-        block_centre(frame, block, centre);
+        double centre[3];
+        contacts_block_centre(frame, block, centre);
         for (int i = 0; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
-            if (solid_distance(&o->start, centre, normal) / frame->cell_size < half_diagonal + SUPPORT) open_block(frame, o, block);
+            if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + SUPPORT) open_block(frame, o, block);
         }
     }
 }
@@ -366,6 +415,15 @@ static void obey(const Contact *contact, float *u)
     for (int a = 0; a < 3; a++) u[a] = s[a] - contact->gap * n[a] + keep * v[a];
 }
 
+/* The same, with the change of the node's momentum written down. */
+static void obey_and_book(const Impulses *impulses, const Contact *contact, uint32_t index, float *u)
+{
+    double *booked = (double *)impulses->contact.data + 3 * (size_t)index;
+    const float before[3] = {u[0], u[1], u[2]};
+    obey(contact, u);
+    for (int a = 0; a < 3; a++) booked[a] = (impulses->adds_up ? booked[a] : 0.0) + (double)u[3] * ((double)u[a] - (double)before[a]);
+}
+
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end)
 {
     const Colliders *colliders = frame->colliders;
@@ -376,7 +434,10 @@ void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end)
         float *node = (float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
         for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
             const Contact *contact = (const Contact *)colliders->contact.data + i;
-            obey(contact, node + contact->node * K_NODE_WIDTH);
+            if (colliders->measures)
+                obey_and_book(&colliders->impulses, contact, i, node + contact->node * K_NODE_WIDTH);
+            else
+                obey(contact, node + contact->node * K_NODE_WIDTH);
         }
     }
 }
@@ -399,41 +460,26 @@ void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end)
     }
 }
 
-/* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
- * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
-static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt)
+double contacts_momentum_scale(const ContactFrame *frame, double dt)
 {
-    double point[3] = {0}, normal[3];
-    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
-    double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
-    if (depth <= 0.0) return;
-    if (!o->wall) depth = fmin(depth, 1.0);
-    float surface[3];
-    double way[3], inward = 0.0;
-    surface_displacement(o, point, frame->cell_size, frame->max_displacement, surface);
-    const double to_velocity = frame->cell_size / (double)dt;
-    for (int a = 0; a < p->dimension; a++) {
-        way[a] = depth * normal[a];
-        inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
-    }
-    particles_shift(p, row, way);
-    for (int a = 0; a < p->dimension && inward < 0.0; a++) p->velocity[a][row] -= (float)(inward * normal[a]);
+    return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / dt;
 }
 
-void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
+void contacts_book(const ContactFrame *frame, double dt)
 {
     const Colliders *colliders = frame->colliders;
-    const uint32_t *block_begin = frame->grid->block_begin.data;
-    const float *travel = frame->grid->travel.data;
-    const double half_diagonal = 0.5 * K_BLOCK_AXIS * sqrt((double)frame->grid->dimension);
-    for (int32_t block = begin; block < end; block++) {
-        double centre[3], normal[3];
-        block_centre(frame, block, centre);
-        for (int i = 0; i < colliders->obstacle_count; i++) {
-            const Obstacle *o = &colliders->obstacle[i];
-            if (solid_distance(&o->end, centre, normal) / frame->cell_size > half_diagonal + (double)travel[block]) continue;
-            for (uint32_t row = block_begin[block]; row < block_begin[block + 1]; row++)
-                if (particles->status[row] == K_ALIVE) push_particle(frame, o, particles, row, dt);
+    if (!colliders->measures || colliders->contacts == 0) return;
+    const uint32_t *contact_begin = colliders->contact_begin.data;
+    const double *booked = colliders->impulses.contact.data;
+    const double scale = contacts_momentum_scale(frame, dt);
+    for (int32_t block = 0; block < frame->grid->node_blocks; block++)
+        for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
+            const Contact *contact = (const Contact *)colliders->contact.data + i;
+            const Obstacle *o = &colliders->obstacle[contact->obstacle];
+            if (!o->measures) continue;
+            double point[3], gained[3];
+            contacts_node_position(frame, block, contact->node, point);
+            for (int a = 0; a < 3; a++) gained[a] = scale * booked[3 * (size_t)i + (size_t)a];
+            impulse_add(&colliders->impulses.sum[o->place], point, gained);
         }
-    }
 }

@@ -3,6 +3,7 @@
 #define PBMPM_SRC_COLLIDERS_H
 
 #include "grid.h"
+#include "impulses.h"
 #include "pbmpm/collider.h"
 #include "shapes.h"
 
@@ -12,6 +13,7 @@ typedef struct Collider {
     float target_position[3]; /* where the next step takes it */
     float target_rotation[4];
     bool moving;
+    const DistanceGrid *grid; /* of a baked shape; else null */
 } Collider;
 
 /* An obstacle during one substep: a collider, or a wall of the domain. */
@@ -23,11 +25,14 @@ typedef struct Obstacle {
     int side;  /* of a wall: 2 * axis + (1 if upper) */
     pbmpm_friction friction;
     float coefficient;
+    bool measures;
+    uint16_t place; /* of its impulse, see Impulses.sum */
 } Obstacle;
 
 /* A node that an obstacle may meet in this substep. Displacements and lengths in cells. */
 typedef struct Contact {
-    uint32_t node; /* in its block */
+    uint16_t node;     /* in its block */
+    uint16_t obstacle; /* in this substep's list */
     pbmpm_friction friction;
     float coefficient;
     float gap; /* how far the node may approach; 0 inside */
@@ -44,20 +49,27 @@ typedef struct Colliders {
     Array contact;       /* Contact */
     Array contact_begin; /* uint32_t per node block, and the end */
     uint32_t contacts;
+
+    Impulses impulses;
+    bool measures; /* an obstacle of this substep does */
 } Colliders;
 
 pbmpm_result colliders_init(Colliders *colliders, Memory *memory);
 void colliders_free(Colliders *colliders, Memory *memory);
 
 pbmpm_collider_def collider_defaults(void);
-const char *collider_problem(const pbmpm_collider_def *def, int dimension);
-pbmpm_result colliders_add(Colliders *colliders, const pbmpm_collider_def *def, uint32_t generation, pbmpm_collider_id *id);
+const char *collider_problem(const pbmpm_collider_def *def, int dimension, const BakedTable *baked);
+/* `grid`: of a baked shape, else null. */
+pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const DistanceGrid *grid,
+                           uint32_t generation, pbmpm_collider_id *id);
+bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
 
 /* The obstacles of part `part` of `parts` of a step. */
 typedef struct Domain {
     bool enabled;
+    bool measures; /* its walls' impulses */
     double low[3], high[3]; /* [m] */
     float friction;
 } Domain;
@@ -71,6 +83,9 @@ double obstacle_distance(const Obstacle *obstacle, const double point[3], double
 /* The share of the support of a node [m] that an obstacle leaves open at the end of the substep; never 0. */
 double obstacle_open_share(const Obstacle *obstacle, const double node[3], double cell_size);
 
+/* Where the obstacle carries a point of its own in the substep [cells], at most `limit`. */
+void obstacle_motion(const Obstacle *obstacle, const double point[3], double cell_size, float limit, float out[3]);
+
 /* Lists the contacts of all blocks; needs node_reach of the predictor. */
 typedef struct ContactFrame {
     Colliders *colliders;
@@ -81,18 +96,34 @@ typedef struct ContactFrame {
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
+/* Where a node is, and the middle of a block's nodes [m]. */
+void contacts_node_position(const ContactFrame *frame, int32_t block, int node, double point[3]);
+void contacts_block_centre(const ContactFrame *frame, int32_t block, double centre[3]);
+
 /* Divides the rest volume of each node by the share of its cell that obstacles leave open, so that it is 1 where matter at rest
  * fills what is open. */
 void contacts_open_volume(const ContactFrame *frame, Pool *pool);
 
-/* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. */
+/* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. Books what that takes. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);
 
 /* Takes from the nodes of the blocks [begin, end) what would move them against the surfaces they are on or in: the linear part of
  * contacts_apply(). */
 void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end);
 
+/* kg m/s per mass times displacement as the kernels count them. */
+double contacts_momentum_scale(const ContactFrame *frame, double dt);
+
+/* Adds what the contacts booked in this substep of `dt` seconds to the impulses of their obstacles. */
+void contacts_book(const ContactFrame *frame, double dt);
+
+/* Takes the memory that contacts_push_out() books in. */
+pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory);
+
 /* Last resort: puts particles of the particle blocks [begin, end) that ended inside an obstacle back to its surface. */
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);
+
+/* After all blocks: finishes the blocks that had no room to book in, and adds what was booked to the impulses. */
+void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt);
 
 #endif

@@ -109,7 +109,7 @@ typedef struct Lattice {
 static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice *lattice)
 {
     double low[3], high[3], points = 1.0;
-    *lattice = (Lattice){.solid = solid_of(&def->shape, world->def.dimension),
+    *lattice = (Lattice){.solid = solid_among(&def->shape, world->def.dimension, &world->baked),
                          .spacing = (double)world->def.cell_size / (double)def->particles_per_axis,
                          .size = {1, 1, 1}};
     solid_bounds(&lattice->solid, low, high);
@@ -170,7 +170,7 @@ static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
 {
     if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "fill.size is unknown: use pbmpm_fill_def_init()");
     if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "fill.material is not of this world");
-    const char *problem = shape_problem(&def->shape, world->def.dimension);
+    const char *problem = shape_problem_among(&def->shape, world->def.dimension, &world->baked);
     if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill: %s", problem);
     if (def->shape.kind == PBMPM_PLANE) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: a plane has no end");
     if (!in_range(def->particles_per_axis, 0.25, 16.0))
@@ -217,9 +217,9 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
 
 pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed)
 {
-    const char *problem = shape_problem(shape, world->def.dimension);
+    const char *problem = shape_problem_among(shape, world->def.dimension, &world->baked);
     if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem);
-    const Solid solid = solid_of(shape, world->def.dimension);
+    const Solid solid = solid_among(shape, world->def.dimension, &world->baked);
     Particles *p = &world->particles;
     uint32_t count = 0;
     for (uint32_t row = 0; row < p->count; row++) {

@@ -1,6 +1,7 @@
 #include "mirror.h"
 
 #include <math.h>
+#include <string.h>
 
 /* Two nodes, as indices of all nodes: `image` a cell behind the wall, `real` a cell before it. */
 typedef struct MirrorPair {
@@ -77,19 +78,66 @@ bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Doma
         const uint32_t count = pairs_of_axis(grid, domain, cell_size, walls, axis, NULL);
         if (!array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair))) return false;
         mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, walls, axis, mirrors->pair[axis].data) : 0;
+        mirrors->lower[axis] = pairs_of_axis(grid, domain, cell_size, walls & 1u << 2 * axis, axis, NULL);
     }
     return true;
 }
 
 void mirrors_clear(Mirrors *mirrors)
 {
-    for (int axis = 0; axis < 3; axis++) mirrors->count[axis] = 0;
+    for (int axis = 0; axis < 3; axis++) mirrors->count[axis] = mirrors->lower[axis] = 0;
+    mirrors->books = false;
 }
 
 void mirrors_free(Mirrors *mirrors, Memory *memory)
 {
-    for (int axis = 0; axis < 3; axis++) array_free(memory, &mirrors->pair[axis]);
+    for (int axis = 0; axis < 3; axis++) {
+        array_free(memory, &mirrors->pair[axis]);
+        array_free(memory, &mirrors->booked[axis]);
+    }
     mirrors_clear(mirrors);
+}
+
+bool mirrors_measure(Mirrors *mirrors, Memory *memory, bool measures)
+{
+    mirrors->books = measures;
+    for (int axis = 0; axis < 3 && measures; axis++) {
+        if (!array_reserve(memory, &mirrors->booked[axis], 6 * (size_t)mirrors->count[axis], sizeof(double))) return false;
+        memset(mirrors->booked[axis].data, 0, mirrors->booked[axis].bytes);
+    }
+    return true;
+}
+
+static void book_pair(double *booked, const float before[6], const float *image, const float *real)
+{
+    for (int a = 0; a < 3; a++) {
+        booked[a] = (double)image[3] * ((double)image[a] - (double)before[a]);
+        booked[3 + a] = (double)real[3] * ((double)real[a] - (double)before[3 + a]);
+    }
+}
+
+/* What the wall got from node `index` of all nodes. */
+static void book_node(const ContactFrame *frame, uint32_t index, const double *booked, double scale, ImpulseSum *sum)
+{
+    double point[3], gained[3];
+    const uint32_t cells = (uint32_t)frame->grid->block_cells;
+    contacts_node_position(frame, (int32_t)(index / cells), (int)(index % cells), point);
+    for (int a = 0; a < 3; a++) gained[a] = scale * booked[a];
+    impulse_add(sum, point, gained);
+}
+
+void mirrors_book(const Mirrors *mirrors, const ContactFrame *frame, double dt)
+{
+    const double scale = contacts_momentum_scale(frame, dt);
+    for (int axis = 0; axis < 3 && mirrors->books; axis++) {
+        const MirrorPair *pair = mirrors->pair[axis].data;
+        const double *booked = mirrors->booked[axis].data;
+        for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
+            ImpulseSum *sum = &frame->colliders->impulses.sum[PBMPM_MAX_COLLIDERS + 2 * axis + (i < mirrors->lower[axis] ? 0 : 1)];
+            book_node(frame, pair[i].image, booked + 6 * (size_t)i, scale, sum);
+            book_node(frame, pair[i].real, booked + 6 * (size_t)i + 3, scale, sum);
+        }
+    }
 }
 
 void mirrors_apply(const Mirrors *mirrors, const Grid *grid)
@@ -99,13 +147,14 @@ void mirrors_apply(const Mirrors *mirrors, const Grid *grid)
         const MirrorPair *pair = mirrors->pair[axis].data;
         for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
             float *image = node + (size_t)pair[i].image * K_NODE_WIDTH, *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
-            const float share = image[3] / (image[3] + real[3]);
+            const float share = image[3] / (image[3] + real[3]), before[6] = {image[0], image[1], image[2], real[0], real[1], real[2]};
             for (int a = 0; a < grid->dimension; a++) {
                 const float sign = a == axis ? -1.0f : 1.0f;
                 const float mean = real[a] + share * (sign * image[a] - real[a]);
                 real[a] = mean;
                 image[a] = sign * mean;
             }
+            if (mirrors->books) book_pair((double *)mirrors->booked[axis].data + 6 * (size_t)i, before, image, real);
         }
     }
 }

@@ -14,8 +14,11 @@
 #include "colliders.h"
 
 typedef struct Mirrors {
-    Array pair[3]; /* per axis: MirrorPair */
-    uint32_t count[3];
+    Array pair[3];   /* per axis: MirrorPair, those of the lower wall first */
+    uint32_t count[3], lower[3];
+    Array booked[3]; /* per axis and pair: double[6], what the last reflection changed of mass times displacement, of the image and the real
+                        node; only where walls measure impulses */
+    bool books;
 } Mirrors;
 
 /* Which walls of the domain are mirrors: bit 2 * axis + (1 if upper). */
@@ -27,6 +30,12 @@ void mirrors_clear(Mirrors *mirrors);
 void mirrors_free(Mirrors *mirrors, Memory *memory);
 
 static inline bool mirrors_any(const Mirrors *mirrors) { return mirrors->count[0] + mirrors->count[1] + mirrors->count[2] > 0; }
+
+/* Takes memory to book what walls get. False: there is none. */
+bool mirrors_measure(Mirrors *mirrors, Memory *memory, bool measures);
+
+/* Adds what the last reflection gave to the walls, in a substep of `dt` seconds. */
+void mirrors_book(const Mirrors *mirrors, const ContactFrame *frame, double dt);
 
 /* Makes the nodes of all pairs each other's reflection. */
 void mirrors_apply(const Mirrors *mirrors, const Grid *grid);

@@ -20,7 +20,7 @@ static double quaternion_length(const float q[4])
     return sqrt((double)q[0] * q[0] + (double)q[1] * q[1] + (double)q[2] * q[2] + (double)q[3] * q[3]);
 }
 
-static const char *geometry_problem(const pbmpm_shape *shape, int dimension)
+static const char *geometry_problem(const pbmpm_shape *shape, int dimension, const BakedTable *table)
 {
     switch (shape->kind) {
     case PBMPM_PLANE: {
@@ -36,12 +36,17 @@ static const char *geometry_problem(const pbmpm_shape *shape, int dimension)
         if (!in_range(shape->half_extents[0], 0.0, 1e9)) return "shape.half_extents[0] must be in [0, 1e9]";
         return in_range(shape->radius, 1e-9, 1e9) ? NULL : "shape.radius must be in [1e-9, 1e9]";
     case PBMPM_SPHERE: return in_range(shape->radius, 1e-9, 1e9) ? NULL : "shape.radius must be in [1e-9, 1e9]";
+    case PBMPM_BAKED:
+        if (!table) return "shape.kind: baked solids are not for this call";
+        return baked_find(table, shape->baked) ? NULL : "shape.baked is no baked solid of this world";
     case PBMPM_SHAPE_KIND_FORCE32: break;
     }
     return "shape.kind is unknown";
 }
 
-const char *shape_problem(const pbmpm_shape *shape, int dimension)
+const char *shape_problem(const pbmpm_shape *shape, int dimension) { return shape_problem_among(shape, dimension, NULL); }
+
+const char *shape_problem_among(const pbmpm_shape *shape, int dimension, const BakedTable *table)
 {
     if (shape->size != sizeof *shape) return "shape.size is unknown: fill the shape with pbmpm_shape_init()";
     if (!all_in_range(shape->position, dimension, -1e9, 1e9)) return "shape.position must be in [-1e9, 1e9]";
@@ -49,7 +54,7 @@ const char *shape_problem(const pbmpm_shape *shape, int dimension)
         return "shape.rotation must be a quaternion of length 0.5 to 2";
     if (dimension == 2 && (shape->rotation[0] != 0.0f || shape->rotation[1] != 0.0f))
         return "shape.rotation in 2D must turn in the plane: x and y of the quaternion are 0";
-    return geometry_problem(shape, dimension);
+    return geometry_problem(shape, dimension, table);
 }
 
 void normalise_quaternion(float q[4])
@@ -81,6 +86,13 @@ Solid solid_of(const pbmpm_shape *shape, int dimension)
     for (int r = 0; r < dimension; r++)
         for (int c = 0; c < dimension; c++) s.normal[r] += s.rotation[r * 3 + c] * shape->normal[c] / sqrt(length);
     return s;
+}
+
+Solid solid_among(const pbmpm_shape *shape, int dimension, const BakedTable *table)
+{
+    Solid solid = solid_of(shape, dimension);
+    if (shape->kind == PBMPM_BAKED) solid.grid = baked_find(table, shape->baked);
+    return solid;
 }
 
 pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], const float rotation[4], float t)
@@ -139,14 +151,23 @@ static double box_distance(const Solid *s, const double local[3], double normal[
 static double local_distance(const Solid *s, const double local[3], double normal[3])
 {
     if (s->kind == PBMPM_BOX) return box_distance(s, local, normal);
+    if (s->grid) return distance_grid_at(s->grid, local, normal);
     double offset[3] = {local[0], local[1], local[2]};
     if (s->kind == PBMPM_CAPSULE) offset[0] -= fmax(-s->half_extents[0], fmin(s->half_extents[0], local[0]));
     return round_distance(s, offset, normal);
 }
 
+static void to_local(const Solid *s, const double from_centre[3], double local[3])
+{
+    const int d = s->dimension;
+    local[0] = local[1] = local[2] = 0.0;
+    for (int a = 0; a < d; a++)
+        for (int b = 0; b < d; b++) local[a] += s->rotation[b * 3 + a] * from_centre[b];
+}
+
 double solid_distance(const Solid *s, const double point[3], double normal[3])
 {
-    double from_centre[3] = {0}, local[3] = {0}, local_normal[3];
+    double from_centre[3] = {0}, local[3], local_normal[3];
     const int d = s->dimension;
     for (int a = 0; a < d; a++) from_centre[a] = point[a] - s->position[a];
     if (s->kind == PBMPM_PLANE) {
@@ -157,8 +178,7 @@ double solid_distance(const Solid *s, const double point[3], double normal[3])
         }
         return distance;
     }
-    for (int a = 0; a < d; a++)
-        for (int b = 0; b < d; b++) local[a] += s->rotation[b * 3 + a] * from_centre[b];
+    to_local(s, from_centre, local);
     const double distance = local_distance(s, local, local_normal);
     for (int a = 0; a < 3; a++) {
         normal[a] = 0.0;
@@ -167,8 +187,34 @@ double solid_distance(const Solid *s, const double point[3], double normal[3])
     return distance;
 }
 
+double solid_least(const Solid *s, const double point[3])
+{
+    double from_centre[3] = {0}, local[3], normal[3];
+    if (!s->grid) return solid_distance(s, point, normal);
+    for (int a = 0; a < s->dimension; a++) from_centre[a] = point[a] - s->position[a];
+    to_local(s, from_centre, local);
+    return distance_grid_least(s->grid, local);
+}
+
+/* The box around the turned grid. */
+static void grid_bounds(const Solid *s, double low[3], double high[3])
+{
+    for (int a = 0; a < 3; a++) {
+        low[a] = high[a] = s->position[a];
+        for (int b = 0; b < s->dimension && a < s->dimension; b++) {
+            const double one = s->rotation[a * 3 + b] * s->grid->low[b], other = s->rotation[a * 3 + b] * distance_grid_high(s->grid, b);
+            low[a] += fmin(one, other);
+            high[a] += fmax(one, other);
+        }
+    }
+}
+
 void solid_bounds(const Solid *s, double low[3], double high[3])
 {
+    if (s->grid) {
+        grid_bounds(s, low, high);
+        return;
+    }
     for (int a = 0; a < 3; a++) {
         double reach = 0.0;
         for (int b = 0; b < s->dimension && a < s->dimension; b++) {

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 
+#include "baked.h"
 #include "pbmpm/shape.h"
 
 /* A shape at rest, ready for distance queries. Lengths in metres, relative to the world's origin. */
@@ -15,14 +16,17 @@ typedef struct Solid {
     double half_extents[3];
     double radius;
     double normal[3]; /* plane: outward, in world axes */
+    const DistanceGrid *grid; /* baked; else null */
 } Solid;
 
 pbmpm_shape shape_defaults(void);
 
-/* Null if valid, else what is wrong. */
+/* Null if valid, else what is wrong. A baked solid is looked for in `table`; without one (null) it is not valid. */
 const char *shape_problem(const pbmpm_shape *shape, int dimension);
+const char *shape_problem_among(const pbmpm_shape *shape, int dimension, const BakedTable *table);
 
 Solid solid_of(const pbmpm_shape *shape, int dimension);
+Solid solid_among(const pbmpm_shape *shape, int dimension, const BakedTable *table);
 void rotation_from_quaternion(const float q[4], double r[9]);
 void normalise_quaternion(float q[4]);
 
@@ -32,6 +36,9 @@ pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], con
 /* Distance of a point from the surface, negative inside, and the outward unit normal of the nearest surface point. In
  * 2D the third component is neither read nor written to anything but 0. */
 double solid_distance(const Solid *solid, const double point[3], double normal[3]);
+
+/* A number that the distance is not less than: for all but baked solids the distance itself. */
+double solid_least(const Solid *solid, const double point[3]);
 
 /* Corners of the axis-aligned box around a bounded shape. */
 void solid_bounds(const Solid *solid, double low[3], double high[3]);

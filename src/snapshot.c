@@ -209,6 +209,7 @@ static pbmpm_collider_def kind_of(const pbmpm_collider_def *def)
     pbmpm_collider_def kind = *def;
     memset(kind.shape.position, 0, sizeof kind.shape.position);
     memset(kind.shape.rotation, 0, sizeof kind.shape.rotation);
+    kind.shape.baked.generation = 0; /* the same solid has another one in another world */
     return kind;
 }
 
@@ -235,10 +236,12 @@ static pbmpm_result check_colliders(World *world, SnapshotIn in)
         const pbmpm_collider_def own = kind_of(&collider->def), other = kind_of(&saved.def);
         if (memcmp(&own, &other, sizeof own) != 0)
             return fail(PBMPM_ERROR_FOREIGN, "collider %u has another shape, friction or kind than in the snapshot", slot);
+        saved.def.shape.baked = collider->def.shape.baked;
         pbmpm_shape target = saved.def.shape;
         memcpy(target.position, saved.target_position, sizeof target.position);
         memcpy(target.rotation, saved.target_rotation, sizeof target.rotation);
-        if (shape_problem(&saved.def.shape, world->def.dimension) || shape_problem(&target, world->def.dimension))
+        if (shape_problem_among(&saved.def.shape, world->def.dimension, &world->baked) ||
+            shape_problem_among(&target, world->def.dimension, &world->baked))
             return snapshot_malformed();
     }
     return in.at == in.bytes ? PBMPM_OK : fail(PBMPM_ERROR_FOREIGN, "the snapshot has more colliders than the world");
@@ -249,6 +252,7 @@ static void load_colliders(World *world, SnapshotIn in)
     SavedCollider saved;
     while (snapshot_take(&in, &saved, sizeof saved)) {
         Collider *collider = &world->colliders.slot[saved.slot];
+        saved.def.shape.baked = collider->def.shape.baked;
         collider->def = saved.def;
         collider->moving = saved.moving != 0;
         memcpy(collider->target_position, saved.target_position, sizeof saved.target_position);

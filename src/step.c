@@ -131,10 +131,12 @@ static pbmpm_result substep(World *world, float dt, int part)
     const bool mirrored = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
     const unsigned mirrors = mirrored ? mirror_walls(&world->domain, world->def.dimension, cell_size) : 0;
     const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrors};
-    if (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &world->domain, cell_size, mirrors))
+    if (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &world->domain, cell_size, mirrors) ||
+        !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     result = contacts_find(&contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
     if (result != PBMPM_OK) return result;
     if (with_volume && record->solver != PBMPM_SOLVER_PAPER) contacts_open_volume(&contacts, world->pool);
     lap(&record->ms_contacts, &clock);
@@ -144,9 +146,12 @@ static pbmpm_result substep(World *world, float dt, int part)
     lap(&record->ms_iterate, &clock);
 
     /* Go. */
+    contacts_book(&contacts, (double)dt);
+    mirrors_book(&world->mirrors, &contacts, (double)dt);
     solver_integrate(world);
     PushJob push = {world, &contacts, dt};
     pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
+    contacts_book_push(&contacts, &world->particles, dt);
     forces_account(&world->forces, world->grid.node_blocks);
     collect_events(world, (uint32_t)part, sinks_mark(world, (uint32_t)part));
     lap(&record->ms_integrate, &clock);
@@ -168,6 +173,7 @@ pbmpm_result world_step(World *world, float dt)
     const float part_dt = (float)((double)dt / parts);
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
+    impulses_clear(&world->colliders.impulses);
     forces_begin_step(&world->forces);
     world_touch(world);
     pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);

@@ -47,6 +47,7 @@ const char *world_def_problem(const pbmpm_world_def *def)
         if (!isfinite(def->origin[a])) return "world.origin must be finite";
     if (def->thread_count < 0 || def->thread_count > 256) return "world.thread_count must be in [0, 256]";
     if (def->domain_enabled != 0 && def->domain_enabled != 1) return "world.domain_enabled must be 0 or 1";
+    if (def->domain_measures_impulse != 0 && def->domain_measures_impulse != 1) return "world.domain_measures_impulse must be 0 or 1";
     if (!def->allocator.allocate != !def->allocator.release) return "world.allocator needs both functions or none";
     if (!def->tasks.enqueue != !def->tasks.finish) return "world.tasks needs both functions or none";
     return def->domain_enabled ? domain_problem(def) : NULL;
@@ -75,7 +76,7 @@ const char *settings_problem(const pbmpm_settings *settings, int dimension)
 static void set_domain(World *world)
 {
     const pbmpm_world_def *def = &world->def;
-    world->domain = (Domain){.enabled = def->domain_enabled, .friction = def->domain_friction};
+    world->domain = (Domain){.enabled = def->domain_enabled, .measures = def->domain_measures_impulse, .friction = def->domain_friction};
     for (int a = 0; a < def->dimension; a++) {
         world->domain.low[a] = def->domain_min[a];
         world->domain.high[a] = def->domain_max[a];
@@ -104,6 +105,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     pbmpm_result result = particles_init(&world->particles, &world->memory, def->dimension, def->particle_capacity);
     if (result == PBMPM_OK) result = grid_init(&world->grid, &world->memory, def->dimension, def->particle_capacity);
     if (result == PBMPM_OK) result = colliders_init(&world->colliders, &world->memory);
+    if (result == PBMPM_OK && def->domain_measures_impulse) result = impulses_enable(&world->colliders.impulses, &world->memory);
     if (result == PBMPM_OK) result = pool_create(&world->memory, threads, &def->tasks, &world->pool);
     if (result != PBMPM_OK) {
         world_destroy(world);
@@ -122,6 +124,7 @@ void world_destroy(World *world)
     background_free(world);
     lookup_free(&world->lookup, &world->memory);
     colliders_free(&world->colliders, &world->memory);
+    baked_free(&world->baked, &world->memory);
     emitters_free(&world->emitters, &world->memory);
     sinks_free(&world->sinks, &world->memory);
     forces_free(&world->forces, &world->memory);

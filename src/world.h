@@ -60,6 +60,7 @@ typedef struct World {
     Particles particles;
     Materials materials;
     Colliders colliders;
+    BakedTable baked;
     Emitters emitters;
     Sinks sinks;
     Forces forces;

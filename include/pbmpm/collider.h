@@ -28,6 +28,7 @@ typedef struct pbmpm_collider_def {
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
     pbmpm_shape shape;          /**< with the pose at the start */
+    int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
 } pbmpm_collider_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
@@ -53,6 +54,29 @@ PBMPM_API pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_
  *  INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
                                                const float rotation[4]);
+
+/** What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
+ *  sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
+ *  depth.
+ *
+ *  A host's body of mass M follows with v += (gravity * dt + linear / M), then pbmpm_collider_move(x + v * dt). Matter feels that velocity
+ *  one step later, so where the matter that must move along weighs more than the body (its added mass A > M: light bodies in liquid),
+ *  this oscillates and grows, at any dt. Stable is v += (dt * M * gravity + linear + V * (last change of v)) / (M + V) with a virtual
+ *  mass V > (A - M) / 2; V = A is best, and in equilibrium it changes nothing. A is about half (a ball) to once or twice (a flat box) the mass
+ *  of the liquid that the body displaces when it is under. */
+typedef struct pbmpm_impulse {
+    uint32_t size;     /**< sizeof(pbmpm_impulse), set by the caller */
+    double linear[3];  /**< [N s] */
+    double angular[3]; /**< [N m s] about the obstacle's position after the step; walls: about the world's origin. 2D: only component 2 */
+} pbmpm_impulse;
+
+/** Reads the impulse of the last step, summed over its substeps. About another point p: angular + (position - p) x linear.
+ *  `impulse->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (it does not measure), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_impulse *impulse);
+
+/** The same for a wall of the domain: that at the lower (`upper` 0) or upper (1) end of an axis. Errors: INVALID_ID, INVALID_ARGUMENT (no such
+ *  wall, or world_def.domain_measures_impulse is 0), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse);
 
 /** Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape(). */
 PBMPM_API pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity,

@@ -3,6 +3,7 @@
 #define PBMPM_SHAPE_H
 
 #include "base.h"
+#include "solid.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,6 +15,7 @@ typedef enum pbmpm_shape_kind {
     PBMPM_BOX = 1,     /**< box with `half_extents` (2D: rectangle) */
     PBMPM_SPHERE = 2,  /**< ball with `radius` (2D: disc) */
     PBMPM_CAPSULE = 3, /**< all points within `radius` of the segment of half length half_extents[0] along the local first axis */
+    PBMPM_BAKED = 4,   /**< solid of any form, see solid.h; for colliders, and for filling, querying and removing */
     PBMPM_SHAPE_KIND_FORCE32 = 0x7fffffff
 } pbmpm_shape_kind;
 
@@ -27,6 +29,7 @@ typedef struct pbmpm_shape {
     float half_extents[3]; /**< box: > 0 per axis; capsule: [0] >= 0; default 0.5 */
     float radius;          /**< sphere, capsule: > 0; default 0.5 */
     float normal[3];       /**< plane: outward direction before rotation, any length > 1e-6; default (0, 1, 0) */
+    pbmpm_baked_id baked;  /**< baked: the solid, of the same world; `position` is where the origin of its mesh stands; default null */
 } pbmpm_shape;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

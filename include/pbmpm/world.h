@@ -36,6 +36,7 @@ typedef struct pbmpm_world_def {
     float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0 */
     pbmpm_allocator allocator;  /**< both functions null (default): the C library's */
     pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
+    int32_t domain_measures_impulse; /**< 1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing */
 } pbmpm_world_def;
 
 /** How the equations of a substep are solved. */

@@ -215,8 +215,8 @@ static pbmpm_collider_id add_collider(Setting *s, const pbmpm_shape *shape, pbmp
     def.friction = friction;
     def.kinematic = 1;
     def.shape = *shape;
-    TEST_ASSERT_NULL(collider_problem(&def, s->grid.dimension));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s->colliders, &def, 77, &id));
+    TEST_ASSERT_NULL(collider_problem(&def, s->grid.dimension, NULL));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s->colliders, &s->memory, &def, NULL, 77, &id));
     return id;
 }
 
@@ -408,13 +408,13 @@ static void test_slots_and_generations(void)
     const pbmpm_collider_def def = collider_defaults();
     pbmpm_collider_id id, first;
     setting_open(&s, 3, 1);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &def, 5, &first));
-    for (int i = 1; i < PBMPM_MAX_COLLIDERS; i++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &def, 5 + (uint32_t)i, &id));
-    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_CAPACITY, colliders_add(&s.colliders, &def, 9999, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 5, &first));
+    for (int i = 1; i < PBMPM_MAX_COLLIDERS; i++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 5 + (uint32_t)i, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_CAPACITY, colliders_add(&s.colliders, &s.memory, &def, NULL, 9999, &id));
     TEST_ASSERT_NOT_NULL(colliders_find(&s.colliders, first));
     colliders_find(&s.colliders, first)->generation = 0;
     TEST_ASSERT_NULL(colliders_find(&s.colliders, first));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &def, 10000, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 10000, &id));
     TEST_ASSERT_EQUAL_UINT32(first.index, id.index);
     TEST_ASSERT_NULL(colliders_find(&s.colliders, first));
     TEST_ASSERT_NULL(colliders_find(&s.colliders, (pbmpm_collider_id){0}));

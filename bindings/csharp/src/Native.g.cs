@@ -17,6 +17,18 @@ namespace Pbmpm
         public const int AbiVersion = 0;
         /// <summary>per world</summary>
         public const int MaxMaterials = 256;
+        /// <summary>baked solids per world</summary>
+        public const int MaxBaked = 256;
+        /// <summary>values of one</summary>
+        public const int MaxBakedNodes = 134217728;
+        /// <summary>of a mesh to bake</summary>
+        public const int MaxMeshVertices = 4194304;
+        /// <summary>of points to wrap in a hull</summary>
+        public const int MaxHullVertices = 262144;
+        /// <summary>triangles or edges of a mesh to bake</summary>
+        public const int MaxMeshElements = 4194304;
+        /// <summary>samples of a body of heights</summary>
+        public const int MaxHeights = 1048576;
         /// <summary>at the same time, per process</summary>
         public const int MaxWorlds = 1024;
         /// <summary>per world</summary>
@@ -124,6 +136,8 @@ namespace Pbmpm
         Sphere = 2,
         /// <summary>all points within `radius` of the segment of half length half_extents[0] along the local first axis</summary>
         Capsule = 3,
+        /// <summary>solid of any form, see solid.h; for colliders, and for filling, querying and removing</summary>
+        Baked = 4,
     }
 
     /// <summary>How the equations of a substep are solved.</summary>
@@ -269,6 +283,50 @@ namespace Pbmpm
         EmissionRefused = 6,
         /// <summary>left the kill bounds; count: how many; the first of them</summary>
         Killed = 7,
+    }
+
+    /// <summary>2 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Uint2
+    {
+        public uint X;
+        public uint Y;
+
+        public Uint2(uint x, uint y)
+        {
+            X = x;
+            Y = y;
+        }
+    }
+
+    /// <summary>2 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Float2
+    {
+        public float X;
+        public float Y;
+
+        public Float2(float x, float y)
+        {
+            X = x;
+            Y = y;
+        }
+    }
+
+    /// <summary>3 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Uint3
+    {
+        public uint X;
+        public uint Y;
+        public uint Z;
+
+        public Uint3(uint x, uint y, uint z)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+        }
     }
 
     /// <summary>3 numbers, in C an array.</summary>
@@ -440,6 +498,35 @@ namespace Pbmpm
         public float Courant;
     }
 
+    /// <summary>What is known of a baked solid.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct BakedInfo
+    {
+        /// <summary>sizeof(pbmpm_baked_info), set by the caller</summary>
+        public uint Size;
+        /// <summary>2 or 3</summary>
+        public int Dimension;
+        /// <summary>values per axis</summary>
+        public Uint3 Count;
+        /// <summary>[m] width of a grid cell. Distances err by less than half of it, and by up to 0.87 of it (2D: 0.71) within a
+        /// cell of points deep inside or far outside that are equally near to several parts of the surface.</summary>
+        public float Spacing;
+        /// <summary>lower corner of the grid [m], relative to the solid's own frame: that of the mesh</summary>
+        public Float3 Minimum;
+        /// <summary>upper corner; the surface lies two cells inside</summary>
+        public Float3 Maximum;
+        /// <summary>that it takes, stored or loaded</summary>
+        public ulong Bytes;
+    }
+
+    /// <summary>A baked solid that a world has loaded.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct BakedId
+    {
+        public uint Index;
+        public uint Generation;
+    }
+
     /// <summary>A solid shape with its pose. Lengths in metres, positions relative to the world's origin.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Shape
@@ -459,6 +546,8 @@ namespace Pbmpm
         public float Radius;
         /// <summary>plane: outward direction before rotation, any length &gt; 1e-6; default (0, 1, 0)</summary>
         public Float3 Normal;
+        /// <summary>baked: the solid, of the same world; `position` is where the origin of its mesh stands; default null</summary>
+        public BakedId Baked;
 
         /// <summary>The library's defaults.</summary>
         public static Shape Default
@@ -505,6 +594,8 @@ namespace Pbmpm
         public Allocator Allocator;
         /// <summary>both functions null (default): the world's own threads</summary>
         public TaskHooks Tasks;
+        /// <summary>1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing</summary>
+        public int DomainMeasuresImpulse;
 
         /// <summary>The library's defaults.</summary>
         public static WorldDef Default
@@ -610,6 +701,8 @@ namespace Pbmpm
         public int Kinematic;
         /// <summary>with the pose at the start</summary>
         public Shape Shape;
+        /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
+        public int MeasuresImpulse;
 
         /// <summary>The library's defaults.</summary>
         public static ColliderDef Default
@@ -622,6 +715,26 @@ namespace Pbmpm
                 return it;
             }
         }
+    }
+
+    /// <summary>What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
+    /// sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
+    /// depth.
+    ///
+    /// A host's body of mass M follows with v += (gravity * dt + linear / M), then pbmpm_collider_move(x + v * dt). Matter feels that velocity
+    /// one step later, so where the matter that must move along weighs more than the body (its added mass A &gt; M: light bodies in liquid),
+    /// this oscillates and grows, at any dt. Stable is v += (dt * M * gravity + linear + V * (last change of v)) / (M + V) with a virtual
+    /// mass V &gt; (A - M) / 2; V = A is best, and in equilibrium it changes nothing. A is about half (a ball) to once or twice (a flat box) the mass
+    /// of the liquid that the body displaces when it is under.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Impulse
+    {
+        /// <summary>sizeof(pbmpm_impulse), set by the caller</summary>
+        public uint Size;
+        /// <summary>[N s]</summary>
+        public Double3 Linear;
+        /// <summary>[N m s] about the obstacle's position after the step; walls: about the world's origin. 2D: only component 2</summary>
+        public Double3 Angular;
     }
 
     /// <summary>A drain of one world.</summary>
@@ -1084,6 +1197,74 @@ namespace Pbmpm.Native
         public uint Size;
     }
 
+    /// <summary>A surface to bake: triangles in 3D, the edges of polygons in 2D. Arrays are read during the call only.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct MeshDef
+    {
+        /// <summary>sizeof(pbmpm_mesh_def), set by pbmpm_mesh_def_init()</summary>
+        public uint Size;
+        /// <summary>2 or 3; default 3</summary>
+        public int Dimension;
+        /// <summary>vertex_count * dimension floats [m], within 1e6</summary>
+        public float* Vertices;
+        /// <summary>element_count * dimension indices of vertices. The surface must be closed, and wound one way
+        /// throughout (inward or outward). Equal vertices count as one. pbmpm_bake_hull(): null.</summary>
+        public uint* Elements;
+        /// <summary>up to PBMPM_MAX_MESH_VERTICES (hull: PBMPM_MAX_HULL_VERTICES)</summary>
+        public uint VertexCount;
+        /// <summary>up to PBMPM_MAX_MESH_ELEMENTS (hull: 0)</summary>
+        public uint ElementCount;
+        /// <summary>grid cells along the longest side of the mesh, in [4, 1024]; default 64</summary>
+        public int Resolution;
+
+        /// <summary>The library's defaults.</summary>
+        public static MeshDef Default
+        {
+            get
+            {
+                Library.Check();
+                MeshDef it;
+                Library.Require(Methods.pbmpm_mesh_def_init(&it, (UIntPtr)sizeof(MeshDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
+    /// the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only).</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct HeightsDef
+    {
+        /// <summary>sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init()</summary>
+        public uint Size;
+        /// <summary>2 or 3; default 3</summary>
+        public int Dimension;
+        /// <summary>axis along which heights are measured, in [0, dimension); default 1</summary>
+        public int Up;
+        /// <summary>grid cells along the longest side, in [4, 1024]; 0 (default): cells as wide as the lattice's</summary>
+        public int Resolution;
+        /// <summary>samples per axis, at least 2, up to PBMPM_MAX_HEIGHTS in all; 2D: the second is not used</summary>
+        public Uint2 Count;
+        /// <summary>[m], in [1e-6, 1e6]; default 1</summary>
+        public Float2 Spacing;
+        /// <summary>count[0] * count[1] floats [m], within 1e6; sample (i, j) is heights[i + j * count[0]]</summary>
+        public float* Heights;
+        /// <summary>how far the base lies below the lowest sample [m], in [1e-6, 1e6]; default 1</summary>
+        public float Thickness;
+
+        /// <summary>The library's defaults.</summary>
+        public static HeightsDef Default
+        {
+            get
+            {
+                Library.Check();
+                HeightsDef it;
+                Library.Require(Methods.pbmpm_heights_def_init(&it, (UIntPtr)sizeof(HeightsDef)));
+                return it;
+            }
+        }
+    }
+
     /// <summary>Particles from arrays. Arrays are read during the call only. "d" is the world's dimension.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct ParticlesDef
@@ -1211,6 +1392,46 @@ namespace Pbmpm.Native
         /// <summary>Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_destroy(WorldId world, MaterialId material);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_mesh_def_init(MeshDef* def, UIntPtr size);
+
+        /// <summary>Writes the defaults, as pbmpm_mesh_def_init() does.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_heights_def_init(HeightsDef* def, UIntPtr size);
+
+        /// <summary>Bakes a closed mesh into the caller's `buffer` of `capacity` bytes. *bytes becomes the size that is needed. With a null buffer that is
+        /// all, and done at once: ask first, then bake. The memory that baking takes is the C library's and is given back. Errors: INVALID_ARGUMENT (a value out of range; a mesh that is open, wound in two ways, or holds no volume: the message
+        /// says where), OUT_OF_MEMORY, CAPACITY (the buffer is too small). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_bake_mesh(MeshDef* def, IntPtr buffer, ulong capacity, ulong* bytes);
+
+        /// <summary>Bakes the convex hull of the vertices. As pbmpm_bake_mesh().</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_bake_hull(MeshDef* def, IntPtr buffer, ulong capacity, ulong* bytes);
+
+        /// <summary>Bakes a body of heights. As pbmpm_bake_mesh().</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_bake_heights(HeightsDef* def, IntPtr buffer, ulong capacity, ulong* bytes);
+
+        /// <summary>Checks the bytes of a baked solid and tells what it is. `info-&gt;size` must be set. Errors: INVALID_ARGUMENT (null), DAMAGED, UNSUPPORTED
+        /// (a format of another version). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_baked_inspect(IntPtr data, ulong size, BakedInfo* info);
+
+        /// <summary>Loads a baked solid into a world: a copy in the world's memory. Errors: INVALID_ID, DAMAGED, UNSUPPORTED, INVALID_ARGUMENT (also: its
+        /// dimension is not the world's), CAPACITY, OUT_OF_MEMORY, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_baked_create(WorldId world, IntPtr data, ulong size, BakedId* baked);
+
+        /// <summary>What a loaded solid is. `info-&gt;size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_baked_get(WorldId world, BakedId baked, BakedInfo* info);
+
+        /// <summary>Takes a solid out of the world. Errors: INVALID_ID; IN_USE (a collider refers to it); BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_baked_destroy(WorldId world, BakedId baked);
 
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1369,6 +1590,16 @@ namespace Pbmpm.Native
         /// INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_teleport(WorldId world, ColliderId collider, Float3* position, Float4* rotation);
+
+        /// <summary>Reads the impulse of the last step, summed over its substeps. About another point p: angular + (position - p) x linear.
+        /// `impulse-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (it does not measure), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_impulse(WorldId world, ColliderId collider, Impulse* impulse);
+
+        /// <summary>The same for a wall of the domain: that at the lower (`upper` 0) or upper (1) end of an axis. Errors: INVALID_ID, INVALID_ARGUMENT (no such
+        /// wall, or world_def.domain_measures_impulse is 0), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_domain_impulse(WorldId world, int axis, int upper, Impulse* impulse);
 
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1560,6 +1791,10 @@ namespace Pbmpm.Native
             LayoutEntry(fields);
             MaterialDef(fields);
             Effective(fields);
+            MeshDef(fields);
+            HeightsDef(fields);
+            BakedInfo(fields);
+            BakedId(fields);
             Shape(fields);
             WorldDef(fields);
             Settings(fields);
@@ -1567,6 +1802,7 @@ namespace Pbmpm.Native
             FillDef(fields);
             View(fields);
             ColliderDef(fields);
+            Impulse(fields);
             DrainId(fields);
             DrainDef(fields);
             DrainStatus(fields);
@@ -1680,6 +1916,54 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_effective", "", &it, &it, &it + 1, true));
         }
 
+        static void MeshDef(List<MirrorField> fields)
+        {
+            var it = default(MeshDef);
+            fields.Add(new MirrorField("pbmpm_mesh_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "dimension", &it, &it.Dimension, &it.Dimension + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "vertices", &it, &it.Vertices, &it.Vertices + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "elements", &it, &it.Elements, &it.Elements + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "vertex_count", &it, &it.VertexCount, &it.VertexCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "element_count", &it, &it.ElementCount, &it.ElementCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "resolution", &it, &it.Resolution, &it.Resolution + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void HeightsDef(List<MirrorField> fields)
+        {
+            var it = default(HeightsDef);
+            fields.Add(new MirrorField("pbmpm_heights_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "dimension", &it, &it.Dimension, &it.Dimension + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "up", &it, &it.Up, &it.Up + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "resolution", &it, &it.Resolution, &it.Resolution + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "spacing", &it, &it.Spacing, &it.Spacing + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "heights", &it, &it.Heights, &it.Heights + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "thickness", &it, &it.Thickness, &it.Thickness + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void BakedInfo(List<MirrorField> fields)
+        {
+            var it = default(BakedInfo);
+            fields.Add(new MirrorField("pbmpm_baked_info", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "dimension", &it, &it.Dimension, &it.Dimension + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "count", &it, &it.Count, &it.Count + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "spacing", &it, &it.Spacing, &it.Spacing + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "minimum", &it, &it.Minimum, &it.Minimum + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "maximum", &it, &it.Maximum, &it.Maximum + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "bytes", &it, &it.Bytes, &it.Bytes + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_info", "", &it, &it, &it + 1, true));
+        }
+
+        static void BakedId(List<MirrorField> fields)
+        {
+            var it = default(BakedId);
+            fields.Add(new MirrorField("pbmpm_baked_id", "index", &it, &it.Index, &it.Index + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_id", "generation", &it, &it.Generation, &it.Generation + 1, false));
+            fields.Add(new MirrorField("pbmpm_baked_id", "", &it, &it, &it + 1, false));
+        }
+
         static void Shape(List<MirrorField> fields)
         {
             var it = default(Shape);
@@ -1690,6 +1974,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_shape", "half_extents", &it, &it.HalfExtents, &it.HalfExtents + 1, false));
             fields.Add(new MirrorField("pbmpm_shape", "radius", &it, &it.Radius, &it.Radius + 1, false));
             fields.Add(new MirrorField("pbmpm_shape", "normal", &it, &it.Normal, &it.Normal + 1, false));
+            fields.Add(new MirrorField("pbmpm_shape", "baked", &it, &it.Baked, &it.Baked + 1, false));
             fields.Add(new MirrorField("pbmpm_shape", "", &it, &it, &it + 1, true));
         }
 
@@ -1709,6 +1994,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_world_def", "domain_friction", &it, &it.DomainFriction, &it.DomainFriction + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "allocator", &it, &it.Allocator, &it.Allocator + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "tasks", &it, &it.Tasks, &it.Tasks + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_measures_impulse", &it, &it.DomainMeasuresImpulse, &it.DomainMeasuresImpulse + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "", &it, &it, &it + 1, true));
         }
 
@@ -1776,7 +2062,17 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "measures_impulse", &it, &it.MeasuresImpulse, &it.MeasuresImpulse + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void Impulse(List<MirrorField> fields)
+        {
+            var it = default(Impulse);
+            fields.Add(new MirrorField("pbmpm_impulse", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_impulse", "linear", &it, &it.Linear, &it.Linear + 1, false));
+            fields.Add(new MirrorField("pbmpm_impulse", "angular", &it, &it.Angular, &it.Angular + 1, false));
+            fields.Add(new MirrorField("pbmpm_impulse", "", &it, &it, &it + 1, true));
         }
 
         static void DrainId(List<MirrorField> fields)

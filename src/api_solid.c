@@ -1,0 +1,128 @@
+/* The exported functions of solid.h, and those that read impulses. */
+#include "pbmpm/pbmpm.h"
+
+#include "api_call.h"
+#include "bake.h"
+#include "cpu.h"
+#include "registry.h"
+
+/* ---- Baking: no world ---- */
+
+pbmpm_result pbmpm_mesh_def_init(pbmpm_mesh_def *def, size_t size)
+{
+    const pbmpm_mesh_def defaults = mesh_defaults();
+    INIT(def, size, defaults);
+}
+
+pbmpm_result pbmpm_heights_def_init(pbmpm_heights_def *def, size_t size)
+{
+    const pbmpm_heights_def defaults = heights_defaults();
+    INIT(def, size, defaults);
+}
+
+static pbmpm_result bake(const pbmpm_mesh_def *def, bool hull, void *buffer, uint64_t capacity, uint64_t *bytes)
+{
+    const uint32_t float_mode = float_mode_enter_from_host();
+    const pbmpm_result result = bake_mesh(def, hull, buffer, capacity, bytes);
+    float_mode_leave_to_host(float_mode);
+    return result;
+}
+
+pbmpm_result pbmpm_bake_mesh(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
+{
+    REQUIRE_SIZE(def);
+    REQUIRE(bytes);
+    return bake(def, false, buffer, capacity, bytes);
+}
+
+pbmpm_result pbmpm_bake_hull(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
+{
+    REQUIRE_SIZE(def);
+    REQUIRE(bytes);
+    return bake(def, true, buffer, capacity, bytes);
+}
+
+pbmpm_result pbmpm_bake_heights(const pbmpm_heights_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
+{
+    REQUIRE_SIZE(def);
+    REQUIRE(bytes);
+    const uint32_t float_mode = float_mode_enter_from_host();
+    const pbmpm_result result = bake_heights(def, buffer, capacity, bytes);
+    float_mode_leave_to_host(float_mode);
+    return result;
+}
+
+pbmpm_result pbmpm_baked_inspect(const void *data, uint64_t size, pbmpm_baked_info *info)
+{
+    DistanceGrid grid;
+    const void *values;
+    REQUIRE(data);
+    REQUIRE_SIZE(info);
+    const pbmpm_result result = distance_grid_read(data, size, &grid, &values);
+    if (result == PBMPM_OK) *info = baked_describe(&grid);
+    return result;
+}
+
+/* ---- Solids of a world ---- */
+
+pbmpm_result pbmpm_baked_create(pbmpm_world_id world, const void *data, uint64_t size, pbmpm_baked_id *baked)
+{
+    REQUIRE(baked);
+    *baked = (pbmpm_baked_id){0, 0};
+    REQUIRE(data);
+    HOLD(world);
+    LET_GO(baked_add(&w->baked, &w->memory, w->def.dimension, data, size, registry_next_generation(), baked));
+}
+
+static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such baked solid in this world"); }
+
+pbmpm_result pbmpm_baked_get(pbmpm_world_id world, pbmpm_baked_id baked, pbmpm_baked_info *info)
+{
+    REQUIRE_SIZE(info);
+    HOLD(world);
+    const DistanceGrid *grid = baked_find(&w->baked, baked);
+    if (!grid) LET_GO(no_solid());
+    *info = baked_describe(grid);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_baked_destroy(pbmpm_world_id world, pbmpm_baked_id baked)
+{
+    HOLD(world);
+    const DistanceGrid *grid = baked_find(&w->baked, baked);
+    if (!grid) LET_GO(no_solid());
+    if (colliders_use(&w->colliders, grid)) LET_GO(fail(PBMPM_ERROR_IN_USE, "a collider still has this shape"));
+    baked_remove(&w->baked, &w->memory, baked.index);
+    LET_GO(PBMPM_OK);
+}
+
+/* ---- Impulses ---- */
+
+static void read_impulse(const World *world, uint32_t place, const float about[3], pbmpm_impulse *impulse)
+{
+    double point[3] = {0};
+    for (int a = 0; about && a < world->def.dimension; a++) point[a] = (double)about[a];
+    *impulse = impulse_about(&world->colliders.impulses.sum[place], point, world->def.dimension);
+}
+
+pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_impulse *impulse)
+{
+    REQUIRE_SIZE(impulse);
+    HOLD(world);
+    const Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) LET_GO(fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"));
+    if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
+    read_impulse(w, collider.index, found->def.shape.position, impulse);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse)
+{
+    REQUIRE_SIZE(impulse);
+    HOLD(world);
+    if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1) LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));
+    if (!w->def.domain_enabled || !w->def.domain_measures_impulse)
+        LET_GO(api_invalid("the walls measure no impulse: set world.domain_enabled and domain_measures_impulse"));
+    read_impulse(w, (uint32_t)(PBMPM_MAX_COLLIDERS + 2 * axis + upper), NULL, impulse);
+    LET_GO(PBMPM_OK);
+}
