@@ -22,7 +22,6 @@ typedef struct Obstacle {
     double turn[9]; /* rotation from start to end */
     bool moves;
     bool wall; /* of the domain: particles are always put back inside at once */
-    int side;  /* of a wall: 2 * axis + (1 if upper) */
     pbmpm_friction friction;
     float coefficient;
     bool measures;
@@ -92,7 +91,7 @@ typedef struct ContactFrame {
     const Grid *grid;
     double cell_size;
     float max_displacement; /* cells */
-    unsigned mirrors;       /* walls that mirror.h sees to: bit `side`. They have no contacts with the nodes a cell behind them. */
+    bool mirrored;          /* walls of the domain have images behind them, see mirror.h, and no contacts with those nodes */
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 

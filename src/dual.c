@@ -3,11 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "depth.h"
 #include "guess.h"
 #include "result.h"
-
-/* Displacement errors were 0.3 to 3 times this many residuals in columns and dam breaks, 2D and 3D, at 60 and 240 Hz, 5 to 50 iterations. */
-static const double ERROR_PER_RESIDUAL = 17.5;
 
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
 enum { CELL_ARRAYS = 5 };
@@ -100,6 +98,18 @@ static double sum_blocks(const Array *array, int32_t blocks)
     return sum;
 }
 
+/* Displacement errors [cells] per residual. An error of the multipliers in the slowest mode of matter n cells deep, of eigenvalue
+ * a = (pi / 4n)^2, moves nodes by sqrt(a) times as much, and the next iteration changes w (a + 1/L) of it. */
+static double error_per_residual(const World *world)
+{
+    double softest = 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind == K_LIQUID)
+            softest = fmax(softest, (double)world->materials.kernel[slot].inverse_stiffness);
+    const double root = 3.14159265358979 / (4.0 * matter_depth(world));
+    return root / ((double)smallest_relaxation(world) * (root * root + softest));
+}
+
 /* Displacements from the multipliers, extrapolated by args.momentum. */
 static void push(World *world, const ContactFrame *contacts, bool cells)
 {
@@ -162,13 +172,14 @@ void dual_solve(World *world, const ContactFrame *contacts)
     bind(world);
     bind_cells(world);
     const double mass = fmax(start(world, contacts), 1e-300);
+    const double error = error_per_residual(world);
     double t = 1.0;
     bool more = true;
     while (more) {
         const Change change = iterate(world);
         record->iterations_used++;
         record->residual = sqrt(change.change2 / mass);
-        more = solver_may_go_on(world, ERROR_PER_RESIDUAL * record->residual);
+        more = solver_may_go_on(world, error * record->residual);
         const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
         const bool restart = change.uphill > 0.0;
         world->args.momentum = restart || !more ? 0.0f : (float)((t - 1.0) / next);

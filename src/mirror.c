@@ -3,30 +3,29 @@
 #include <math.h>
 #include <string.h>
 
-/* Two nodes, as indices of all nodes: `image` a cell behind the wall, `real` a cell before it. */
+/* Two nodes, as indices of all nodes: `image` behind the wall, `real` as far before it. */
 typedef struct MirrorPair {
     uint32_t image, real;
 } MirrorPair;
 
-/* The grid line of a wall, in cells. */
-static double wall_line(const Domain *domain, double cell_size, int axis, int upper)
+/* Twice the place of a wall of a mirror domain, in cells. */
+static int32_t half_cells(const Domain *domain, double cell_size, int axis, int upper)
 {
-    return (upper ? domain->high[axis] : domain->low[axis]) / cell_size;
+    return (int32_t)round(2.0 * (upper ? domain->high[axis] : domain->low[axis]) / cell_size);
 }
 
-unsigned mirror_walls(const Domain *domain, int dimension, double cell_size)
+Domain mirror_domain(const Domain *domain, int dimension, double cell_size)
 {
-    static const double ON_GRID = 1e-3; /* [cells]; corners are given in single precision */
-    unsigned walls = 0;
-    for (int axis = 0; domain->enabled && axis < dimension; axis++)
-        for (int upper = 0; upper < 2; upper++) {
-            const double line = wall_line(domain, cell_size, axis, upper);
-            if (fabs(line - round(line)) < ON_GRID) walls |= 1u << (2 * axis + upper);
-        }
-    return walls;
+    static const double SLACK = 2e-3; /* [half cells]: corners are given in single precision */
+    Domain inside = *domain;
+    for (int axis = 0; domain->enabled && axis < dimension; axis++) {
+        inside.low[axis] = 0.5 * cell_size * ceil(2.0 * domain->low[axis] / cell_size - SLACK);
+        inside.high[axis] = 0.5 * cell_size * floor(2.0 * domain->high[axis] / cell_size + SLACK);
+    }
+    return inside;
 }
 
-/* The node two cells from node `local` of a block along an axis, or -1 where it does not exist. */
+/* The node `way` cells from node `local` of a block along an axis, or -1 where it does not exist. */
 static int64_t across(const Grid *grid, int32_t block, const int local[3], int axis, int way)
 {
     int at[3] = {local[0], local[1], local[2]}, side[3] = {1, 1, grid->dimension == 3 ? 1 : 0};
@@ -59,26 +58,31 @@ static uint32_t pairs_of_block(const Grid *grid, int32_t block, int axis, int32_
     return count;
 }
 
-static uint32_t pairs_of_axis(const Grid *grid, const Domain *domain, double cell_size, unsigned walls, int axis, MirrorPair *out)
+static uint32_t pairs_of_axis(const Grid *grid, const Domain *domain, double cell_size, int axis, MirrorPair *out)
 {
     uint32_t count = 0;
     for (int upper = 0; upper < 2; upper++) {
-        if (!(walls >> (2 * axis + upper) & 1)) continue;
-        const int32_t behind = (int32_t)round(wall_line(domain, cell_size, axis, upper)) + (upper ? 1 : -1);
+        const int32_t line = half_cells(domain, cell_size, axis, upper);
+        const int apart = line & 1 ? 1 : 2; /* nodes at -1/2 and 1/2, or at -1 and 1 */
+        const int32_t behind = upper ? (line + apart) / 2 : (line - apart) / 2; /* exact: line and apart are both even or both odd */
         for (int32_t block = 0; block < grid->node_blocks; block++)
-            count += pairs_of_block(grid, block, axis, behind, upper ? -2 : 2, out ? out + count : NULL);
+            count += pairs_of_block(grid, block, axis, behind, upper ? -apart : apart, out ? out + count : NULL);
     }
     return count;
 }
 
-bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size, unsigned walls)
+bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size)
 {
     mirrors_clear(mirrors);
-    for (int axis = 0; axis < grid->dimension; axis++) {
-        const uint32_t count = pairs_of_axis(grid, domain, cell_size, walls, axis, NULL);
+    for (int axis = 0; domain->enabled && axis < grid->dimension; axis++) {
+        const uint32_t count = pairs_of_axis(grid, domain, cell_size, axis, NULL);
         if (!array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair))) return false;
+<<<<<<< ours
         mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, walls, axis, mirrors->pair[axis].data) : 0;
         mirrors->lower[axis] = pairs_of_axis(grid, domain, cell_size, walls & 1u << 2 * axis, axis, NULL);
+=======
+        mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, axis, mirrors->pair[axis].data) : 0;
+>>>>>>> theirs
     }
     return true;
 }

@@ -7,7 +7,7 @@
  * With the image of each particle behind a wall without friction, its momentum reflected, the nodes at -1 and +1 from the wall hold what is
  * each other's reflection: u_n(-1) = -u_n(+1), u_t(-1) = u_t(+1). Both have a share of the real mass, so the displacements that obey are the mean of
  * u(+1) and the reflected u(-1) by mass: a projection that is orthogonal in the metric of the nodes' masses, as obeying a contact is.
- * It needs walls on grid lines. */
+ * It needs walls on grid lines or halfway between (nodes at -1/2 and +1/2), so a domain's walls are taken to stand on the next such place inside. */
 #ifndef PBMPM_SRC_MIRROR_H
 #define PBMPM_SRC_MIRROR_H
 
@@ -21,11 +21,11 @@ typedef struct Mirrors {
     bool books;
 } Mirrors;
 
-/* Which walls of the domain are mirrors: bit 2 * axis + (1 if upper). */
-unsigned mirror_walls(const Domain *domain, int dimension, double cell_size);
+/* The domain with its walls moved inward, by less than half a cell, to where they can mirror. */
+Domain mirror_domain(const Domain *domain, int dimension, double cell_size);
 
-/* Lists the pairs of nodes at the walls. False: no memory. */
-bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size, unsigned walls);
+/* Lists the pairs of nodes at the walls of such a domain. False: no memory. */
+bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size);
 void mirrors_clear(Mirrors *mirrors);
 void mirrors_free(Mirrors *mirrors, Memory *memory);
 

@@ -3,6 +3,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "depth.h"
+
 /* ---- The bound of the pressure ---- */
 
 /* What all liquid is, in one pass: its rest volume [m^d], and the mean square of its speed [m^2/s^2]. */
@@ -29,46 +31,6 @@ static LiquidState measure_liquid(const World *world)
     return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0};
 }
 
-/* How far a block lies along gravity, in blocks times |g|. */
-static double block_depth(const World *world, int32_t block)
-{
-    double along = 0.0;
-    for (int a = 0; a < world->def.dimension; a++)
-        along += (double)world->settings.gravity[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
-    return along;
-}
-
-/* The depths between which all but a fiftieth of the particles at either end lie: narrowed by histograms, so that a stray
- * particle far away does not count. */
-static double trimmed_depth(const World *world)
-{
-    enum { BINS = 64, ROUNDS = 4 };
-    const uint32_t *begin = world->grid.block_begin.data;
-    const double trim = 0.02 * world->particles.count;
-    double low = INFINITY, high = -INFINITY;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        low = fmin(low, block_depth(world, block));
-        high = fmax(high, block_depth(world, block));
-    }
-    for (int round = 0; round < ROUNDS && high > low; round++) {
-        double count[BINS] = {0}, below = 0.0;
-        const double width = (high - low) / BINS;
-        for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-            const double bin = (block_depth(world, block) - low) / width;
-            if (bin < 0.0) below += begin[block + 1] - begin[block];
-            if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += begin[block + 1] - begin[block];
-        }
-        int first = 0;
-        double sum = below;
-        while (first < BINS - 1 && sum + count[first] < trim) sum += count[first++];
-        int last = first;
-        while (last < BINS - 1 && sum + count[last] < world->particles.count - trim) sum += count[last++];
-        high = low + (last + 1) * width;
-        low = low + first * width;
-    }
-    return high - low;
-}
-
 /* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
  * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
  * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
@@ -79,7 +41,7 @@ static double pressure_head(const World *world)
     if (strength == 0.0) return 0.0;
     const LiquidState liquid = measure_liquid(world);
     if (liquid.volume == 0.0) return 0.0;
-    const double stands = trimmed_depth(world) * K_BLOCK_AXIS * (double)world->def.cell_size;
+    const double stands = depth_along_gravity(world) * (double)world->def.cell_size;
     const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
     return 3.0 * weight + 0.5 * liquid.speed2;
 }

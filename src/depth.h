@@ -1,0 +1,14 @@
+/* How high matter stands. */
+#ifndef PBMPM_SRC_DEPTH_H
+#define PBMPM_SRC_DEPTH_H
+
+#include "world.h"
+
+/* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms
+ * of blocks, so that a stray particle far away does not count. */
+double depth_along_gravity(const World *world);
+
+/* The same in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
+double matter_depth(const World *world);
+
+#endif
