@@ -113,6 +113,9 @@ struct KernelArgs {
     K_PTR(float) node_push;     /* per node block: sum m w S (x_i - x_p) of the last iteration */
     K_PTR(float) change2;       /* out, per particle block: how much the multipliers changed, see dual.isph */
     K_PTR(float) uphill;        /* out, per particle block: positive where the extrapolation overshot */
+    K_PTR(float) node_force;    /* per node block: the primal and the explicit solver, sum m w T (x_i - x_p); after the first pass also
+                                   sum m w h as fourth value */
+    K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */

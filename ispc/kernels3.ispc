@@ -3,6 +3,7 @@
 #include "kernels.isph"
 #include "cells.isph"
 #include "viscosity.isph"
+#include "primal.isph"
 
 export void scatter3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -54,4 +55,13 @@ export void respond_nodes3(uniform struct KernelArgs *uniform args, uniform int 
 }
 export void cells_respond3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_respond_blocks(*args, begin, end);
+}
+export void force_first3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    force_first_blocks(*args, begin, end);
+}
+export void force3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    force_blocks(*args, begin, end);
+}
+export void force_nodes3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    force_node_blocks(*args, begin, end);
 }

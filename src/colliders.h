@@ -34,6 +34,7 @@ typedef struct Contact {
     uint16_t obstacle; /* in this substep's list */
     pbmpm_friction friction;
     float coefficient;
+    bool active; /* while the primal solver works: see holds_find() */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
     float surface[3]; /* displacement of the obstacle's surface */

@@ -1,13 +1,51 @@
 #include "explicit.h"
 
+#include <math.h>
+
+#include "result.h"
+
+enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
+
 pbmpm_result explicit_prepare(World *world)
 {
-    (void)world;
-    return PBMPM_OK;
+    PrimalState *state = &world->primal;
+    const size_t blocks = (size_t)world->grid.node_blocks, nodes = blocks * (size_t)world->grid.block_cells;
+    if (array_reserve(&world->memory, &state->force, nodes * W, sizeof(float)) &&
+        array_reserve(&world->memory, &state->block_energy, 4 * blocks, sizeof(float)))
+        return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the forces on %d blocks", world->grid.node_blocks);
+}
+
+static void stand_still(void *context, int32_t begin, int32_t end)
+{
+    const World *world = context;
+    const size_t floats = (size_t)world->grid.block_cells * W;
+    float *node = world->grid.node.data;
+    for (size_t i = (size_t)begin * floats; i < (size_t)end * floats; i++)
+        if (i % W != 3) node[i] = 0.0f;
+}
+
+/* An unstable motion may overflow; it has to stay a number. */
+static float bounded(float u) { return u > -K_INCREMENT_MAX ? fminf(u, K_INCREMENT_MAX) : -K_INCREMENT_MAX; }
+
+static void push(void *context, int32_t begin, int32_t end)
+{
+    const World *world = context;
+    const size_t floats = (size_t)world->grid.block_cells * W;
+    const float *base = world->grid.node_base.data, *force = world->primal.force.data;
+    float *node = world->grid.node.data;
+    for (size_t i = (size_t)begin * floats; i < (size_t)end * floats; i += W)
+        for (size_t c = i; c < i + 3; c++) node[c] = base[i + 3] > 0.0f ? bounded(base[c] - force[c] / base[i + 3]) : 0.0f;
 }
 
 void explicit_solve(World *world, const ContactFrame *contacts)
 {
-    (void)world;
-    (void)contacts;
+    world->args.node_force = world->primal.force.data;
+    world->args.block_energy = world->primal.block_energy.data;
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, stand_still, world);
+    solver_over_particles(world, world->kernels->force);
+    solver_over_nodes(world, world->kernels->force_nodes, NULL);
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, push, world);
+    contacts_apply(contacts, 0, world->grid.node_blocks);
+    world->record.iterations_used = 1;
 }

@@ -1,4 +1,5 @@
-/* Explicit MLS-MPM. */
+/* Explicit MLS-MPM (Y. Hu et al., "A Moving Least Squares Material Point Method with Displacement Discontinuity and Two-Way Rigid Body
+ * Coupling", ACM TOG 37(4), 2018), to compare with: u = u* - (1/m) sum m w T (x_i - x_p) with the stresses T at the start of the substep. */
 #ifndef PBMPM_SRC_EXPLICIT_H
 #define PBMPM_SRC_EXPLICIT_H
 

@@ -15,6 +15,9 @@
     DO(cells_update, suffix)                                                                                            \
     DO(respond_nodes, suffix)                                                                                           \
     DO(cells_respond, suffix)                                                                                           \
+    DO(force_first, suffix)                                                                                             \
+    DO(force, suffix)                                                                                                   \
+    DO(force_nodes, suffix)                                                                                             \
     DO(viscous, suffix)                                                                                                 \
     DO(viscous_nodes, suffix)                                                                                          \
     DO(integrate, suffix)

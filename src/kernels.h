@@ -24,6 +24,9 @@ typedef struct Kernels {
     Kernel *cells_update;  /* node blocks: proximal step of the cells */
     Kernel *respond_nodes; /* node blocks: displacement from pressures alone */
     Kernel *cells_respond; /* node blocks: means of the traces */
+    Kernel *force_first;   /* particle blocks: energies, their gradient and stiffness to nodes */
+    Kernel *force;         /* particle blocks: energy and its gradient */
+    Kernel *force_nodes;   /* node blocks: sums of the tiles */
     Kernel *viscous;       /* particle blocks: G2P, viscous stress, P2G */
     Kernel *viscous_nodes; /* node blocks: a stage of viscosity */
     int lanes;             /* particles per gang */

@@ -1,13 +1,518 @@
 #include "primal.h"
 
+#include <math.h>
+#include <string.h>
+
+#include "holds.h"
+#include "result.h"
+
+/* Measured against converged solutions, see tests/python/test_primal.py. */
+static const double ERROR_PER_RESIDUAL = 1.0;
+
+static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
+static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
+static const double ENERGY_ROUNDING = 5e-7; /* of sums of energies in single precision */
+static const double SMALLEST_STEP = 1e-6;
+static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
+
+enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4, VECTORS = 4 + 2 * PRIMAL_MEMORY };
+
+/* What a body had and has: see primal.h. */
+typedef struct BodySum {
+    double before, after, work;
+    double mass, momentum[3]; /* of the predictor */
+    double elastic;           /* energy of the elastic particles */
+    bool with_liquid, touches, failed;
+    float share;              /* of the way from the start to the solution */
+} BodySum;
+
+/* One substep. Vectors have W floats per node; the last is not used. */
+typedef struct Primal {
+    World *world;
+    const ContactFrame *contacts;
+    int floats;                             /* per block */
+    float *node, *base, *force;             /* where the energy was evaluated, the predictor, the gradient there */
+    float *best, *gradient;                 /* the accepted displacements and their gradient */
+    float *right, *direction;               /* what is solved for: free part of the gradient; the next step, with opposite sign */
+    float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients, newest first */
+    double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
+    int pairs;
+    double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
+    float share;                            /* of the step that is tried */
+    double mass, energy, trial_energy, slope_before, slope_after;
+    double total[SUMS];                     /* what the last pass added up */
+} Primal;
+
+/* ---- Memory ---- */
+
 pbmpm_result primal_prepare(World *world)
 {
-    (void)world;
+    PrimalState *state = &world->primal;
+    Memory *memory = &world->memory;
+    const size_t blocks = (size_t)world->grid.node_blocks, nodes = blocks * (size_t)world->grid.block_cells;
+    const bool ok = array_reserve(memory, &state->force, nodes * W, sizeof(float)) &&
+                    array_reserve(memory, &state->block_energy, 4 * blocks, sizeof(float)) &&
+                    array_reserve(memory, &state->accepted_energy, 4 * blocks, sizeof(float)) &&
+                    array_reserve(memory, &state->vectors, VECTORS * nodes * W, sizeof(float)) &&
+                    array_reserve(memory, &state->inverse, nodes, sizeof(float)) &&
+                    array_reserve(memory, &state->sums, SUMS * blocks, sizeof(double)) &&
+                    bodies_find(&state->bodies, memory, &world->grid) &&
+                    array_reserve(memory, &state->body_sums, (size_t)state->bodies.count, sizeof(BodySum)) &&
+                    multilevel_build(&state->multilevel, memory, &world->grid);
+    if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
     return PBMPM_OK;
+}
+
+void primal_free(World *world)
+{
+    PrimalState *s = &world->primal;
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->inverse, &s->sums, &s->body_sums};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
+    bodies_free(&s->bodies, &world->memory);
+    multilevel_free(&s->multilevel, &world->memory);
+}
+
+static Primal open_solve(World *world, const ContactFrame *contacts)
+{
+    PrimalState *state = &world->primal;
+    const size_t length = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * W;
+    float *vector = state->vectors.data;
+    Primal p = {.world = world, .contacts = contacts, .floats = world->grid.block_cells * W};
+    p.node = world->grid.node.data;
+    p.base = world->grid.node_base.data;
+    p.force = state->force.data;
+    p.best = vector;
+    p.gradient = vector + length;
+    p.right = vector + 2 * length;
+    p.direction = vector + 3 * length;
+    for (int i = 0; i < PRIMAL_MEMORY; i++) {
+        p.step[i] = vector + (size_t)(4 + 2 * i) * length;
+        p.change[i] = p.step[i] + length;
+    }
+    world->args.node_force = p.force;
+    world->args.block_energy = state->block_energy.data;
+    return p;
+}
+
+/* ---- Passes over the nodes ---- */
+
+/* Works on the floats [begin, end) of one block; adds up into sum[SUMS]. */
+typedef void BlockPass(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
+
+typedef struct PassJob {
+    Primal *p;
+    BlockPass *pass;
+} PassJob;
+
+static void run_pass(void *context, int32_t begin, int32_t end)
+{
+    const PassJob *job = context;
+    double *sums = job->p->world->primal.sums.data;
+    const size_t floats = (size_t)job->p->floats;
+    for (int32_t block = begin; block < end; block++) {
+        double *sum = sums + (size_t)block * SUMS;
+        memset(sum, 0, SUMS * sizeof *sum);
+        job->pass(job->p, block, (size_t)block * floats, ((size_t)block + 1) * floats, sum);
+    }
+}
+
+/* The sums of the blocks are added in order, so they do not depend on the number of threads. */
+static void over_blocks(Primal *p, BlockPass *pass)
+{
+    PassJob job = {p, pass};
+    const int32_t blocks = p->world->grid.node_blocks;
+    const double *sums = p->world->primal.sums.data;
+    pool_for(p->world->pool, blocks, BLOCK_GRAIN, run_pass, &job);
+    memset(p->total, 0, sizeof p->total);
+    for (int32_t block = 0; block < blocks; block++)
+        for (int i = 0; i < SUMS; i++) p->total[i] += sums[(size_t)block * SUMS + (size_t)i];
+}
+
+static double dot(const float *a, const float *b, size_t begin, size_t end)
+{
+    double sum[W] = {0};
+    for (size_t i = begin; i < end; i += W)
+        for (int c = 0; c < 3; c++) sum[c] += (double)a[i + (size_t)c] * (double)b[i + (size_t)c];
+    return sum[0] + sum[1] + sum[2];
+}
+
+/* ---- Energy and gradient ---- */
+
+static void finish_gradient(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)block;
+    for (size_t i = begin; i < end; i += W) {
+        const float mass = p->base[i + 3];
+        for (size_t c = i; c < i + 3; c++) {
+            const float away = p->node[c] - p->base[c], moved = p->node[c] - p->best[c];
+            p->force[c] += mass * away;
+            sum[0] += 0.5 * (double)mass * (double)away * (double)away;
+            sum[1] += (double)p->gradient[c] * (double)moved;
+            sum[2] += (double)p->force[c] * (double)moved;
+        }
+    }
+}
+
+static double sum_energies(const Primal *p)
+{
+    const float *energy = p->world->primal.block_energy.data;
+    double sum = 0.0;
+    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++) sum += (double)energy[4 * block] + (double)energy[4 * block + 1];
+    return sum;
+}
+
+/* At p->node. */
+static void evaluate(Primal *p)
+{
+    solver_over_particles(p->world, p->world->kernels->force);
+    solver_over_nodes(p->world, p->world->kernels->force_nodes, NULL);
+    over_blocks(p, finish_gradient);
+    p->trial_energy = p->total[0] + sum_energies(p);
+    p->slope_before = p->total[1];
+    p->slope_after = p->total[2];
+}
+
+/* The masses and stiffnesses of the nodes, for the preconditioner: what multilevel_weigh() wants goes to p->change[0], while there are no
+ * pairs. After the first pass and holds_find(). */
+static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    float *inverse = p->world->primal.inverse.data, *share = p->step[0], *weight = p->change[0];
+    memset(share + begin, 0, (end - begin) * sizeof *share);
+    holds_share(p->contacts, share, block, block + 1);
+    for (size_t i = begin; i < end; i += W) {
+        const float mass = p->base[i + 3], stiffness = p->force[i + 3];
+        inverse[i / W] = mass > 0.0f ? 1.0f / (mass + stiffness) : 0.0f;
+        for (size_t c = 0; c < 3; c++) weight[i + c] = mass + share[i + c] * (stiffness - mass);
+        weight[i + 3] = stiffness;
+        sum[0] += (double)mass;
+    }
+}
+
+/* ---- Accepting displacements ---- */
+
+static void take_over(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    for (size_t i = begin; i < end; i++) {
+        p->best[i] = p->node[i];
+        p->gradient[i] = p->right[i] = i % W == 3 ? 0.0f : p->force[i];
+    }
+    holds_find(p->contacts, p->best, p->right, block, block + 1);
+    for (int i = 0; i < p->pairs; i++) sum[i] = dot(p->step[i], p->right, begin, end);
+}
+
+static void keep_pair(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)block;
+    float *step = p->step[0], *change = p->change[0];
+    for (size_t i = begin; i < end; i++) {
+        step[i] = i % W == 3 ? 0.0f : p->node[i] - p->best[i];
+        change[i] = i % W == 3 ? 0.0f : p->force[i] - p->gradient[i];
+    }
+    for (int i = 0; i < p->pairs; i++) sum[i] = dot(change, p->step[i], begin, end);
+    sum[SUMS - 1] = dot(step, step, begin, end);
+    sum[SUMS - 2] = dot(change, change, begin, end);
+}
+
+/* The oldest pair makes room for a new one at the front. */
+static void shift_pairs(Primal *p)
+{
+    float *step = p->step[PRIMAL_MEMORY - 1], *change = p->change[PRIMAL_MEMORY - 1];
+    for (int i = PRIMAL_MEMORY - 1; i > 0; i--) {
+        p->step[i] = p->step[i - 1];
+        p->change[i] = p->change[i - 1];
+        for (int j = PRIMAL_MEMORY - 1; j > 0; j--) p->product[i][j] = p->product[i - 1][j - 1];
+    }
+    p->step[0] = step;
+    p->change[0] = change;
+    p->pairs = p->pairs < PRIMAL_MEMORY ? p->pairs + 1 : PRIMAL_MEMORY;
+}
+
+static void drop_newest_pair(Primal *p)
+{
+    float *step = p->step[0], *change = p->change[0];
+    for (int i = 0; i + 1 < PRIMAL_MEMORY; i++) {
+        p->step[i] = p->step[i + 1];
+        p->change[i] = p->change[i + 1];
+        for (int j = 0; j + 1 < PRIMAL_MEMORY; j++) p->product[i][j] = p->product[i + 1][j + 1];
+    }
+    p->step[PRIMAL_MEMORY - 1] = step;
+    p->change[PRIMAL_MEMORY - 1] = change;
+    p->pairs--;
+}
+
+/* Makes p->node the accepted displacements. */
+static void accept(Primal *p, bool with_pair)
+{
+    PrimalState *state = &p->world->primal;
+    if (with_pair) {
+        shift_pairs(p);
+        over_blocks(p, keep_pair);
+        memcpy(p->product[0], p->total, sizeof p->product[0]);
+        if (!(p->product[0][0] > CURVATURE_MIN * sqrt(p->total[SUMS - 1] * p->total[SUMS - 2]))) drop_newest_pair(p);
+    } else {
+        p->pairs = 0;
+    }
+    over_blocks(p, take_over);
+    memcpy(p->first, p->total, sizeof p->first);
+    memcpy(state->accepted_energy.data, state->block_energy.data, 4 * (size_t)p->world->grid.particle_blocks * sizeof(float));
+    p->energy = p->trial_energy;
+}
+
+/* ---- The direction: two loops over the pairs, with the preconditioner between them ---- */
+
+static void add_changes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const float *inverse = p->world->primal.inverse.data;
+    (void)sum;
+    for (int k = 0; k < p->pairs; k++) {
+        const float *change = p->change[k], factor = (float)p->first[k];
+        for (size_t i = begin; i < end; i++) p->right[i] -= factor * change[i];
+    }
+    holds_remove(p->contacts, p->right, block, block + 1);
+    for (size_t i = begin; i < end; i++) p->direction[i] = inverse[i / W] * p->right[i];
+}
+
+static void project_direction(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const float *inverse = p->world->primal.inverse.data;
+    for (size_t i = begin; i < end; i++) p->direction[i] = inverse[i / W] > 0.0f ? p->direction[i] : 0.0f;
+    holds_remove(p->contacts, p->direction, block, block + 1);
+    for (int k = 0; k < p->pairs; k++) sum[k] = dot(p->change[k], p->direction, begin, end);
+}
+
+static void add_steps(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    for (int k = 0; k < p->pairs; k++) {
+        const float *step = p->step[k], factor = (float)p->second[k];
+        for (size_t i = begin; i < end; i++) p->direction[i] += factor * step[i];
+    }
+    holds_remove(p->contacts, p->direction, block, block + 1);
+    sum[0] = dot(p->gradient, p->direction, begin, end);
+}
+
+/* p->direction from p->right; p->first holds step . right of each pair. Returns gradient . direction. */
+static double find_direction(Primal *p)
+{
+    double coefficient[PRIMAL_MEMORY];
+    for (int i = 0; i < p->pairs; i++) {
+        double along = p->first[i]; /* of what is left of the gradient */
+        for (int j = 0; j < i; j++) along -= p->first[j] * p->product[j][i];
+        p->first[i] = along / p->product[i][i];
+    }
+    over_blocks(p, add_changes);
+    multilevel_add(&p->world->primal.multilevel, p->world->pool, p->right, p->direction);
+    over_blocks(p, project_direction);
+    memcpy(coefficient, p->total, sizeof coefficient);
+    for (int i = p->pairs - 1; i >= 0; i--) {
+        double along = coefficient[i];
+        for (int j = i + 1; j < p->pairs; j++) along += p->second[j] * p->product[i][j];
+        p->second[i] = p->first[i] - along / p->product[i][i];
+    }
+    over_blocks(p, add_steps);
+    return p->total[0];
+}
+
+/* ---- Descent ---- */
+
+static void try_step(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    for (size_t i = begin; i < end; i++)
+        if (i % W != 3) p->node[i] = p->best[i] - p->share * p->direction[i];
+    holds_project(p->contacts, p->node, block, block + 1);
+}
+
+static bool is_good(const Primal *p)
+{
+    if (!isfinite(p->trial_energy) || !isfinite(p->slope_after)) return false;
+    if (p->trial_energy <= p->energy + ARMIJO * p->slope_before) return true;
+    const bool rounding = p->trial_energy - p->energy <= ENERGY_ROUNDING * p->energy;
+    return rounding && p->slope_before < 0.0 && fabs(p->slope_after) <= SLOPE_SHARE * fabs(p->slope_before);
+}
+
+/* How much of a step that was too long is tried next: where the slope would vanish if it changed evenly. */
+static float shorter(const Primal *p)
+{
+    const double vanishes = p->slope_before / (p->slope_before - p->slope_after);
+    return isfinite(vanishes) ? (float)fmin(0.5, fmax(0.1, vanishes)) : 0.1f;
+}
+
+/* Follows the direction, with at most *passes evaluations. False if nothing was found. */
+static bool descend(Primal *p, uint32_t *passes, uint32_t most)
+{
+    for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
+        over_blocks(p, try_step);
+        evaluate(p);
+        ++*passes;
+        if (!is_good(p)) continue;
+        accept(p, true);
+        return true;
+    }
+    return false;
+}
+
+static void minimise(Primal *p)
+{
+    StepRecord *record = &p->world->record;
+    for (;;) {
+        double decrement = find_direction(p);
+        if (decrement <= 0.0 && p->pairs > 0) {
+            p->pairs = 0;
+            memcpy(p->right, p->gradient, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->right);
+            decrement = find_direction(p);
+        }
+        record->residual = sqrt(fmax(decrement, 0.0) / p->mass);
+        if (!solver_may_go_on(p->world, ERROR_PER_RESIDUAL * record->residual)) return;
+        if (!(decrement > 0.0) || !descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations)) return;
+    }
+}
+
+/* Without stop rules, for what is done in addition. */
+static void descend_some(Primal *p, uint32_t most)
+{
+    uint32_t passes = 0;
+    while (passes < most && find_direction(p) > 0.0 && descend(p, &passes, most)) {}
+}
+
+/* ---- The energy check ---- */
+
+static BodySum *body_of(const Primal *p, int32_t block)
+{
+    const PrimalState *state = &p->world->primal;
+    return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
+}
+
+/* Sums over the nodes of a block, for sum_bodies(). */
+static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const float *pull = p->world->args.gravity;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[3] += mass;
+        for (size_t c = 0; c < 3; c++) {
+            const double u = (double)p->best[i + c], g = (double)pull[c], free = (double)p->base[i + c];
+            sum[0] += 0.5 * mass * u * u - mass * g * u;
+            sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
+            sum[4 + c] += mass * free;
+        }
+    }
+    sum[2] = holds_work(p->contacts, p->gradient, block);
+    sum[7] = (double)holds_touching(p->contacts, block);
+}
+
+static bool has_liquid(const World *world, int32_t block)
+{
+    const uint32_t *block_run = world->grid.block_run.data;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
+    return false;
+}
+
+/* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
+ * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. */
+static bool gained(const BodySum *body)
+{
+    const double after = body->with_liquid ? body->elastic : body->after;
+    return after > body->before + body->work + ENERGY_ROUNDING * body->before;
+}
+
+/* Compares energies at p->best. Returns the number of bodies that gained. */
+static uint32_t check_bodies(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    const double *sums = state->sums.data;
+    const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    memset(body, 0, (size_t)state->bodies.count * sizeof *body);
+    over_blocks(p, sum_motion);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *b = body_of(p, block);
+        const double *sum = sums + (size_t)block * SUMS;
+        b->after += sum[0];
+        b->before += sum[1];
+        b->work += sum[2];
+        b->mass += sum[3];
+        for (int c = 0; c < 3; c++) b->momentum[c] += sum[4 + c];
+        b->touches = b->touches || sum[7] > 0.0;
+        if (block >= p->world->grid.particle_blocks) continue;
+        b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
+        b->elastic += (double)energy[4 * block];
+        b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];
+        b->with_liquid = b->with_liquid || has_liquid(p->world, block);
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        body[i].failed = gained(&body[i]);
+        failed += body[i].failed;
+    }
+    return failed;
+}
+
+/* Moves failed bodies to `share` of the way from their start to the solution; the others are as they were. */
+static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = body_of(p, block);
+    (void)sum;
+    for (size_t i = begin; i < end; i++) {
+        const size_t c = i % W;
+        if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
+        const float start = body->touches || body->mass == 0.0 ? 0.0f : (float)(body->momentum[c] / body->mass);
+        p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
+    }
+    holds_project(p->contacts, p->node, block, block + 1);
+}
+
+static void pull_back_to(Primal *p, float share)
+{
+    p->share = share;
+    over_blocks(p, pull_back);
+    evaluate(p);
+    accept(p, false);
+}
+
+static void keep_energy(Primal *p)
+{
+    const uint32_t failed = check_bodies(p);
+    p->world->record.energy_checks_failed = failed;
+    if (failed == 0) return;
+    pull_back_to(p, 0.0f);
+    descend_some(p, (uint32_t)p->world->settings.iterations + 1);
+    for (int halving = 0; check_bodies(p) > 0; halving++) {
+        pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
+        if (halving == 2) return;
+    }
+}
+
+/* ---- The substep ---- */
+
+static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    for (size_t i = begin; i < end; i++)
+        if (i % W != 3) p->node[i] = p->best[i];
+    holds_rub(p->contacts, p->gradient, p->base, p->node, block, block + 1);
+}
+
+static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    holds_project(p->contacts, p->node, block, block + 1);
+    for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }
 
 void primal_solve(World *world, const ContactFrame *contacts)
 {
-    (void)world;
-    (void)contacts;
+    Primal p = open_solve(world, contacts);
+    over_blocks(&p, start);
+    solver_over_particles(world, world->kernels->force_first);
+    solver_over_nodes(world, world->kernels->force_nodes, NULL);
+    over_blocks(&p, finish_gradient);
+    p.trial_energy = p.total[0] + sum_energies(&p);
+    accept(&p, false);
+    over_blocks(&p, weigh_nodes);
+    p.mass = fmax(p.total[0], 1e-30);
+    multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0]);
+    minimise(&p);
+    keep_energy(&p);
+    over_blocks(&p, rub_and_write);
 }

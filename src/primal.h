@@ -1,4 +1,20 @@
-/* The convergent solver for elastic bodies. */
+/* The primal solver: backward Euler with the materials' own moduli, for elastic bodies. The unknowns are the displacements u of the nodes,
+ * in cells. A substep minimises
+ *
+ *     E(u) = sum_i m_i/2 |u_i - u*_i|^2 + sum_p m_p/4 phi_p(D_p),   D_p = 4 sum_i w_ip u_i (x_i - x_p)^T,
+ *     dE/du_i = m_i (u_i - u*_i) + sum_p m_p w_ip T_p (x_i - x_p),   T = dphi/dD,
+ *
+ * u* the predictor and phi the energy of ispc/elastic.isph, over what contacts allow. Method: L-BFGS (D. Liu, J. Nocedal, "On the limited
+ * memory BFGS method for large scale optimization", Math. Prog. 45, 1989) of projected displacements, on top of a multilevel
+ * preconditioner. Steps are accepted by Armijo's rule, or by the slope where the difference of two energies is rounding (W. Hager,
+ * H. Zhang, "A new conjugate gradient method with guaranteed descent", SIAM J. Optim. 16(1), 2005).
+ *
+ * A solution that is cut short may have more energy than there was. For each body with the displacement g of gravity,
+ *
+ *     sum m/2 |u|^2 - m g.u + Psi(u)  <=  sum m/2 |u* - g|^2 + Psi(0) + work of moving surfaces
+ *
+ * holds for the exact solution of a convex energy. Where it does not hold, the body starts again from its mean motion, or from rest if it
+ * touches something; what still gains energy is moved towards that start. */
 #ifndef PBMPM_SRC_PRIMAL_H
 #define PBMPM_SRC_PRIMAL_H
 
@@ -6,6 +22,7 @@
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result primal_prepare(World *world);
+void primal_free(World *world);
 
 void primal_solve(World *world, const ContactFrame *contacts);
 

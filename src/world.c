@@ -8,6 +8,7 @@
 #include "dual.h"
 #include "guess.h"
 #include "numbers.h"
+#include "primal.h"
 #include "result.h"
 
 pbmpm_world_def world_def_defaults(void)
@@ -131,6 +132,7 @@ void world_destroy(World *world)
     dual_free(world);
     guess_free(world);
     mirrors_free(&world->mirrors, &world->memory);
+    primal_free(world);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

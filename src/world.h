@@ -4,6 +4,7 @@
 
 #include <sys/types.h>
 
+#include "bodies.h"
 #include "colliders.h"
 #include "emitters.h"
 #include "events.h"
@@ -14,6 +15,7 @@
 #include "materials.h"
 #include "memory.h"
 #include "mirror.h"
+#include "multilevel.h"
 #include "particles.h"
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
@@ -47,6 +49,20 @@ typedef struct GuessState {
 
 /* A step on a thread of its own; see background.c. */
 typedef struct Background Background;
+/* Pairs of steps that the primal solver remembers. */
+enum { PRIMAL_MEMORY = 5 };
+
+/* What the primal and the explicit solver keep. */
+typedef struct PrimalState {
+    Array force, block_energy; /* see KernelArgs */
+    Array vectors;             /* all other vectors, see primal.c */
+    Array accepted_energy;     /* of the accepted displacements, as block_energy */
+    Array inverse;             /* per node 1 / (m + k) */
+    Array sums;                /* what passes add up, per node block */
+    Array body_sums;           /* per body */
+    Bodies bodies;
+    Multilevel multilevel;
+} PrimalState;
 
 typedef struct World {
     pbmpm_world_def def;
@@ -70,6 +86,7 @@ typedef struct World {
     DualState dual;
     GuessState guess;
     Mirrors mirrors;
+    PrimalState primal;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 

@@ -1,0 +1,158 @@
+#include "holds.h"
+
+#include <math.h>
+
+/* How far from a surface [cells] a node that was put onto it may be, by rounding. */
+static const float TOUCH = 1e-5f;
+
+static bool is_held(const Contact *contact) { return contact->friction == PBMPM_FRICTION_STICK && contact->gap == 0.0f; }
+
+static float along(const float *vector, const float *normal)
+{
+    return vector[0] * normal[0] + vector[1] * normal[1] + vector[2] * normal[2];
+}
+
+/* How far the node goes beyond what the contact allows [cells]. */
+static float excess_of(const Contact *contact, const float *u)
+{
+    const float relative[3] = {u[0] - contact->surface[0], u[1] - contact->surface[1], u[2] - contact->surface[2]};
+    return -contact->gap - along(relative, contact->normal);
+}
+
+static void put_back(const Contact *contact, float *u)
+{
+    if (is_held(contact)) {
+        for (int a = 0; a < 3; a++) u[a] = contact->surface[a];
+        return;
+    }
+    const float excess = excess_of(contact, u);
+    for (int a = 0; a < 3 && excess > 0.0f; a++) u[a] += excess * contact->normal[a];
+}
+
+static void take_out(const Contact *contact, float *vector)
+{
+    const bool all = is_held(contact);
+    const float part = along(vector, contact->normal);
+    for (int a = 0; a < 3; a++) vector[a] = all ? 0.0f : vector[a] - part * contact->normal[a];
+}
+
+/* The contacts of a block, and where its nodes begin in an array of nodes. */
+typedef struct BlockContacts {
+    Contact *contact;
+    uint32_t begin, end;
+    size_t node;
+} BlockContacts;
+
+static BlockContacts contacts_of(const ContactFrame *frame, int32_t block)
+{
+    const uint32_t *begin = frame->colliders->contact_begin.data;
+    return (BlockContacts){frame->colliders->contact.data, begin[block], begin[block + 1],
+                           (size_t)block * (size_t)frame->grid->block_cells * K_NODE_WIDTH};
+}
+
+static float *node_of(const BlockContacts *list, uint32_t i, float *nodes) { return nodes + list->node + list->contact[i].node * K_NODE_WIDTH; }
+
+void holds_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end)
+{
+    if (frame->colliders->contacts == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (int sweep = 0; sweep < 2; sweep++) /* a corner between slanted surfaces */
+            for (uint32_t i = list.begin; i < list.end; i++) put_back(&list.contact[i], node_of(&list, i, displacement));
+    }
+}
+
+void holds_find(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end)
+{
+    if (frame->colliders->contacts == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (uint32_t i = list.begin; i < list.end; i++) {
+            Contact *contact = &list.contact[i];
+            const float *u = displacement + list.node + contact->node * K_NODE_WIDTH;
+            float *g = node_of(&list, i, gradient);
+            const bool pushes = !is_held(contact) && excess_of(contact, u) > -TOUCH && along(g, contact->normal) > 0.0f;
+            contact->active = pushes || is_held(contact);
+            if (contact->active) take_out(contact, g);
+        }
+    }
+}
+
+void holds_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end)
+{
+    if (frame->colliders->contacts == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (int sweep = 0; sweep < 2; sweep++)
+            for (uint32_t i = list.begin; i < list.end; i++)
+                if (list.contact[i].active) take_out(&list.contact[i], node_of(&list, i, vector));
+    }
+}
+
+/* As obey() in colliders.c, with the normal impulse that the solution found. */
+static void rub(const Contact *contact, float impulse, float *u)
+{
+    float v[3], tangent2 = 0.0f;
+    for (int a = 0; a < 3; a++) v[a] = u[a] - contact->surface[a];
+    const float normal_part = along(v, contact->normal);
+    for (int a = 0; a < 3; a++) {
+        v[a] -= normal_part * contact->normal[a];
+        tangent2 += v[a] * v[a];
+    }
+    const float lost = contact->coefficient * impulse;
+    const float keep = contact->friction == PBMPM_FRICTION_STICK || tangent2 <= lost * lost ? 0.0f : 1.0f - lost / sqrtf(tangent2);
+    for (int a = 0; a < 3; a++) u[a] = contact->surface[a] + normal_part * contact->normal[a] + keep * v[a];
+}
+
+void holds_rub(const ContactFrame *frame, const float *gradient, const float *mass_node, float *displacement,
+               int32_t begin, int32_t end)
+{
+    if (frame->colliders->contacts == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (uint32_t i = list.begin; i < list.end; i++) {
+            const Contact *contact = &list.contact[i];
+            const size_t node = list.node + contact->node * K_NODE_WIDTH;
+            if (!list.contact[i].active || is_held(contact) || contact->friction == PBMPM_FRICTION_SLIP) continue;
+            const float mass = mass_node[node + 3];
+            if (mass > 0.0f) rub(contact, along(gradient + node, contact->normal) / mass, displacement + node);
+        }
+    }
+}
+
+double holds_work(const ContactFrame *frame, const float *gradient, int32_t block)
+{
+    double work = 0.0;
+    if (frame->colliders->contacts == 0) return work;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const float *g = gradient + list.node + list.contact[i].node * K_NODE_WIDTH;
+        if (list.contact[i].active) work += fmax(0.0, (double)along(g, list.contact[i].surface));
+    }
+    return work;
+}
+
+uint32_t holds_touching(const ContactFrame *frame, int32_t block)
+{
+    uint32_t count = 0;
+    if (frame->colliders->contacts == 0) return 0;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) count += list.contact[i].active && !is_held(&list.contact[i]);
+    return count;
+}
+
+void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end)
+{
+    if (frame->colliders->contacts == 0) return;
+    for (int32_t block = begin; block < end; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (uint32_t i = list.begin; i < list.end; i++) {
+            const Contact *contact = &list.contact[i];
+            float *s = node_of(&list, i, share);
+            for (int a = 0; a < 3 && list.contact[i].active; a++) {
+                const float held = is_held(contact) ? 1.0f : contact->normal[a] * contact->normal[a];
+                s[a] = fminf(1.0f, s[a] + held);
+            }
+        }
+    }
+}
