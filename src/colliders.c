@@ -128,11 +128,7 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
     o.start = (Solid){.kind = PBMPM_PLANE, .dimension = dimension};
     o.start.position[axis] = upper ? domain->high[axis] : domain->low[axis];
     o.start.normal[axis] = upper ? -1.0 : 1.0;
-<<<<<<< ours
-    o.side = 2 * axis + (upper ? 1 : 0);
-    o.place = (uint16_t)(PBMPM_MAX_COLLIDERS + o.side);
-=======
->>>>>>> theirs
+    o.place = (uint16_t)(PBMPM_MAX_COLLIDERS + 2 * axis + (upper ? 1 : 0));
     o.end = o.start;
     return o;
 }
@@ -276,16 +272,12 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
         double point[3], normal[3];
         contacts_node_position(frame, block, i, point);
         const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
-<<<<<<< ours
-        const bool image = o->wall && frame->mirrors >> o->side & 1 && fabs(distance + 1.0) < 0.5;
+        const bool image = o->wall && frame->mirrored && distance < -0.25 && distance > -1.25;
         if (o->start.grid) {
             if (distance <= reach)
                 count += contacts_in_hollow(frame, o, node + i * K_NODE_WIDTH, point, i, distance, normal, out ? out + count : NULL);
             continue;
         }
-=======
-        const bool image = o->wall && frame->mirrored && distance < -0.25 && distance > -1.25;
->>>>>>> theirs
         if (image || distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
         count++;

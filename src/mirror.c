@@ -58,17 +58,22 @@ static uint32_t pairs_of_block(const Grid *grid, int32_t block, int axis, int32_
     return count;
 }
 
+static uint32_t pairs_of_wall(const Grid *grid, const Domain *domain, double cell_size, int axis, int upper, MirrorPair *out)
+{
+    const int32_t line = half_cells(domain, cell_size, axis, upper);
+    const int apart = line & 1 ? 1 : 2; /* nodes at -1/2 and 1/2, or at -1 and 1 */
+    const int32_t behind = upper ? (line + apart) / 2 : (line - apart) / 2; /* exact: line and apart are both even or both odd */
+    uint32_t count = 0;
+    for (int32_t block = 0; block < grid->node_blocks; block++)
+        count += pairs_of_block(grid, block, axis, behind, upper ? -apart : apart, out ? out + count : NULL);
+    return count;
+}
+
+/* The lower wall's pairs stand first. */
 static uint32_t pairs_of_axis(const Grid *grid, const Domain *domain, double cell_size, int axis, MirrorPair *out)
 {
-    uint32_t count = 0;
-    for (int upper = 0; upper < 2; upper++) {
-        const int32_t line = half_cells(domain, cell_size, axis, upper);
-        const int apart = line & 1 ? 1 : 2; /* nodes at -1/2 and 1/2, or at -1 and 1 */
-        const int32_t behind = upper ? (line + apart) / 2 : (line - apart) / 2; /* exact: line and apart are both even or both odd */
-        for (int32_t block = 0; block < grid->node_blocks; block++)
-            count += pairs_of_block(grid, block, axis, behind, upper ? -apart : apart, out ? out + count : NULL);
-    }
-    return count;
+    const uint32_t lower = pairs_of_wall(grid, domain, cell_size, axis, 0, out);
+    return lower + pairs_of_wall(grid, domain, cell_size, axis, 1, out ? out + lower : NULL);
 }
 
 bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size)
@@ -77,12 +82,8 @@ bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Doma
     for (int axis = 0; domain->enabled && axis < grid->dimension; axis++) {
         const uint32_t count = pairs_of_axis(grid, domain, cell_size, axis, NULL);
         if (!array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair))) return false;
-<<<<<<< ours
-        mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, walls, axis, mirrors->pair[axis].data) : 0;
-        mirrors->lower[axis] = pairs_of_axis(grid, domain, cell_size, walls & 1u << 2 * axis, axis, NULL);
-=======
         mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, axis, mirrors->pair[axis].data) : 0;
->>>>>>> theirs
+        mirrors->lower[axis] = pairs_of_wall(grid, domain, cell_size, axis, 0, NULL);
     }
     return true;
 }

@@ -129,17 +129,11 @@ static pbmpm_result substep(World *world, float dt, int part)
     /* What they may meet on the way. */
     const double cell_size = (double)world->def.cell_size;
     const bool mirrored = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
-<<<<<<< ours
-    const unsigned mirrors = mirrored ? mirror_walls(&world->domain, world->def.dimension, cell_size) : 0;
-    const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrors};
-    if (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &world->domain, cell_size, mirrors) ||
-        !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures))
-=======
     const Domain domain = mirrored ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
     const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored};
     mirrors_clear(&world->mirrors);
-    if (mirrored && !mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size))
->>>>>>> theirs
+    if (mirrored && (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size) ||
+                     !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
     colliders_begin_substep(&world->colliders, &domain, world->def.dimension, part, world->settings.substeps);
     result = contacts_find(&contacts, &world->memory, world->pool);
