@@ -172,6 +172,73 @@ static pbmpm_result call_query_shape(const target *ids)
     return pbmpm_query_shape(ids->world, &shape, NULL, 0, &count);
 }
 
+static pbmpm_result call_query_region(const target *ids)
+{
+    pbmpm_shape shape;
+    uint32_t count;
+    pbmpm_shape_init(&shape, sizeof shape);
+    return pbmpm_query_region(ids->world, &shape, NULL, 0, &count);
+}
+
+static pbmpm_result call_query_points(const target *ids)
+{
+    const float point[2] = {1, 1};
+    float filling;
+    return pbmpm_query_points(ids->world, point, 1, &filling, NULL, NULL);
+}
+
+static pbmpm_result call_query_heights(const target *ids)
+{
+    const float point[2] = {1, 1}, up[2] = {0, 1};
+    float height;
+    return pbmpm_query_heights(ids->world, point, 1, up, 0.5f, &height);
+}
+
+static pbmpm_result call_query_ray(const target *ids)
+{
+    pbmpm_ray ray;
+    pbmpm_ray_hit hit = {.size = sizeof hit};
+    pbmpm_ray_init(&ray, sizeof ray);
+    return pbmpm_query_ray(ids->world, &ray, &hit);
+}
+
+static unsigned char snapshot_room[1 << 18];
+
+static pbmpm_result call_snapshot_size(const target *ids)
+{
+    uint64_t bytes;
+    return pbmpm_snapshot_size(ids->world, &bytes, NULL);
+}
+
+static pbmpm_result call_snapshot_save(const target *ids)
+{
+    return pbmpm_snapshot_save(ids->world, snapshot_room, sizeof snapshot_room, NULL);
+}
+
+static pbmpm_result call_snapshot_restore(const target *ids)
+{
+    call_snapshot_save(ids);
+    return pbmpm_snapshot_restore(ids->world, snapshot_room, sizeof snapshot_room);
+}
+
+static pbmpm_result call_publish(const target *ids)
+{
+    const pbmpm_field field = PBMPM_POSITION;
+    return pbmpm_world_publish(ids->world, &field, 1);
+}
+
+static pbmpm_result call_step_begin(const target *ids)
+{
+    const pbmpm_result begun = pbmpm_world_step_begin(ids->world, 0.001f);
+    return begun == PBMPM_OK ? pbmpm_world_step_end(ids->world, 1) : begun;
+}
+
+static pbmpm_result call_step_end(const target *ids)
+{
+    pbmpm_world_step_begin(ids->world, 0.001f);
+    return pbmpm_world_step_end(ids->world, 1);
+}
+
 static pbmpm_result call_particles_remove(const target *ids)
 {
     return pbmpm_particles_remove(ids->world, &ids->particle, 1);
@@ -182,6 +249,129 @@ static pbmpm_result call_particles_remove_in(const target *ids)
     pbmpm_shape shape;
     pbmpm_shape_init(&shape, sizeof shape);
     return pbmpm_particles_remove_in(ids->world, &shape, NULL);
+}
+
+static pbmpm_result call_emitter_create(const target *ids)
+{
+    pbmpm_emitter_def def;
+    pbmpm_emitter_id emitter;
+    pbmpm_emitter_def_init(&def, sizeof def);
+    def.material = ids->material;
+    return pbmpm_emitter_create(ids->world, &def, &emitter);
+}
+
+static pbmpm_result call_emitter_get(const target *ids)
+{
+    pbmpm_emitter_def def = {.size = sizeof def};
+    return pbmpm_emitter_get(ids->world, ids->emitter, &def);
+}
+
+static pbmpm_result call_emitter_set(const target *ids)
+{
+    pbmpm_emitter_def def;
+    pbmpm_emitter_def_init(&def, sizeof def);
+    def.material = ids->material;
+    return pbmpm_emitter_set(ids->world, ids->emitter, &def);
+}
+
+static pbmpm_result call_emitter_move(const target *ids)
+{
+    const float position[3] = {0.5f, 0.5f, 0};
+    return pbmpm_emitter_move(ids->world, ids->emitter, position, NULL);
+}
+
+static pbmpm_result call_emitter_status(const target *ids)
+{
+    pbmpm_emitter_status status = {.size = sizeof status};
+    return pbmpm_emitter_status_get(ids->world, ids->emitter, &status);
+}
+
+static pbmpm_result call_emitter_destroy(const target *ids)
+{
+    return pbmpm_emitter_destroy(ids->world, ids->emitter);
+}
+
+static pbmpm_result call_drain_create(const target *ids)
+{
+    pbmpm_drain_def def;
+    pbmpm_drain_id drain;
+    pbmpm_drain_def_init(&def, sizeof def);
+    return pbmpm_drain_create(ids->world, &def, &drain);
+}
+
+static pbmpm_result call_drain_get(const target *ids)
+{
+    pbmpm_drain_def def = {.size = sizeof def};
+    return pbmpm_drain_get(ids->world, ids->drain, &def);
+}
+
+static pbmpm_result call_drain_set(const target *ids)
+{
+    pbmpm_drain_def def;
+    pbmpm_drain_def_init(&def, sizeof def);
+    return pbmpm_drain_set(ids->world, ids->drain, &def);
+}
+
+static pbmpm_result call_drain_status(const target *ids)
+{
+    pbmpm_drain_status status = {.size = sizeof status};
+    return pbmpm_drain_status_get(ids->world, ids->drain, &status);
+}
+
+static pbmpm_result call_drain_destroy(const target *ids)
+{
+    return pbmpm_drain_destroy(ids->world, ids->drain);
+}
+
+static pbmpm_result call_set_kill_bounds(const target *ids)
+{
+    pbmpm_kill_bounds bounds;
+    pbmpm_kill_bounds_init(&bounds, sizeof bounds);
+    return pbmpm_world_set_kill_bounds(ids->world, &bounds);
+}
+
+static pbmpm_result call_get_kill_bounds(const target *ids)
+{
+    pbmpm_kill_bounds bounds = {.size = sizeof bounds};
+    return pbmpm_world_get_kill_bounds(ids->world, &bounds);
+}
+
+static pbmpm_result call_get_flow(const target *ids)
+{
+    pbmpm_flow flow = {.size = sizeof flow};
+    return pbmpm_world_get_flow(ids->world, &flow);
+}
+
+static pbmpm_result call_force_create(const target *ids)
+{
+    pbmpm_force_def def;
+    pbmpm_force_id force;
+    pbmpm_force_def_init(&def, sizeof def);
+    return pbmpm_force_create(ids->world, &def, &force);
+}
+
+static pbmpm_result call_force_get(const target *ids)
+{
+    pbmpm_force_def def = {.size = sizeof def};
+    return pbmpm_force_get(ids->world, ids->force, &def);
+}
+
+static pbmpm_result call_force_set(const target *ids)
+{
+    pbmpm_force_def def;
+    pbmpm_force_def_init(&def, sizeof def);
+    return pbmpm_force_set(ids->world, ids->force, &def);
+}
+
+static pbmpm_result call_force_status(const target *ids)
+{
+    pbmpm_force_status status = {.size = sizeof status};
+    return pbmpm_force_status_get(ids->world, ids->force, &status);
+}
+
+static pbmpm_result call_force_destroy(const target *ids)
+{
+    return pbmpm_force_destroy(ids->world, ids->force);
 }
 
 static pbmpm_result call_world_destroy(const target *ids)
@@ -216,8 +406,37 @@ const world_call world_calls[] = {
     {"pbmpm_particles_set", call_particles_set, USES_PARTICLE},
     {"pbmpm_particles_find", call_particles_find, USES_PARTICLE},
     {"pbmpm_query_shape", call_query_shape, 0},
+    {"pbmpm_query_region", call_query_region, 0},
+    {"pbmpm_query_points", call_query_points, 0},
+    {"pbmpm_query_heights", call_query_heights, 0},
+    {"pbmpm_query_ray", call_query_ray, 0},
+    {"pbmpm_snapshot_size", call_snapshot_size, 0},
+    {"pbmpm_snapshot_save", call_snapshot_save, 0},
+    {"pbmpm_snapshot_restore", call_snapshot_restore, 0},
+    {"pbmpm_world_publish", call_publish, 0},
+    {"pbmpm_world_step_begin", call_step_begin, 0},
+    {"pbmpm_world_step_end", call_step_end, 0},
     {"pbmpm_particles_remove", call_particles_remove, USES_PARTICLE},
     {"pbmpm_particles_remove_in", call_particles_remove_in, 0},
+    {"pbmpm_emitter_create", call_emitter_create, USES_MATERIAL},
+    {"pbmpm_emitter_get", call_emitter_get, USES_EMITTER},
+    {"pbmpm_emitter_set", call_emitter_set, USES_EMITTER | USES_MATERIAL},
+    {"pbmpm_emitter_move", call_emitter_move, USES_EMITTER},
+    {"pbmpm_emitter_status_get", call_emitter_status, USES_EMITTER},
+    {"pbmpm_emitter_destroy", call_emitter_destroy, USES_EMITTER},
+    {"pbmpm_drain_create", call_drain_create, 0},
+    {"pbmpm_drain_get", call_drain_get, USES_DRAIN},
+    {"pbmpm_drain_set", call_drain_set, USES_DRAIN},
+    {"pbmpm_drain_status_get", call_drain_status, USES_DRAIN},
+    {"pbmpm_drain_destroy", call_drain_destroy, USES_DRAIN},
+    {"pbmpm_world_set_kill_bounds", call_set_kill_bounds, 0},
+    {"pbmpm_world_get_kill_bounds", call_get_kill_bounds, 0},
+    {"pbmpm_world_get_flow", call_get_flow, 0},
+    {"pbmpm_force_create", call_force_create, 0},
+    {"pbmpm_force_get", call_force_get, USES_FORCE},
+    {"pbmpm_force_set", call_force_set, USES_FORCE},
+    {"pbmpm_force_status_get", call_force_status, USES_FORCE},
+    {"pbmpm_force_destroy", call_force_destroy, USES_FORCE},
     {"pbmpm_world_destroy", call_world_destroy, 0},
 };
 const int world_call_count = (int)(sizeof world_calls / sizeof *world_calls);
@@ -235,6 +454,9 @@ target target_create(scene_tweak *tweak, void *user)
     made.spare = create_material(made.world, PBMPM_LIQUID);
     made.collider = create_collider(made.world, box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f), true);
     fill_shape(made.world, made.material, box_shape(1, 1, 0, 0.4f, 0.4f, 0.5f), (const float[3]){0.5f, 0, 0});
+    made.emitter = create_emitter(made.world, made.material);
+    made.drain = create_drain(made.world, box_shape(0.1f, 0.1f, 0, 0.05f, 0.05f, 0.05f));
+    made.force = create_force(made.world);
     const pbmpm_view identity = view_of(made.world, PBMPM_PARTICLE);
     made.particle = (pbmpm_particle_id){view_uint(&identity, 7, 0), view_uint(&identity, 7, 1)};
     return made;

@@ -11,10 +11,16 @@ typedef struct target {
     pbmpm_material_id spare;    /**< liquid; no particle uses it */
     pbmpm_collider_id collider; /**< kinematic */
     pbmpm_particle_id particle; /**< elastic */
+    pbmpm_emitter_id emitter;   /**< of the material; its rate is 0 */
+    pbmpm_drain_id drain;       /**< where there is nothing */
+    pbmpm_force_id force;       /**< switched off */
 } target;
 
 /** Identifiers that a call takes besides the world's. */
-enum { USES_MATERIAL = 1, USES_SPARE = 2, USES_COLLIDER = 4, USES_PARTICLE = 8 };
+enum {
+    USES_MATERIAL = 1, USES_SPARE = 2, USES_COLLIDER = 4, USES_PARTICLE = 8,
+    USES_EMITTER = 16, USES_DRAIN = 32, USES_FORCE = 64
+};
 
 typedef struct world_call {
     const char *name;

@@ -94,6 +94,36 @@ pbmpm_collider_id create_collider(pbmpm_world_id world, pbmpm_shape shape, bool 
     return collider;
 }
 
+pbmpm_emitter_id create_emitter(pbmpm_world_id world, pbmpm_material_id material)
+{
+    pbmpm_emitter_def def;
+    pbmpm_emitter_id emitter;
+    OK(pbmpm_emitter_def_init(&def, sizeof def));
+    def.material = material;
+    OK(pbmpm_emitter_create(world, &def, &emitter));
+    return emitter;
+}
+
+pbmpm_drain_id create_drain(pbmpm_world_id world, pbmpm_shape shape)
+{
+    pbmpm_drain_def def;
+    pbmpm_drain_id drain;
+    OK(pbmpm_drain_def_init(&def, sizeof def));
+    def.shape = shape;
+    OK(pbmpm_drain_create(world, &def, &drain));
+    return drain;
+}
+
+pbmpm_force_id create_force(pbmpm_world_id world)
+{
+    pbmpm_force_def def;
+    pbmpm_force_id force;
+    OK(pbmpm_force_def_init(&def, sizeof def));
+    def.enabled = 0;
+    OK(pbmpm_force_create(world, &def, &force));
+    return force;
+}
+
 uint32_t fill_shape(pbmpm_world_id world, pbmpm_material_id material, pbmpm_shape shape, const float velocity[3])
 {
     pbmpm_fill_def fill;

@@ -58,6 +58,15 @@ static const pbmpm_layout_entry expected[] = {
     WHOLE(pbmpm_view),
     FIELD(pbmpm_view, size), FIELD(pbmpm_view, count), FIELD(pbmpm_view, components), FIELD(pbmpm_view, component_stride),
     FIELD(pbmpm_view, stride), FIELD(pbmpm_view, data), FIELD(pbmpm_view, generation),
+    WHOLE(pbmpm_region_share),
+    FIELD(pbmpm_region_share, material), FIELD(pbmpm_region_share, count), FIELD(pbmpm_region_share, mass),
+    FIELD(pbmpm_region_share, volume), FIELD(pbmpm_region_share, rest_volume),
+    WHOLE(pbmpm_ray),
+    FIELD(pbmpm_ray, size), FIELD(pbmpm_ray, level), FIELD(pbmpm_ray, origin), FIELD(pbmpm_ray, direction),
+    FIELD(pbmpm_ray, max_distance),
+    WHOLE(pbmpm_ray_hit),
+    FIELD(pbmpm_ray_hit, size), FIELD(pbmpm_ray_hit, hit), FIELD(pbmpm_ray_hit, distance), FIELD(pbmpm_ray_hit, position),
+    FIELD(pbmpm_ray_hit, normal), FIELD(pbmpm_ray_hit, material), FIELD(pbmpm_ray_hit, particle),
     WHOLE(pbmpm_collider_def),
     FIELD(pbmpm_collider_def, size), FIELD(pbmpm_collider_def, friction), FIELD(pbmpm_collider_def, friction_coefficient),
     FIELD(pbmpm_collider_def, kinematic), FIELD(pbmpm_collider_def, shape),
@@ -75,6 +84,42 @@ static const pbmpm_layout_entry expected[] = {
     WHOLE(pbmpm_event),
     FIELD(pbmpm_event, kind), FIELD(pbmpm_event, count), FIELD(pbmpm_event, particle), FIELD(pbmpm_event, position),
     FIELD(pbmpm_event, substep), FIELD(pbmpm_event, step),
+    WHOLE(pbmpm_emitter_id),
+    FIELD(pbmpm_emitter_id, index), FIELD(pbmpm_emitter_id, generation),
+    WHOLE(pbmpm_drain_id),
+    FIELD(pbmpm_drain_id, index), FIELD(pbmpm_drain_id, generation),
+    WHOLE(pbmpm_force_id),
+    FIELD(pbmpm_force_id, index), FIELD(pbmpm_force_id, generation),
+    WHOLE(pbmpm_emitter_def),
+    FIELD(pbmpm_emitter_def, size), FIELD(pbmpm_emitter_def, seed), FIELD(pbmpm_emitter_def, material),
+    FIELD(pbmpm_emitter_def, shape), FIELD(pbmpm_emitter_def, region), FIELD(pbmpm_emitter_def, enabled),
+    FIELD(pbmpm_emitter_def, rate), FIELD(pbmpm_emitter_def, speed), FIELD(pbmpm_emitter_def, direction),
+    FIELD(pbmpm_emitter_def, spread), FIELD(pbmpm_emitter_def, particles_per_axis), FIELD(pbmpm_emitter_def, fill_limit),
+    FIELD(pbmpm_emitter_def, budget),
+    WHOLE(pbmpm_emitter_status),
+    FIELD(pbmpm_emitter_status, size), FIELD(pbmpm_emitter_status, reserved), FIELD(pbmpm_emitter_status, emitted),
+    FIELD(pbmpm_emitter_status, emitted_mass), FIELD(pbmpm_emitter_status, refused_full),
+    FIELD(pbmpm_emitter_status, refused_budget), FIELD(pbmpm_emitter_status, refused_capacity),
+    WHOLE(pbmpm_drain_def),
+    FIELD(pbmpm_drain_def, size), FIELD(pbmpm_drain_def, enabled), FIELD(pbmpm_drain_def, material),
+    FIELD(pbmpm_drain_def, shape),
+    WHOLE(pbmpm_drain_status),
+    FIELD(pbmpm_drain_status, size), FIELD(pbmpm_drain_status, reserved), FIELD(pbmpm_drain_status, drained),
+    FIELD(pbmpm_drain_status, drained_mass),
+    WHOLE(pbmpm_kill_bounds),
+    FIELD(pbmpm_kill_bounds, size), FIELD(pbmpm_kill_bounds, enabled), FIELD(pbmpm_kill_bounds, low),
+    FIELD(pbmpm_kill_bounds, high),
+    WHOLE(pbmpm_flow),
+    FIELD(pbmpm_flow, size), FIELD(pbmpm_flow, reserved), FIELD(pbmpm_flow, emitted), FIELD(pbmpm_flow, refused),
+    FIELD(pbmpm_flow, drained), FIELD(pbmpm_flow, killed), FIELD(pbmpm_flow, emitted_mass), FIELD(pbmpm_flow, drained_mass),
+    FIELD(pbmpm_flow, killed_mass),
+    WHOLE(pbmpm_force_def),
+    FIELD(pbmpm_force_def, size), FIELD(pbmpm_force_def, kind), FIELD(pbmpm_force_def, enabled),
+    FIELD(pbmpm_force_def, everywhere), FIELD(pbmpm_force_def, shape), FIELD(pbmpm_force_def, falloff),
+    FIELD(pbmpm_force_def, range), FIELD(pbmpm_force_def, strength), FIELD(pbmpm_force_def, direction),
+    FIELD(pbmpm_force_def, velocity), FIELD(pbmpm_force_def, spin),
+    WHOLE(pbmpm_force_status),
+    FIELD(pbmpm_force_status, size), FIELD(pbmpm_force_status, nodes), FIELD(pbmpm_force_status, impulse),
 };
 enum { EXPECTED = sizeof expected / sizeof *expected };
 
@@ -127,6 +172,9 @@ static void test_sizes_that_bindings_rely_on(void)
     TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_material_id));
     TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_collider_id));
     TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_particle_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_emitter_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_drain_id));
+    TEST_ASSERT_EQUAL_UINT64(8, sizeof(pbmpm_force_id));
     TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_result));
     TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_field));
     TEST_ASSERT_EQUAL_UINT64(4, sizeof(pbmpm_shape_kind));

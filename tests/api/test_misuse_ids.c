@@ -78,6 +78,12 @@ static void test_stale_identifiers(void)
     gone.spare = create_material(good.world, PBMPM_LIQUID);
     gone.material = gone.spare;
     gone.collider = create_collider(good.world, sphere_shape(0.2f, 0.2f, 0, 0.1f), true);
+    gone.emitter = create_emitter(good.world, good.material);
+    gone.drain = create_drain(good.world, sphere_shape(0.2f, 0.2f, 0, 0.1f));
+    gone.force = create_force(good.world);
+    OK(pbmpm_emitter_destroy(good.world, gone.emitter));
+    OK(pbmpm_drain_destroy(good.world, gone.drain));
+    OK(pbmpm_force_destroy(good.world, gone.force));
     OK(pbmpm_material_destroy(good.world, gone.spare));
     OK(pbmpm_collider_destroy(good.world, gone.collider));
     OK(pbmpm_particles_remove(good.world, &gone.particle, 1));
@@ -85,6 +91,9 @@ static void test_stale_identifiers(void)
     refuse_parts(&gone, "a stale");
     create_material(good.world, PBMPM_LIQUID);
     create_collider(good.world, sphere_shape(0.2f, 0.2f, 0, 0.1f), true);
+    create_emitter(good.world, good.material);
+    create_drain(good.world, sphere_shape(0.2f, 0.2f, 0, 0.1f));
+    create_force(good.world);
     before = snapshot_take(good.world);
     refuse_parts(&gone, "a stale");
 }
@@ -106,10 +115,14 @@ static void test_random_identifiers(void)
         const world_call *row = &world_calls[random_next(&seed) % (uint32_t)world_call_count];
         target ids = good;
         if (generation == good.world.generation || generation == good.material.generation || generation == good.spare.generation ||
-            generation == good.collider.generation)
+            generation == good.collider.generation || generation == good.emitter.generation ||
+            generation == good.drain.generation || generation == good.force.generation)
             continue;
         ids.material = ids.spare = (pbmpm_material_id){index, generation};
         ids.collider = (pbmpm_collider_id){index, generation};
+        ids.emitter = (pbmpm_emitter_id){index, generation};
+        ids.drain = (pbmpm_drain_id){index, generation};
+        ids.force = (pbmpm_force_id){index, generation};
         ids.particle = (pbmpm_particle_id){index + before.count, generation}; /* beyond the slots ever used */
         if (!row->uses)
             ids.world = (pbmpm_world_id){index, generation};
