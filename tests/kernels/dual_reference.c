@@ -186,16 +186,15 @@ double bound_pressure(int n, const KernelMaterial *material, double ratio, doubl
 }
 
 /* Errors of X = Q B - pull C B, with M = I + s F F^T, B = M^-1, s = 2 shear / w. |M| = 1 + s s1^2 and |B| = 1 / (1 + s sn^2) from the singular
- * values of F. A cofactor has an error of k U |M|^(d-1) and the determinant one of k U |M|^d, so B has one of k U |M|^(d-1) / det M
- * (1 + |M| |B|): in 3D the square of the condition number. Beside that, errors of Q are multiplied by |B|, and those of R by
- * s |F| |B|. The denominator of the volume part is a sum of positive terms, so its error is relative, and what it divides is bounded by it. */
+ * values of F. A stable solution of X M = Q has an error of k U |M| |B| |X|: one condition number, and not its square, as an inverse from cofactors has
+ * in 3D. Beside that, errors of Q are multiplied by |B|, and those of R by s |F| |B|. The denominator of the volume part is a sum of positive terms, so its error is relative, and what it divides is bounded by it. */
 double bound_stress(int n, const KernelMaterial *material, const double F[9], const double D[9], const double Y[9], double error,
                     double turned)
 {
     enum { ROUNDINGS = 24 }; /* in a product of three matrices with 3 terms per entry, and a division */
     const double each = ROUNDINGS * UNIT_ROUNDOFF, w = (double)material->relaxation;
     const double s = 2.0 * (double)material->shear / w, dilation = (double)material->dilation / w;
-    double u[9], sigma[3], v[9], next[9] = {0}, C[9] = {0}, S[9], X = 0.0, Z = 0.0, D_size = 0.0, det = 1.0;
+    double u[9], sigma[3], v[9], next[9] = {0}, C[9] = {0}, S[9], X = 0.0, Z = 0.0, D_size = 0.0;
     matrix_decompose(n, F, u, sigma, v);
     const double norm = matrix_norm(n, F), M = 1.0 + s * sigma[0] * sigma[0], B = 1.0 / (1.0 + s * sigma[n - 1] * sigma[n - 1]);
     advance(n, D, F, next);
@@ -207,17 +206,15 @@ double bound_stress(int n, const KernelMaterial *material, const double F[9], co
     for (int a = 0; a < n; a++) /* Q B = Z B + s (R - F) F^T B, and R, F and B share their left singular vectors */
         X = fmax(X, s * fabs(sigma[a]) * (1.0 + fabs(sigma[a])) / (1.0 + s * sigma[a] * sigma[a]));
     X = sqrt(n) * X + Z;
-    for (int a = 0; a < n; a++) det *= 1.0 + s * sigma[a] * sigma[a];
-    const double B_error = each * pow(M, n - 1) / det * (1.0 + M * B);
     const double Q_error = error + each * (Z + s * norm * (sqrt(n) + norm)) + s * turned * norm;
-    const double X_error = B * Q_error + B_error * (Z + s * norm * (sqrt(n) + norm)) + each * X;
+    const double X_error = B * Q_error + each * M * B * X;
     const double C_error = pow(next_norm, n - 2) * n * bound_advance(n, F, D, error) * norm + each * pow(next_norm, n - 1) * norm;
     const double below = 1.0 + dilation * C_size * C_size / M; /* C B C^T is at least |C|^2 / |M| */
     const double excess = C_size * (X + D_size) + volume + 1.0;
     const double excess_error = C_size * (X_error + error) + (X + D_size) * C_error + each * (excess + pow(next_norm, n));
-    const double q_error = B_error * C_size * C_size + 2.0 * C_error * C_size * B;
+    const double q_error = each * M * B * B * C_size * C_size + 2.0 * C_error * C_size * B;
     const double pull = dilation * excess / below;
     const double pull_error = (dilation * excess_error + pull * dilation * q_error) / below + each * pull;
-    const double G_error = B_error * C_size + B * C_error;
+    const double G_error = each * M * B * B * C_size + B * C_error;
     return w * (X_error + pull_error * C_size * B + pull * G_error + error) + each * w * (X + Z + pull * C_size * B) + FLUSHED;
 }

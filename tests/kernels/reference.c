@@ -7,6 +7,7 @@
 #include "matrices.h"
 
 static const double RATIO_MIN = 0.05, RATIO_MAX = 1.2; /* of a liquid's J */
+static const double LOOSE_MAX = 1.15;                  /* where it bears no tension */
 
 /* ---- Transfers ---- */
 
@@ -216,22 +217,22 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
 }
 
-/* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.2, but 1 where
+/* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
-    double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), RATIO_MAX);
+    double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const RefStencil s = reference_stencil(grid->dimension, p);
         const double held = reference_compression(grid, p);
         double densest = 0.0;
         for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
-        const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), RATIO_MAX);
+        const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
         ratio += feedback * (fmin(1.0 / held, loose) - ratio);
         if (held > REF_CROWDED) nudge(step, p);
     }
-    p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
+    p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), LOOSE_MAX);
 }
 
 static void integrate_elastic(const RefStep *step, RefParticle *p, const double D[9])

@@ -1,0 +1,250 @@
+/* What all solvers share: parameters of a substep, and the rules that end its iterations. */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+#include <unity.h>
+
+#include "clock.h"
+#include "dual.h"
+#include "random.h"
+#include "solver.h"
+
+void setUp(void) {}
+void tearDown(void) {}
+
+static World *open_world(int dimension, float cell_size)
+{
+    pbmpm_world_def def = world_def_defaults();
+    World *world = NULL;
+    def.dimension = dimension;
+    def.cell_size = cell_size;
+    def.particle_capacity = 16;
+    def.thread_count = 1;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &world));
+    return world;
+}
+
+static const KernelMaterial *bound_material(World *world, const pbmpm_material_def *def, pbmpm_solver solver, float dt)
+{
+    pbmpm_material_id id;
+    TEST_ASSERT_NULL(material_problem(def));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, def, 1, &id));
+    world->record.solver = world->settings.solver = solver;
+    solver_bind(world, dt, false);
+    return &world->materials.kernel[id.index];
+}
+
+/* The value times what the product of a few roundings may add. */
+#define NEAR(expected, actual) TEST_ASSERT_DOUBLE_WITHIN(4e-7 * fabs(expected), expected, (double)(actual))
+
+static double random_size(Random *random, double low, double high) { return exp(random_in(random, log(low), log(high))); }
+
+/* ---- Moduli ---- */
+
+/* A modulus without unit is the square of twice the cells that its wave travels per substep. */
+static double twice_courant_squared(double modulus, double density, double dt, double cell)
+{
+    const double speed = sqrt(modulus / density), cells = speed * dt / cell;
+    return 4.0 * cells * cells;
+}
+
+static void test_moduli_of_liquids(void)
+{
+    Random random = {1};
+    for (int i = 0; i < 200; i++) {
+        const float cell = (float)random_size(&random, 1e-3, 10.0), dt = (float)random_size(&random, 1e-5, 0.1);
+        World *world = open_world(2 + i % 2, cell);
+        pbmpm_material_def def = material_defaults();
+        def.density = (float)random_size(&random, 1.0, 1e4);
+        def.bulk_modulus = (float)random_size(&random, 1.0, 1e9);
+        def.relaxation = (float)random_in(&random, 0.1, 1.9);
+        const KernelMaterial *material = bound_material(world, &def, PBMPM_SOLVER_DUAL, dt);
+        const double L = twice_courant_squared((double)def.bulk_modulus, (double)def.density, (double)dt, (double)cell);
+        NEAR(L, material->dilation);
+        NEAR(1.0 / L, material->inverse_stiffness);
+        NEAR(L / (double)def.bulk_modulus / 2.0, material->carried); /* a pressure K gives the multiplier L; half of it is carried over */
+        NEAR((double)def.bulk_modulus / L, material->pascal);
+        TEST_ASSERT_EQUAL_FLOAT(def.relaxation, material->relaxation);
+        world_destroy(world);
+    }
+}
+
+static void test_an_incompressible_liquid(void)
+{
+    World *world = open_world(3, 0.1f);
+    const pbmpm_material_def def = material_defaults();
+    const KernelMaterial *material = bound_material(world, &def, PBMPM_SOLVER_DUAL, 1.0f / 60);
+    TEST_ASSERT_TRUE(material->inverse_stiffness == 0.0f && material->dilation == FLT_MAX);
+    world_destroy(world);
+}
+
+/* Stiffest and softest, longest and shortest: no infinity, no NaN. */
+static void test_moduli_stay_finite(void)
+{
+    static const float cells[] = {1e-6f, 1e6f}, steps[] = {1e-20f, 10.0f}, moduli[] = {1e-3f, 1e15f}, densities[] = {1e-3f, 1e6f};
+    for (int i = 0; i < 32; i++) {
+        World *world = open_world(3, cells[i & 1]);
+        pbmpm_material_def def = material_defaults();
+        def.kind = i & 16 ? PBMPM_ELASTIC : PBMPM_LIQUID;
+        def.bulk_modulus = def.young_modulus = moduli[i >> 2 & 1];
+        def.density = densities[i >> 3 & 1];
+        def.poisson_ratio = 0.495f;
+        for (pbmpm_solver solver = PBMPM_SOLVER_DUAL; solver <= PBMPM_SOLVER_EXPLICIT; solver++) {
+            world->materials.generation[0] = 0;
+            const KernelMaterial *m = bound_material(world, &def, solver, steps[i >> 1 & 1]);
+            TEST_ASSERT_TRUE(isfinite(m->shear) && isfinite(m->dilation) && isfinite(m->carried) && isfinite(m->pascal));
+            TEST_ASSERT_TRUE(m->shear >= 0.0f && m->dilation >= 0.0f && m->carried >= 0.0f && m->pascal >= 0.0f && m->volume_feedback >= 0.0f);
+        }
+        world_destroy(world);
+    }
+}
+
+/* mu and lambda of E and nu; the dual solver has as much of them as it can hold. */
+static void test_moduli_of_elastic_bodies(void)
+{
+    Random random = {2};
+    for (int i = 0; i < 200; i++) {
+        const float cell = (float)random_size(&random, 1e-3, 10.0), dt = (float)random_size(&random, 1e-4, 0.1);
+        World *world = open_world(2 + i % 2, cell);
+        pbmpm_material_def def = material_defaults();
+        def.kind = PBMPM_ELASTIC;
+        def.density = (float)random_size(&random, 1.0, 1e4);
+        def.young_modulus = (float)random_size(&random, 1.0, 1e9);
+        def.poisson_ratio = (float)random_in(&random, 0.0, 0.49);
+        world->settings.iterations = 1 + i % 40;
+        const pbmpm_solver solver = i % 3 ? PBMPM_SOLVER_PRIMAL : PBMPM_SOLVER_DUAL;
+        const KernelMaterial *material = bound_material(world, &def, solver, dt);
+        const double nu = (double)def.poisson_ratio, E = (double)def.young_modulus, rho = (double)def.density;
+        const double share = solver == PBMPM_SOLVER_DUAL ? dual_stiffness_cap(world, &def, (double)dt) : 1.0;
+        TEST_ASSERT_TRUE(share > 0.0 && share <= 1.0);
+        NEAR(share * twice_courant_squared(E / (2.0 * (1.0 + nu)), rho, (double)dt, (double)cell), material->shear);
+        NEAR(share * twice_courant_squared(E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), rho, (double)dt, (double)cell), material->dilation);
+        world_destroy(world);
+    }
+}
+
+/* The share of a stiff body goes with the square of the iterations and of 1/dt, so that what it holds does not depend on dt; a soft one is held whole. */
+static void test_what_the_dual_solver_holds(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def def = material_defaults();
+    def.kind = PBMPM_ELASTIC;
+    def.young_modulus = 1e9f;
+    world->settings.iterations = 50;
+    const double once = dual_stiffness_share(world, &def, 1.0 / 60);
+    NEAR(4.0 * once, dual_stiffness_share(world, &def, 1.0 / 120));
+    world->settings.iterations = 100;
+    TEST_ASSERT_TRUE(dual_stiffness_share(world, &def, 1.0 / 60) > 3.9 * once && once < 1.0);
+    def.young_modulus = 1.0f;
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_share(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
+/* ---- Volume feedback ---- */
+
+/* k substeps of 1/60 s / k leave as much of an error as one of 1/60 s; a longer one takes no more. */
+static void test_volume_feedback_is_a_share_per_second(void)
+{
+    for (float share = 0.0f; share <= 1.0f; share += 0.125f)
+        for (int parts = 1; parts <= 64; parts *= 4) {
+            World *world = open_world(2, 0.1f);
+            pbmpm_material_def def = material_defaults();
+            def.volume_feedback = share;
+            const double left = 1.0 - (double)bound_material(world, &def, PBMPM_SOLVER_DUAL, 1.0f / (60.0f * (float)parts))->volume_feedback;
+            TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0 - (double)share, pow(left, parts));
+            solver_bind(world, 0.5f, false);
+            TEST_ASSERT_FLOAT_WITHIN(1e-6f, share, world->materials.kernel[0].volume_feedback);
+            world_destroy(world);
+        }
+}
+
+/* ---- Stop rules ---- */
+
+typedef struct Rule {
+    int iterations, used;
+    float target, budget;
+    double error;
+    bool late, goes_on;
+    pbmpm_stop stop;
+} Rule;
+
+static void test_stop_rules(void)
+{
+    static const Rule rules[] = {
+        {10, 9, 0.0f, 0.0f, 0.0, true, true, PBMPM_STOP_ITERATIONS},   /* no other rule is set */
+        {10, 10, 0.0f, 0.0f, 1.0, false, false, PBMPM_STOP_ITERATIONS},
+        {10, 11, 0.0f, 0.0f, 1.0, false, false, PBMPM_STOP_ITERATIONS}, /* the last iteration may have been several */
+        {10, 1, 0.01f, 0.0f, 0.02, false, true, PBMPM_STOP_ITERATIONS},
+        {10, 1, 0.01f, 0.0f, 0.005, false, false, PBMPM_STOP_ERROR},
+        {10, 1, 0.01f, 1e6f, 0.005, false, false, PBMPM_STOP_ERROR},
+        {10, 1, 0.0f, 1.0f, 1.0, true, false, PBMPM_STOP_TIME},
+        {10, 1, 0.01f, 1.0f, 0.02, true, false, PBMPM_STOP_TIME},
+        {10, 1, 0.01f, 1.0f, 0.02, false, true, PBMPM_STOP_ITERATIONS},
+        {10, 10, 0.01f, 1.0f, 0.005, true, false, PBMPM_STOP_ITERATIONS}, /* they were all done */
+        {10, 1, 0.01f, 1.0f, NAN, false, true, PBMPM_STOP_ITERATIONS},
+    };
+    World *world = open_world(2, 0.1f);
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) {
+        const Rule *rule = &rules[i];
+        world->settings.iterations = rule->iterations;
+        world->settings.target_error = rule->target;
+        world->settings.time_budget_ms = rule->budget;
+        world->record.iterations_used = (uint32_t)rule->used;
+        world->record.deadline_ms = now_ms() + (rule->late ? -1.0 : 1e9);
+        TEST_ASSERT_EQUAL_INT_MESSAGE(rule->goes_on, solver_may_go_on(world, rule->error), "goes on");
+        TEST_ASSERT_EQUAL_INT_MESSAGE(rule->stop, world->record.stop, "what ended the iterations");
+        TEST_ASSERT_EQUAL_MEMORY(&rule->error, &world->record.predicted_error, sizeof rule->error);
+    }
+    world_destroy(world);
+}
+
+/* ---- Pressures of particles ---- */
+
+/* They exist once asked for, start at 0, and move with their particles. */
+static void test_pressures_follow_their_particles(void)
+{
+    World *world = open_world(3, 0.1f);
+    Particles *p = &world->particles;
+    const uint32_t order[] = {2, 0, 3, 1};
+    for (uint32_t i = 0; i < 3; i++) particles_append(p, &(NewParticle){.mass = 1.0f}, i + 1);
+    TEST_ASSERT_NULL(p->pressure);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_pressure(p, &world->memory));
+    const uint64_t used = world->memory.used;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_pressure(p, &world->memory));
+    TEST_ASSERT_EQUAL_UINT64(used, world->memory.used);
+    for (uint32_t i = 0; i < 3; i++) {
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, p->pressure[i]);
+        p->pressure[i] = (float)(i + 1);
+    }
+    p->pressure[3] = 77.0f; /* what an earlier particle left */
+    particles_append(p, &(NewParticle){.mass = 1.0f}, 4);
+    TEST_ASSERT_EQUAL_FLOAT(0.0f, p->pressure[3]);
+    particles_reorder(p, order, world->pool);
+    const float turned[] = {3.0f, 1.0f, 0.0f, 2.0f};
+    TEST_ASSERT_EQUAL_FLOAT_ARRAY(turned, p->pressure, 4);
+    p->status[1] = K_REMOVED;
+    particles_compact(p);
+    const float kept[] = {3.0f, 0.0f, 2.0f};
+    TEST_ASSERT_EQUAL_FLOAT_ARRAY(kept, p->pressure, 3);
+    for (uint32_t i = 0; i < 12; i++) /* spare arrays do not overlap with each other or with what particles have */
+        for (uint32_t k = 0; k < i; k++) {
+            const float *a = particles_spare(p, i < 9 ? CLASS_MATRIX : CLASS_VECTOR, (int)(i < 9 ? i : i - 9));
+            const float *b = particles_spare(p, k < 9 ? CLASS_MATRIX : CLASS_VECTOR, (int)(k < 9 ? k : k - 9));
+            TEST_ASSERT_TRUE(a + 16 + K_MAX_GANG <= b || b + 16 + K_MAX_GANG <= a);
+        }
+    world_destroy(world);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_moduli_of_liquids);
+    RUN_TEST(test_an_incompressible_liquid);
+    RUN_TEST(test_moduli_stay_finite);
+    RUN_TEST(test_moduli_of_elastic_bodies);
+    RUN_TEST(test_what_the_dual_solver_holds);
+    RUN_TEST(test_volume_feedback_is_a_share_per_second);
+    RUN_TEST(test_stop_rules);
+    RUN_TEST(test_pressures_follow_their_particles);
+    return UNITY_END();
+}
