@@ -338,7 +338,7 @@ pbmpm_result forces_apply(World *world, float dt)
     forces->on = job.on;
     if (job.on == 0) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    const bool keep = world->args.node_base && world->settings.flip > 0.0f;
+    const bool keep = world->args.node_base != NULL;
     const pbmpm_result result = take_memory(world, job.on, floats, keep);
     if (result != PBMPM_OK) return result;
     if (keep) {

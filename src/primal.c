@@ -382,15 +382,16 @@ static BodySum *body_of(const Primal *p, int32_t block)
     return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
 }
 
-/* Sums over the nodes of a block, for sum_bodies(). */
+/* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
 static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    const float *pull = p->world->args.gravity;
+    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
         sum[3] += mass;
         for (size_t c = 0; c < 3; c++) {
-            const double u = (double)p->best[i + c], g = (double)pull[c], free = (double)p->base[i + c];
+            const double u = (double)p->best[i + c], free = (double)p->base[i + c];
+            const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
             sum[0] += 0.5 * mass * u * u - mass * g * u;
             sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
             sum[4 + c] += mass * free;

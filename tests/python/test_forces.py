@@ -15,10 +15,10 @@ SOLVERS = [Solver.PAPER, Solver.DUAL, Solver.PRIMAL, Solver.EXPLICIT]
 
 
 def cloud(dimension: int, count: int, spread: float = 1.0, **settings: object) -> tuple[pbmpm.World, np.ndarray]:
-    """A world with single particles at least five cells apart, so that no node is shared; and their identifiers. Elastic ones: a lone
-    particle keeps its shape, and no pressure moves it."""
+    """A world with single particles at least five cells apart, so that no node is shared; and their identifiers. Soft elastic ones: no pressure
+    moves them, and sound travels less than a cell per step, as the explicit solver needs."""
     world = pbmpm.World(dimension, DX, capacity=256, **settings)
-    matter = world.add_material(pbmpm.Elastic(relaxation=1.0))
+    matter = world.add_material(pbmpm.Elastic(relaxation=1.0, young_modulus=0.01))
     rng = np.random.default_rng(7)
     places: list[np.ndarray] = []
     while len(places) < count:
