@@ -216,6 +216,25 @@ def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figur
     assert figure.findall(again.stdout) == figure.findall(done.stdout)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="needs signals")
+def test_an_interrupt_ends_the_command_and_its_processes(tmp_path: Path) -> None:
+    """Without waiting for runs that are queued: the whole of H16 takes far longer than the time limit."""
+    code = (
+        "import os, signal, sys, threading\n"
+        "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+        "from pbmpm.app import cli\n"
+        "sys.argv = ['pbmpm', 'stability', 'H16', '--processes', '2']\n"
+        "if __name__ == '__main__':\n"
+        "    threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()\n"
+        "    cli.main()\n"
+    )
+    script = tmp_path / "interrupted.py"
+    script.write_text(code, encoding="utf-8")
+    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 130, done.stderr
+    assert "Traceback" not in done.stderr
+
+
 def test_the_explicit_solver_may_fail() -> None:
     done = command("H04", "--solvers", "explicit", "--dims", "2", "--rates", "15", "--variant", "point")
     assert done.returncode == 0

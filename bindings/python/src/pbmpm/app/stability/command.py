@@ -40,8 +40,8 @@ def stability(
 ) -> None:
     """Run the hard CASEs (H01, H03, ...; default: all) and print what passes and what does not.
 
-    Each case runs with every solver, material and dimension at every rate and iteration count; that takes long, so see
-    --quick. For each cell that failed the figure that decided it is printed, with the command that runs it again.
+    Each case runs with every solver, material and dimension at every rate and iteration count; that takes an hour or
+    more, so see --quick. For each cell that failed the figure that decided it is printed, with the command that runs it again.
 
     Exit code 1 when a setting fails, other than for a reason that is known or with the explicit solver, which is there
     to be compared with.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import multiprocessing
+import signal
 import time
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
@@ -50,12 +51,19 @@ def _outcomes(runs: Sequence[Run], order: list[int], processes: int) -> Iterator
     lost: list[int] = []
     with _pool(processes) as pool:
         futures = {pool.submit(run_one, runs[index]): index for index in order}
-        for future in as_completed(futures):
-            outcome = _result(future)
-            if outcome is None:
-                lost.append(futures[future])
-            else:
-                yield futures[future], outcome
+        try:
+            for future in as_completed(futures):
+                outcome = _result(future)
+                if outcome is None:
+                    lost.append(futures[future])
+                else:
+                    yield futures[future], outcome
+        except BaseException:
+            # Leaving the block waits for all runs that are queued or under way.
+            pool.shutdown(wait=False, cancel_futures=True)
+            for process in multiprocessing.active_children():
+                process.terminate()
+            raise
     # A process that died took the pool and all waiting runs with it. Each of them gets a process for itself: the ones
     # that kill it are found, the others are done.
     for index in lost:
@@ -73,4 +81,10 @@ def _result(future: Future[Outcome]) -> Outcome | None:
 
 def _pool(processes: int) -> ProcessPoolExecutor:
     # Not forked: the library's threads do not survive a fork.
-    return ProcessPoolExecutor(processes, mp_context=multiprocessing.get_context("spawn"))
+    return ProcessPoolExecutor(
+        processes, mp_context=multiprocessing.get_context("spawn"), initializer=_leave_interrupts_to_the_parent
+    )
+
+
+def _leave_interrupts_to_the_parent() -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
