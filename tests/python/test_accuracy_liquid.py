@@ -17,7 +17,7 @@ from pbmpm.app.accuracy.liquid.drop import EllipticalDrop, exact_axis
 from pbmpm.app.accuracy.liquid.invariance import Invariance
 from pbmpm.app.accuracy.liquid.obstacle import ObstacleDamBreak, measured_heights
 from pbmpm.app.accuracy.liquid.vortex import TaylorGreen
-from pbmpm.app.accuracy.liquid.wave import StandingWave
+from pbmpm.app.accuracy.liquid.wave import OffGridWave, StandingWave
 
 
 def test_dam_break_reaches_the_experiment_at_a_moderate_setting() -> None:
@@ -77,7 +77,8 @@ def test_gauges_of_the_tank_are_in_the_order_in_which_the_wave_reaches_them() ->
 
 
 def test_period_of_the_wave() -> None:
-    assert 1 / StandingWave().frequency == pytest.approx(1.668, abs=5e-4)
+    assert 1 / OffGridWave().frequency == pytest.approx(1.668, abs=5e-4)
+    assert 1 / StandingWave().frequency == pytest.approx(1.719, abs=5e-4)
 
 
 # Runs
@@ -93,13 +94,19 @@ def test_period_of_the_wave() -> None:
             {"energy_lost": 0.10, "lost_to_iterations": 0.10},
             id="lively vortices",
         ),
+        pytest.param(
+            StandingWave(), Setting("dual", 60.0, 20, 12), {"period_error": 0.01, "damping": 0.02}, id="standing wave"
+        ),
+        pytest.param(Column(), Setting("dual", 60.0, 50, 32), {"height_error": 0.03}, id="column, 60 Hz x 50"),
+        pytest.param(Column(), Setting("dual", 60.0, 100, 32), {"height_error": 0.005}, id="column, 60 Hz x 100"),
+        pytest.param(Column(), Setting("dual", 240.0, 20, 32), {"height_error": 0.01}, id="column, 240 Hz x 20"),
         pytest.param(Couette(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="couette"),
         pytest.param(Poiseuille(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="poiseuille"),
-        pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 6), {"gauge_mae": 0.12}, id="dam break on a box"),
+        pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 8), {"gauge_mae": 0.12}, id="dam break on a box"),
         pytest.param(
             DamBreak(stability_seconds=2.0),
             Setting("dual", 60.0, 5, 16),
-            {"front_rms": 0.08, "front_rms_shifted": 0.04},
+            {"front_rms_shifted": 0.04, "height_rms": 0.1},
             id="dam break",
         ),
         pytest.param(
@@ -118,6 +125,11 @@ def test_case_reaches_its_truth(case: Case, setting: Setting, limits: dict[str, 
     for name, limit in limits.items():
         error = measured.errors[name]
         assert error is not None and error <= limit, f"{name}: {error} is above {limit}"
+
+
+def test_the_papers_column_is_softer() -> None:
+    """Where the dual solver's height is right to half a percent, 60 Hz x 100."""
+    assert Column().measure(Setting("paper", 60.0, 100, 32)).errors["height_error"] > 0.06
 
 
 def test_the_papers_iterations_stop_the_vortices() -> None:

@@ -182,7 +182,7 @@ class Case(ABC):
     notes: str = ""
     """Tolerances, timing, and what was left out."""
     panels: tuple[CurvePanel, ...] = ()
-    converged_iterations = 200
+    converged_iterations = 100
 
     @abstractmethod
     def sweep(self, quick: bool) -> list[Setting]:

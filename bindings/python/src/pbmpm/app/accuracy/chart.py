@@ -73,6 +73,9 @@ def _curve_panel(axes: Axes, report: CaseReport, panel: CurvePanel) -> None:
         if curve is not None:
             axes.plot(curve.times, curve.values, color=colour, label=report.settings[index].text())
     axes.plot(panel.truth.times, panel.truth.values, "ko", markersize=4, label=panel.truth_label)
+    first, last = panel.truth.times[0], panel.truth.times[-1]
+    margin = 0.1 * (last - first)
+    axes.set_xlim(first - margin, last + margin)
     axes.set(xlabel=panel.x_label, ylabel=panel.y_label)
     axes.grid(True, linewidth=0.3)
     axes.legend(fontsize=8)

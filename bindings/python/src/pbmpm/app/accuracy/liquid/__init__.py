@@ -11,7 +11,7 @@ from .invariance import Invariance
 from .obstacle import ObstacleDamBreak
 from .prediction import ColumnPrediction, DamBreakPrediction
 from .vortex import TaylorGreen
-from .wave import StandingWave
+from .wave import OffGridWave, StandingWave
 
 LIQUID_CASES = (
     DamBreak,
@@ -19,6 +19,7 @@ LIQUID_CASES = (
     Column,
     EllipticalDrop,
     StandingWave,
+    OffGridWave,
     TaylorGreen,
     Couette,
     Poiseuille,

@@ -58,7 +58,7 @@ class DamBreak(Case):
     )
     error_kinds = (
         ErrorMeasure("front_rms_shifted", "model", "%", "RMS of (Z - Z_exp) / Z_exp, best time shift within 0.5", 0.04),
-        ErrorMeasure("front_rms", "model", "%", "the same without a shift; luck at soft settings", 0.08),
+        ErrorMeasure("front_rms", "model", "%", "the same without a shift: a right front is ahead; a soft one may meet it by luck"),
         ErrorMeasure("height_rms", "model", "1", "RMS of H - H_exp", 0.10),
     )
     length_name = "width of the column"
@@ -84,9 +84,9 @@ class DamBreak(Case):
             return settings_of(("paper", "dual"), (30, 60, 240), (1, 5, 20), (16,), most_work=240 * 10)
         explicit = settings_of(("explicit",), (480, 960, 1920, 3840), (1,), (16,))
         variants = ("paper", "dual", "dual-cells", "dual-cells-flip0.9")
-        fine = settings_of(("paper", "dual"), (120, 240, 480), (5, 20), (32,), most_work=240 * 23)
-        rates, iterations = (30, 60, 120, 240, 480), (1, 2, 5, 10, 20, 50)
-        return settings_of(variants, rates, iterations, (16,), most_work=480 * 23) + fine + explicit
+        fine = settings_of(("paper", "dual"), (60, 120, 240), (5, 20), (32,), most_work=240 * 8)
+        rates, iterations = (30, 60, 120, 240), (1, 2, 5, 10, 20, 50)
+        return settings_of(variants, rates, iterations, (16,), most_work=240 * 13) + fine + explicit
 
     def scene(self, setting: Setting, tank: float = SHORT_TANK) -> Scene:
         """The scene with a tank of a length given in column widths."""

@@ -115,7 +115,7 @@ class EllipticalDrop(Case):
         if quick:
             return settings_of(("paper", "dual", "dual-cells-flip0.9"), (30, 60), (1, 5, 20), (16,))
         variants = ("paper", "dual", "dual-flip0.9", "dual-cells", "dual-cells-flip0.9")
-        coarse = settings_of(variants, (30, 60, 120, 240, 480), (1, 2, 5, 10, 20, 50), (16,), most_work=480 * 23)
+        coarse = settings_of(variants, (30, 60, 120, 240), (1, 2, 5, 10, 20, 50), (16,), most_work=240 * 23)
         fine = settings_of(("paper", "dual", "dual-cells-flip0.9"), (60, 120, 240), (5, 20), (32,))
         return coarse + fine + settings_of(("explicit",), (120, 240, 480, 960, 1920), (1,), (16,))
 

@@ -56,7 +56,10 @@ class ObstacleDamBreak(Case):
         ErrorMeasure("first_second", "model", "%", "as the first, up to 1.1 s: before the wave is back from the wall"),
     )
     length_name = "depth of the water"
-    notes = "A gauge shows the volume of the water within a cell of it, over the area. 43,000 particles at 11 cells."
+    notes = (
+        "A gauge shows the volume of the water within a cell of it, over the area. 43,000 particles at 11 cells. The"
+        " converged solution is left out: it would take longer than all the rest."
+    )
 
     @property
     def length(self) -> float:  # type: ignore[override]
@@ -72,9 +75,11 @@ class ObstacleDamBreak(Case):
     def sweep(self, quick: bool) -> list[Setting]:
         if quick:
             return settings_of(("paper", "dual"), (60,), (5, 10), (6,))
-        variants = ("paper", "dual", "dual-cells")
-        coarse = settings_of(variants, (30, 60, 120, 240), (1, 5, 10, 20), (8,), most_work=240 * 8)
-        return coarse + settings_of(("paper", "dual"), (60, 120), (10,), (11,)) + settings_of(("explicit",), (480, 960), (1,), (8,))
+        coarse = settings_of(("paper", "dual", "dual-cells"), (30, 60, 120), (1, 5, 10, 20), (8,), most_work=60 * 13)
+        return coarse + settings_of(("paper", "dual"), (60,), (10,), (11,)) + settings_of(("explicit",), (480, 960), (1,), (8,))
+
+    def converged(self, setting: Setting) -> Setting | None:
+        return None
 
     def scene(self, setting: Setting) -> Scene:
         """The tank, the box and the water."""
@@ -110,13 +115,8 @@ class ObstacleDamBreak(Case):
                 "gauge_mae_own": float(np.mean([np.mean(np.abs(error)) / truth.values.max() for error, truth in found])),
                 "first_second": float(np.mean([np.abs(error[early]) for error, _ in found])) / DEPTH,
             },
-            observed=tuple(np.concatenate([curves[place].at(truth.times) for place, truth in measured_heights().items()]) / DEPTH),
             curves={f"x{place:.3f}": curve for place, curve in curves.items()},
         )
-
-    def distance(self, observed: tuple[float, ...], other: tuple[float, ...]) -> float:
-        """Mean difference, as the headline."""
-        return float(np.mean(np.abs(np.asarray(observed) - np.asarray(other))))
 
     def _heights(self, simulation: Simulation, setting: Setting) -> list[float]:
         """What the gauges show [m]."""

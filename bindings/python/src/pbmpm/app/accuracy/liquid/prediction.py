@@ -29,7 +29,7 @@ class _Prediction(Case):
     )
     length = 1.0
     notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
-    seconds = 1.0
+    seconds = 0.8
 
     def sweep(self, quick: bool) -> list[Setting]:
         if quick:
