@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._convert import Rotation, Vector, assign, initialised, quaternion, shortest, sized, vector
+from ._convert import Rotation, Vector, assign, initialised, plain, quaternion, shortest, sized, vector
 from ._ffi import ffi
 from ._library import lib
-from .shapes import Shape, from_c, to_c
+from .shapes import Baked, Shape, from_c, to_c
+from .solids import Impulse, LoadedSolid, impulse_from_c
 
 if TYPE_CHECKING:
     from .world import World
@@ -26,7 +27,12 @@ class Friction(enum.Enum):
 
 
 def definition(
-    shape: Shape, dimension: int, friction: Friction, friction_coefficient: float | None, kinematic: bool
+    shape: Shape,
+    dimension: int,
+    friction: Friction,
+    friction_coefficient: float | None,
+    kinematic: bool,
+    measures_impulse: bool = False,
 ) -> Any:
     """The C structure of a collider."""
     out = initialised("pbmpm_collider_def")
@@ -34,6 +40,7 @@ def definition(
     if friction_coefficient is not None:
         assign(out, "friction_coefficient", friction_coefficient)
     out.kinematic = bool(kinematic)
+    out.measures_impulse = bool(measures_impulse)
     out.shape = to_c(shape, dimension)[0]
     return out
 
@@ -56,7 +63,11 @@ class Collider:
     @property
     def shape(self) -> Shape:
         """The shape with its current pose; the rotation is a quaternion."""
-        return from_c(self._definition().shape, self._world.dimension)
+        found, dimension = self._definition().shape, self._world.dimension
+        if found.kind == ffi.integer_const("PBMPM_BAKED"):
+            solid = LoadedSolid(self._world, found.baked)
+            return Baked(plain(found.position)[:dimension], solid, plain(found.rotation))
+        return from_c(found, dimension)
 
     @property
     def friction(self) -> Friction:
@@ -71,6 +82,18 @@ class Collider:
     def kinematic(self) -> bool:
         """Whether `move()` may move it."""
         return bool(self._definition().kinematic)
+
+    @property
+    def measures_impulse(self) -> bool:
+        """Whether `impulse` tells what matter does to it."""
+        return bool(self._definition().measures_impulse)
+
+    @property
+    def impulse(self) -> Impulse:
+        """What matter gave to the obstacle in the last step."""
+        out = sized("pbmpm_impulse")
+        self._world._call(lib.pbmpm_collider_impulse, self._id, out)
+        return impulse_from_c(out, self._world.dimension)
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Sets the pose that a kinematic obstacle shall have at the end of the next step; its velocity follows.

@@ -8,6 +8,7 @@ from typing import Any
 
 from ._convert import Rotation, Vector, assign, assign_vector, initialised, plain, quaternion, shortest
 from ._ffi import ffi
+from .solids import LoadedSolid
 
 
 @dataclass(frozen=True)
@@ -70,20 +71,36 @@ class Capsule:
     rotation: Rotation = 0.0
 
 
-Shape = Plane | Box | Sphere | Capsule
+@dataclass(frozen=True)
+class Baked:
+    """A solid of any form, see `bake_mesh()`, `bake_hull()` and `bake_heights()`.
+
+    Attributes:
+        position: where the origin of its mesh stands [m].
+        solid: what `World.load_solid()` of the same world returned; many shapes may share it.
+        rotation: angle [rad] in 2D, or a quaternion (x, y, z, w).
+    """
+
+    position: Vector
+    solid: LoadedSolid
+    rotation: Rotation = 0.0
+
+
+Shape = Plane | Box | Sphere | Capsule | Baked
 
 _KINDS: dict[type, int] = {
     Plane: ffi.integer_const("PBMPM_PLANE"),
     Box: ffi.integer_const("PBMPM_BOX"),
     Sphere: ffi.integer_const("PBMPM_SPHERE"),
     Capsule: ffi.integer_const("PBMPM_CAPSULE"),
+    Baked: ffi.integer_const("PBMPM_BAKED"),
 }
 
 
 def to_c(shape: Shape, dimension: int) -> Any:
     """The C structure of a shape."""
     if type(shape) not in _KINDS:
-        raise TypeError(f"a Plane, Box, Sphere or Capsule is needed, not {type(shape).__name__}")
+        raise TypeError(f"a Plane, Box, Sphere, Capsule or Baked is needed, not {type(shape).__name__}")
     out = initialised("pbmpm_shape")
     out.kind = _KINDS[type(shape)]
     assign_vector(out, "position", shape.position, dimension)
@@ -96,6 +113,8 @@ def to_c(shape: Shape, dimension: int) -> Any:
     elif isinstance(shape, Capsule):
         out.half_extents[0] = float(shape.half_length)
         assign(out, "radius", shape.radius)
+    elif isinstance(shape, Baked):
+        out.baked = shape.solid._id
     else:
         assign(out, "radius", shape.radius)
     return out
