@@ -162,6 +162,13 @@ def _summary(report: dict[str, Any]) -> str:
         f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
         f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",
     ]
+    if report["effects"]:
+        lines.append(f"effects: {', '.join(report['effects'])}")
+    if "emitted" in report:
+        lines.append(
+            f"emitted {report['emitted']} particles ({report['emitted_mass']:.4g} kg), refused {report['refused']};"
+            f" drained {report['drained']} ({report['drained_mass']:.4g} kg), killed {report['killed']}"
+        )
     if rate is not None:
         machine = report["machine"]
         lines.append(

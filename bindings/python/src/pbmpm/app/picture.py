@@ -39,15 +39,15 @@ class Look:
 
 def look_of(scene: Scene, settings: str) -> Look:
     """Derives the look of a scene; the ramp ends at the speed of a fall over 70 % of the highest fill."""
-    diameter = scene.cell_size / max(fill.particles_per_axis for fill in scene.fills)
+    diameter = scene.cell_size / max(fill.particles_per_axis for fill in scene.sources)
     return Look(scene, settings, diameter, _typical_speed(scene))
 
 
 def _typical_speed(scene: Scene) -> float:
     gravity = float(np.linalg.norm(scene.gravity))
-    sizes = [2 * max(getattr(fill.shape, "half_extents", [getattr(fill.shape, "radius", 0.0)])) for fill in scene.fills]
+    sizes = [2 * max(getattr(fill.shape, "half_extents", [getattr(fill.shape, "radius", 0.0)])) for fill in scene.sources]
     falling = (2 * gravity * 0.7 * max(sizes)) ** 0.5
-    thrown = max(float(np.linalg.norm(fill.velocity or [0.0])) for fill in scene.fills)
+    thrown = max(float(np.linalg.norm(fill.velocity or [0.0])) for fill in scene.sources)
     return max(falling, thrown, 0.1 * scene.cell_size)
 
 

@@ -70,7 +70,7 @@ def _bounds(frame: Frame, look: Look) -> tuple[np.ndarray, np.ndarray]:
     domain = look.scene.domain
     if domain is not None:
         return np.array(domain.min), np.array(domain.max)
-    corners = [_reach_of(fill.shape) for fill in look.scene.fills]
+    corners = [_reach_of(fill.shape) for fill in look.scene.sources]
     corners += [_reach_of(c.shape) for c in look.scene.colliders if c.shape.kind != "plane"]
     low = np.min([low for low, _ in corners] + [frame.positions.min(axis=0)] * bool(len(frame.positions)), axis=0)
     high = np.max([high for _, high in corners] + [frame.positions.max(axis=0)] * bool(len(frame.positions)), axis=0)

@@ -167,6 +167,85 @@ class ColliderPart(_Part):
     motion: MotionPart | None = None
 
 
+class _TimedPart(_Part):
+    """Something that works from ``start`` until ``stop`` [s]; without ``stop`` for ever."""
+
+    start: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    stop: Positive | None = None
+
+    @model_validator(mode="after")
+    def _stops_after_start(self) -> _TimedPart:
+        if self.stop is not None and self.stop <= self.start:
+            raise ValueError("stop must be after start")
+        return self
+
+    def works_at(self, time: float) -> bool:
+        """Whether it works in the step that begins at ``time``; a rounding error is forgiven."""
+        early = time + 1e-9
+        return early >= self.start and (self.stop is None or early < self.stop)
+
+
+class EmitterPart(_TimedPart):
+    """A source of particles; with ``motion`` it moves. Fields and defaults are those of ``pbmpm_emitter_def``."""
+
+    shape: SolidPart
+    material: str
+    rate: Annotated[float, Field(ge=0, le=1e12)]
+    region: Literal["volume", "disc"] = "volume"
+    speed: Annotated[float, Field(ge=0, le=1e6)] = 0.0
+    direction: Vector | None = None
+    """Default: down the second axis."""
+    spread: Annotated[float, Field(ge=0, le=math.pi)] = 0.0
+    particles_per_axis: Annotated[float, Field(ge=0.25, le=16)] = 2.0
+    fill_limit: Annotated[float, Field(ge=0.1, le=100)] = 1.2
+    budget: Annotated[int, Field(ge=0, lt=2**64)] = 0
+    """Particles; 0: no limit."""
+    seed: Annotated[int, Field(ge=0, lt=2**32)] = 1
+    motion: MotionPart | None = None
+
+    @property
+    def velocity(self) -> list[float]:
+        """As far as pictures care: how fast."""
+        return [self.speed]
+
+
+class DrainPart(_TimedPart):
+    """A shape that takes particles out."""
+
+    shape: ObstaclePart
+    material: str | None = None
+    """Only these; default all."""
+
+
+class KillBoundsPart(_Part):
+    """The box that particles live in; those outside are taken out."""
+
+    min: Vector
+    max: Vector
+
+
+class ForcePart(_TimedPart):
+    """A force besides gravity. Fields and defaults are those of ``pbmpm_force_def``; without ``shape`` it acts everywhere."""
+
+    kind: Literal["uniform", "radial", "vortex", "drag", "grab"]
+    strength: Annotated[float, Field(ge=-1e9, le=1e9)] = 1.0
+    shape: ObstaclePart | None = None
+    falloff: Literal["none", "linear", "smooth", "inverse_square"] = "none"
+    range: Annotated[float, Field(ge=0, le=1e9)] = 0.0
+    direction: Vector | None = None
+    """Default: the second axis."""
+    velocity: Vector | None = None
+    spin: Annotated[float, Field(ge=-1e6, le=1e6)] = 0.0
+
+    @model_validator(mode="after")
+    def _makes_sense(self) -> ForcePart:
+        if self.kind == "drag" and self.strength < 0:
+            raise ValueError("the strength of a drag must not be negative")
+        if self.falloff == "inverse_square" and self.range == 0:
+            raise ValueError("range: an inverse square needs one greater than 0")
+        return self
+
+
 class CameraPart(_Part):
     """A perspective camera for pictures of 3D scenes."""
 
@@ -214,10 +293,32 @@ class Scene(_Part):
     solver: SolverPart = SolverPart()
     max_displacement: Annotated[float, Field(ge=0.1, le=64)] = 32.0
     materials: Annotated[dict[str, MaterialPart], Field(min_length=1)]
-    fills: Annotated[list[FillPart], Field(min_length=1)]
+    fills: list[FillPart] = []
     colliders: list[ColliderPart] = []
+    emitters: list[EmitterPart] = []
+    drains: list[DrainPart] = []
+    kill_bounds: KillBoundsPart | None = None
+    forces: list[ForcePart] = []
+    capacity: Annotated[int, Field(ge=1, le=2**28)] | None = None
+    """Particles that there is room for; default: what fills and emitters can bring."""
     pictures: PicturesPart = PicturesPart()
     notes: list[str] = []
+
+    @property
+    def sources(self) -> list[FillPart | EmitterPart]:
+        """All that brings particles."""
+        return [*self.fills, *self.emitters]
+
+    def effects(self) -> list[str]:
+        """What is in the scene besides liquids, elastic bodies and obstacles that stand still."""
+        parts = {
+            "moving obstacles": any(collider.motion is not None for collider in self.colliders),
+            "emitters": self.emitters,
+            "drains": self.drains,
+            "kill bounds": self.kill_bounds is not None,
+            "forces": self.forces,
+        }
+        return [name for name, there in parts.items() if there]
 
     def picture_times(self, seconds: float) -> list[float]:
         """The scene's own times up to ``seconds``, or evenly spread ones when it names none."""
@@ -297,18 +398,40 @@ def _holds(data: Any, step: int | str) -> bool:
 def _cross_check(scene: Scene) -> list[str]:
     """What no single field shows: vector lengths, references, domain size."""
     problems = list(_vector_problems(scene, scene.dimension, ""))
-    for index, fill in enumerate(scene.fills):
-        if fill.material not in scene.materials:
-            known = ", ".join(sorted(scene.materials))
-            problems.append(f"fills[{index}].material: no material is called '{fill.material}' (there are: {known})")
-    for index, collider in enumerate(scene.colliders):
-        if collider.shape.kind == "plane" and math.hypot(*collider.shape.normal) < 1e-6:
-            problems.append(f"colliders[{index}].shape.normal: must not be zero")
+    if not scene.sources:
+        problems.append("fills: there is nothing in the scene: it needs a fill or an emitter")
+    problems += _material_problems(scene)
+    for name in ("colliders", "drains", "forces"):
+        for index, part in enumerate(getattr(scene, name)):
+            if part.shape is not None and part.shape.kind == "plane" and math.hypot(*part.shape.normal) < 1e-6:
+                problems.append(f"{name}[{index}].shape.normal: must not be zero")
+    for name in ("emitters", "forces"):
+        for index, part in enumerate(getattr(scene, name)):
+            if part.direction is not None and math.hypot(*part.direction) < 1e-6:
+                problems.append(f"{name}[{index}].direction: must not be zero")
+    bounds = scene.kill_bounds
+    if bounds is not None and any(high <= low for low, high in zip(bounds.min, bounds.max)):
+        problems.append("kill_bounds.max: must be above kill_bounds.min on every axis")
     if scene.domain is not None and not problems:
         for axis in range(scene.dimension):
             if scene.domain.max[axis] - scene.domain.min[axis] < 4 * scene.cell_size:
                 problems.append(f"domain.max[{axis}]: must be at least 4 cells above domain.min[{axis}]")
     return problems
+
+
+def _material_problems(scene: Scene) -> list[str]:
+    """Materials that are named but not there."""
+    named = [
+        (f"{name}[{index}].material", part.material)
+        for name in ("fills", "emitters", "drains")
+        for index, part in enumerate(getattr(scene, name))
+    ]
+    known = ", ".join(sorted(scene.materials))
+    return [
+        f"{where}: no material is called '{material}' (there are: {known})"
+        for where, material in named
+        if material is not None and material not in scene.materials
+    ]
 
 
 def _vector_problems(part: _Part, dimension: int, path: str):
@@ -331,7 +454,7 @@ def _vector_problems(part: _Part, dimension: int, path: str):
             yield f"{where}: needs {dimension} numbers in a scene of dimension {dimension}, has {len(value)}"
 
 
-_VECTOR_FIELDS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity"}
+_VECTOR_FIELDS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity", "direction"}
 
 
 def _rotation_problems(value: float | list[float], dimension: int, where: str):

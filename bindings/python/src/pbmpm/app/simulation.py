@@ -12,6 +12,7 @@ import numpy as np
 import pbmpm
 
 from .errors import InputError
+from .flows import Flows, emitted_at_most, shape_of
 from .frame import Frame
 from .motion import collider_pose
 from .names import IntegratorName, PressureName, SolverName
@@ -119,7 +120,7 @@ class Simulation:
             self._rows[material.index] = row
         for index, fill in enumerate(self.scene.fills):
             added = self.world.fill(
-                _shape(fill.shape),
+                shape_of(fill.shape),
                 self.materials[fill.material],
                 particles_per_axis=fill.particles_per_axis,
                 jitter=fill.jitter,
@@ -133,7 +134,7 @@ class Simulation:
         self._moving = []
         for part in self.scene.colliders:
             collider = self.world.add_collider(
-                _shape(part.shape),
+                shape_of(part.shape),
                 friction=pbmpm.Friction[part.friction.upper()],
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None,
@@ -142,6 +143,7 @@ class Simulation:
                 position, rotation = collider_pose(part, 0.0)
                 collider.teleport(position[: self.scene.dimension], rotation)
                 self._moving.append((collider, part))
+        self._flows = Flows(self.world, self.scene, self.materials)
 
     @property
     def time(self) -> float:
@@ -163,6 +165,7 @@ class Simulation:
         for collider, part in self._moving:
             position, rotation = collider_pose(part, (self.steps + 1) * self.settings.dt)
             collider.move(position[: self.scene.dimension], rotation)
+        self._flows.before_step(self.time, self.settings.dt)
         self.world.step(self.settings.dt)
         self.steps += 1
 
@@ -199,7 +202,8 @@ class Simulation:
         if not self.finite():
             found.append("a position, velocity or volume ratio is not finite")
         stats = self.world.stats
-        lost = self.start_count - len(self.world)
+        flow = self.world.flow
+        lost = self.start_count + flow.emitted - flow.drained - flow.killed - len(self.world)
         if lost != stats.deleted_total:
             found.append(f"{lost} particles are gone, but the library reports {stats.deleted_total} deletions")
         told = sum(self.events[kind.name.lower()] for kind in DELETIONS)
@@ -225,6 +229,7 @@ class Simulation:
             "deleted": stats.deleted_total,
             "clamped": stats.clamped_total,
             "events": dict(self.events),
+            **self._flows.figures(),
             "finite": self.finite(),
             "memory_bytes": stats.memory_bytes,
             "hash": f"{self.world.hash():016x}",
@@ -236,7 +241,7 @@ def _make_world(scene: Scene, settings: RunSettings) -> pbmpm.World:
     return pbmpm.World(
         scene.dimension,
         scene.cell_size,
-        capacity=_capacity(scene),
+        capacity=scene.capacity or max(1, _capacity(scene) + emitted_at_most(scene)),
         gravity=scene.gravity,
         domain=None if domain is None else (domain.min, domain.max),
         domain_friction=None if domain is None else domain.friction,
@@ -265,8 +270,3 @@ def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic:
     values["strain_policy"] = pbmpm.StrainPolicy[part.strain_policy.upper()]
     values["elastic_model"] = pbmpm.ElasticModel[part.elastic_model.upper()]
     return pbmpm.Elastic(**values)
-
-
-def _shape(part: Any) -> pbmpm.Shape:
-    kinds = {"plane": pbmpm.Plane, "box": pbmpm.Box, "sphere": pbmpm.Sphere, "capsule": pbmpm.Capsule}
-    return kinds[part.kind](**part.model_dump(exclude={"kind"}))

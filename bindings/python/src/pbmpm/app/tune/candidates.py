@@ -29,7 +29,7 @@ class Kinds:
 
     @classmethod
     def of(cls, scene: Scene) -> Kinds:
-        used = [scene.materials[fill.material] for fill in scene.fills]
+        used = [scene.materials[fill.material] for fill in scene.sources]
         liquids = [part for part in used if part.kind == "liquid"]
         return cls(bool(liquids), len(liquids) < len(used), any(part.bulk_modulus == 0.0 for part in liquids))
 

@@ -103,7 +103,7 @@ def _sample(simulation: Simulation) -> Sample:
     order = np.argsort(frame.ids[:, 0], kind="stable")
     cells = np.floor(frame.positions / simulation.scene.cell_size).astype(np.int64)
     _, inverse, counts = np.unique(cells, axis=0, return_inverse=True, return_counts=True)
-    lattice = max(fill.particles_per_axis for fill in simulation.scene.fills) ** simulation.scene.dimension
+    lattice = max(fill.particles_per_axis for fill in simulation.scene.sources) ** simulation.scene.dimension
     return Sample(
         simulation.time,
         frame.ids[order],
