@@ -7,7 +7,7 @@
 #ifdef PBMPM_SANITIZED
 enum { WORLDS = 10 };
 #else
-enum { WORLDS = 200 };
+enum { WORLDS = 100 };
 #endif
 enum { PARTICLES = 40, STEPS = 12 };
 

@@ -25,7 +25,7 @@ static double largest_speed(pbmpm_world_id world)
 
 /* ---- Momentum ---- */
 
-enum { ROOM = 8192, FREE_STEPS = 60 };
+enum { ROOM = 8192, FREE_STEPS = 120 };
 
 /* A rotation about the origin with the speed `spin` [1/s] about (1, -0.5, 2), or (0, 0, 2) in 2D, and an expansion or compression. */
 static void set_affine_motion(pbmpm_world_id world, double spin, double stretch)
@@ -84,9 +84,17 @@ static pbmpm_world_id free_ball(int32_t dimension, const way *chosen, const matt
     fill_shape(world, made_of->liquid ? water : jelly, box_shape(-0.2f, 0, 0, 0.2f, 0.3f, 0.3f), rest);
     fill_shape(world, made_of->elastic ? jelly : water, box_shape(0.2f, 0, 0, 0.2f, 0.3f, 0.3f), rest);
     set_affine_motion(world, 1.5, -2.0);
-    set_rate(world, 2, 6);
+    set_rate(world, 1, 6);
     use_way(world, chosen);
     return world;
+}
+
+/* What the solver leaves of the balance of forces in all steps, as a change of velocity [m/s]: the primal solver's iterates do not balance, a
+ * push of the dual one does. */
+static double out_of_balance(pbmpm_world_id world, float dt, double cell_size)
+{
+    const bool balanced = world_stats(world).solver != PBMPM_SOLVER_PRIMAL;
+    return balanced ? 0 : (double)world_stats(world).residual * cell_size / (double)dt;
 }
 
 /* Round-off of FREE_STEPS steps: in 1000 steps of a larger body it stays below 1e-6 and 1e-5, see test_conservation.c; here a tenth of
@@ -94,36 +102,41 @@ static pbmpm_world_id free_ball(int32_t dimension, const way *chosen, const matt
 static void check_free_ball(int32_t dimension, const way *chosen, const matter *made_of, bool turns)
 {
     char label[160];
+    const float dt = 1.0f / 480;
     const pbmpm_world_id world = free_ball(dimension, chosen, made_of);
     const pbmpm_stats first = world_stats(world);
     const double moving = motion_of(world);
-    for (int step = 0; step < FREE_STEPS; step++)
-        OK(pbmpm_world_step(world, 1.0f / 240));
+    double allowed = 1e-6 * moving;
+    for (int step = 0; step < FREE_STEPS; step++) {
+        OK(pbmpm_world_step(world, dt));
+        allowed += first.mass * out_of_balance(world, dt, dimension == 3 ? 0.1 : 0.03);
+    }
     const pbmpm_stats last = world_stats(world);
     double linear[3], angular[3];
     for (int a = 0; a < 3; a++) {
         linear[a] = last.momentum[a] - first.momentum[a];
         angular[a] = last.angular_momentum[a] - first.angular_momentum[a];
     }
-    snprintf(label, sizeof label, "%s, %s, %dD: linear off by %.2e, angular by %.2e", chosen->name, made_of->name, (int)dimension,
-             length(linear) / moving, length(angular) / length(first.angular_momentum));
+    snprintf(label, sizeof label, "%s, %s, %dD: linear off by %.2e of %.2e, angular by %.2e", chosen->name, made_of->name, (int)dimension,
+             length(linear) / moving, allowed / moving, length(angular) / length(first.angular_momentum));
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(0, last.deleted_total + last.clamped_total, label);
-    TEST_ASSERT_TRUE_MESSAGE(length(linear) <= 1e-6 * moving, label);
+    TEST_ASSERT_TRUE_MESSAGE(length(linear) <= allowed, label);
     if (turns)
         TEST_ASSERT_TRUE_MESSAGE(length(angular) <= 1e-5 * length(first.angular_momentum), label);
     OK(pbmpm_world_destroy(world));
 }
 
+/* Velocities that particles keep are not a field on the grid any more: ASFLIP has no law for angular momentum, and none for the linear one
+ * where only one of two kinds of matter keeps its motion. The primal solver's stresses are those at the end of a step, which turn matter as
+ * it was at the start. */
 static void check_momentum(int32_t dimension)
 {
     for (int w = 0; w < way_count; w++)
         for (size_t m = 0; m < sizeof matters / sizeof *matters; m++) {
-            /* Velocities that particles keep are not a field on the grid any more: ASFLIP has no law for angular momentum, and none
-             * for the linear one where only one of two kinds of matter keeps its motion. BDF2 extrapolates. */
-            const bool lively = ways[w].flip > 0;
-            if (lively && matters[m].elastic && matters[m].liquid)
-                continue;
-            check_free_ball(dimension, &ways[w], &matters[m], !lively && ways[w].integrator == PBMPM_INTEGRATOR_EULER);
+            const bool lively = ways[w].flip > 0, mixed = matters[m].elastic && matters[m].liquid;
+            const bool primal = ways[w].solver == PBMPM_SOLVER_PRIMAL || ways[w].solver == PBMPM_SOLVER_CONVERGENT;
+            if (!lively || !mixed)
+                check_free_ball(dimension, &ways[w], &matters[m], !lively && !primal);
         }
 }
 
