@@ -250,8 +250,8 @@ static double first_crossing(Line *line, double first, double last)
     for (;;) {
         if (!(i * SAMPLE <= line->to)) {
             const double entry = lookup_entry(&line->world->lookup, line->start, line->direction, i * SAMPLE, SUPPORT_OF_CELL);
+            if (!(entry <= last) || isinf(entry)) return INFINITY;
             i = fmax(i, floor(entry / SAMPLE));
-            if (!(i * SAMPLE <= last)) return INFINITY;
             look_at(line, (i - 1.0) * SAMPLE, i * SAMPLE + PATCH_LENGTH);
         }
         if (i * SAMPLE > last) return INFINITY;

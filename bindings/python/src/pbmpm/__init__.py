@@ -34,8 +34,10 @@ from .errors import (
 from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
 from .forces import Falloff, Force, ForceKind
 from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy
+from .queries import PointFields, RayHit, RegionShare
 from .settings import Integrator, Pressure, Solver, Stop
-from .shapes import Box, Capsule, Plane, Shape, Sphere
+from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
+from .solids import BakedSolid, Impulse, LoadedSolid, SolidInfo, bake_heights, bake_hull, bake_mesh
 from .stats import Event, EventKind, Stats
 from .views import Field, View
 from .world import World
@@ -50,6 +52,8 @@ def isa() -> str:
 
 
 __all__ = [
+    "Baked",
+    "BakedSolid",
     "Box",
     "BusyError",
     "CapacityError",
@@ -75,19 +79,25 @@ __all__ = [
     "ForeignError",
     "ForkedError",
     "Friction",
+    "Impulse",
     "InUseError",
     "Integrator",
     "InvalidArgumentError",
     "InvalidIdError",
     "LibraryError",
     "Liquid",
+    "LoadedSolid",
     "Material",
     "OutOfMemoryError",
     "PbmpmError",
     "Plane",
+    "PointFields",
     "Pressure",
+    "RayHit",
     "Region",
+    "RegionShare",
     "Shape",
+    "SolidInfo",
     "Solver",
     "Sphere",
     "Stats",
@@ -98,6 +108,9 @@ __all__ = [
     "UnsupportedError",
     "View",
     "World",
+    "bake_heights",
+    "bake_hull",
+    "bake_mesh",
     "isa",
     "library_path",
 ]

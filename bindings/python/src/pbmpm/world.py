@@ -13,13 +13,17 @@ from ._convert import Vector, assign, assign_vector, floats, identifiers, initia
 from ._ffi import ffi
 from ._handle import WorldHandle
 from ._library import lib
+from .background import WorldBackground
 from .colliders import Collider, Friction
 from .errors import ClosedError, InvalidArgumentError, check
 from .flow import WorldFlow
 from .forces import WorldForces
 from .materials import Material, Parameters
+from .queries import WorldQueries
 from .settings import Integrator, Pressure, Solver, WorldSettings
 from .shapes import Shape
+from .snapshots import WorldSnapshots
+from .solids import WorldSolids
 from .stats import Event, Stats, event_from_c, stats_from_c
 from .views import MATRICES, Field, View
 
@@ -27,7 +31,7 @@ from .views import MATRICES, Field, View
 Ids = npt.NDArray[np.uint32]
 
 
-class World(WorldSettings, WorldFlow, WorldForces):
+class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots, WorldBackground, WorldSolids):
     """A world of liquid and elastic matter.
 
     Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one
@@ -44,6 +48,7 @@ class World(WorldSettings, WorldFlow, WorldForces):
         gravity: acceleration [m/s^2].
         domain: lower and upper corner [m] of a closed box that holds matter in; None: unbounded.
         domain_friction: Coulomb coefficient of the box's walls.
+        domain_measures_impulse: whether `wall_impulse()` tells what matter does to them.
         origin: what positions are relative to [m]; for the caller's own conversion.
         memory_budget: bytes that the world may hold at once; 0: no limit.
         threads: threads that share the work, counting the caller; 0: one per core. Results do not depend on it.
@@ -62,6 +67,7 @@ class World(WorldSettings, WorldFlow, WorldForces):
         gravity: Vector | None = None,
         domain: tuple[Vector, Vector] | None = None,
         domain_friction: float | None = None,
+        domain_measures_impulse: bool | None = None,
         origin: Vector | None = None,
         memory_budget: int | None = None,
         threads: int | None = None,
@@ -82,6 +88,7 @@ class World(WorldSettings, WorldFlow, WorldForces):
             "cell_size": cell_size,
             "particle_capacity": capacity,
             "domain_friction": domain_friction,
+            "domain_measures_impulse": domain_measures_impulse,
             "memory_budget": memory_budget,
             "thread_count": threads,
         }
@@ -415,6 +422,7 @@ class World(WorldSettings, WorldFlow, WorldForces):
         friction: Friction = Friction.COULOMB,
         friction_coefficient: float | None = None,
         kinematic: bool = False,
+        measures_impulse: bool = False,
     ) -> Collider:
         """Adds an obstacle.
 
@@ -423,8 +431,11 @@ class World(WorldSettings, WorldFlow, WorldForces):
             friction: how matter moves along its surface.
             friction_coefficient: Coulomb coefficient, in [0, 100].
             kinematic: whether `Collider.move()` may move it.
+            measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
         """
-        definition = colliders.definition(shape, self._dimension, friction, friction_coefficient, kinematic)
+        definition = colliders.definition(
+            shape, self._dimension, friction, friction_coefficient, kinematic, measures_impulse
+        )
         out = ffi.new("pbmpm_collider_id *")
         self._call(lib.pbmpm_collider_create, definition, out)
         return Collider(self, out[0])

@@ -1,0 +1,57 @@
+"""Steps that run while the caller does something else."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from ._ffi import ffi
+from ._library import lib
+from .errors import BusyError
+from .views import Field
+
+
+class WorldBackground:
+    """Steps of a `World` in the background.
+
+    Between `step_begin()` and the `step_end()` that returns True the world can be asked for its views of published fields,
+    which show the state that the step began with, its number of particles and its generation; everything else raises a
+    BusyError. Closing the world waits for the step.
+    """
+
+    __slots__ = ()
+
+    def _call(self, function: Any, *arguments: Any) -> Any:
+        """Calls a function of the C library with this world."""
+        raise NotImplementedError
+
+    def publish(self, fields: Iterable[Field]) -> None:
+        """Sets which fields can be viewed while a step runs; until then POSITION, VELOCITY, MATERIAL and PARTICLE. Their copies
+        take memory for `capacity` particles with the next `step_begin()`."""
+        values = [Field(field).value for field in fields]
+        self._call(lib.pbmpm_world_publish, ffi.new("pbmpm_field[]", values), len(values))
+
+    def step_begin(self, dt: float) -> None:
+        """Begins a step of `dt` seconds, in (0, 10], and returns. Expires all views."""
+        self._call(lib.pbmpm_world_step_begin, dt)
+
+    def step_end(self, wait: bool = True) -> bool:
+        """Ends a step that was begun. Expires the views that were taken while it ran.
+
+        Args:
+            wait: whether to wait for the step; otherwise this only looks whether it is done.
+
+        Returns:
+            Whether the step has ended. False: it goes on; ask again.
+
+        Raises:
+            InvalidArgumentError: no step was begun.
+            OutOfMemoryError: as `World.step()` would have raised it.
+        """
+        try:
+            self._call(lib.pbmpm_world_step_end, bool(wait))
+        except BusyError:
+            if wait:
+                raise
+            return False
+        return True
