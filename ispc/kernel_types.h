@@ -82,6 +82,11 @@ struct KernelArgs {
     K_PTR(float) mass;
     K_PTR(float) deformation[9]; /* null without elastic materials */
     K_CONST_PTR(uint32_t) identity; /* two per particle: index and generation */
+    K_PTR(float) past_velocity[3]; /* see Particles; null without BDF2 */
+    K_PTR(float) past_affine[9];
+    K_PTR(float) past_way[3];
+    K_PTR(float) past_turn[9];
+    K_PTR(float) past_dt;
     K_PTR(int32_t) status;       /* K_ALIVE, or why the particle has to go */
 
     /* Runs and blocks. */
@@ -115,6 +120,7 @@ struct KernelArgs {
     K_PTR(float) uphill;        /* out, per particle block: positive where the extrapolation overshot */
     K_PTR(float) node_force;    /* per node block: the primal and the explicit solver, sum m w T (x_i - x_p); after the first pass also
                                    sum m w h as fourth value */
+    K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */

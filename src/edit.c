@@ -287,6 +287,7 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
 {
     Particles *p = &world->particles;
     const int d = p->dimension;
+    particles_forget(p, row);
     if (field == PBMPM_POSITION) {
         double position[3];
         for (int a = 0; a < d; a++) position[a] = (double)values[a] / (double)world->def.cell_size;

@@ -21,13 +21,18 @@ int particles_class(uint32_t tag)
     switch (tag) {
     case FIELD_CELL:
     case FIELD_FRACTION:
+    case FIELD_PAST_VELOCITY:
+    case FIELD_PAST_WAY:
     case FIELD_VELOCITY: return CLASS_VECTOR;
     case FIELD_AFFINE:
+    case FIELD_PAST_AFFINE:
+    case FIELD_PAST_TURN:
     case FIELD_DEFORMATION: return CLASS_MATRIX;
     case FIELD_VOLUME_RATIO:
     case FIELD_MASS:
     case FIELD_MATERIAL:
     case FIELD_STATUS:
+    case FIELD_PAST_DT:
     case FIELD_PRESSURE: return CLASS_SCALAR;
     case FIELD_ID: return CLASS_ID;
     default: return -1;
@@ -120,11 +125,22 @@ pbmpm_result particles_enable_pressure(Particles *p, Memory *memory)
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressure of %u particles", p->capacity);
 }
 
+static pbmpm_result enable_past(Particles *p, Memory *memory, FieldTag tag, void **pointers)
+{
+    if (*pointers || add_field(p, memory, tag, pointers)) return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the past of %u particles", p->capacity);
+}
+
 pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag)
 {
     switch (tag) {
     case FIELD_DEFORMATION: return particles_enable_deformation(p, memory);
     case FIELD_PRESSURE: return particles_enable_pressure(p, memory);
+    case FIELD_PAST_VELOCITY: return enable_past(p, memory, tag, (void **)p->past_velocity);
+    case FIELD_PAST_AFFINE: return enable_past(p, memory, tag, (void **)p->past_affine);
+    case FIELD_PAST_WAY: return enable_past(p, memory, tag, (void **)p->past_way);
+    case FIELD_PAST_TURN: return enable_past(p, memory, tag, (void **)p->past_turn);
+    case FIELD_PAST_DT: return enable_past(p, memory, tag, (void **)&p->past_dt);
     default: return fail(PBMPM_ERROR_UNSUPPORTED, "particles have no field %d", (int)tag);
     }
 }
@@ -186,6 +202,7 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
     }
     p->volume_ratio[row] = 1.0f;
     if (p->pressure) p->pressure[row] = 0.0f;
+    particles_forget(p, row);
     p->mass[row] = particle->mass;
     p->material[row] = particle->material;
     p->status[row] = K_ALIVE;

@@ -8,7 +8,7 @@
 #include "pool.h"
 
 /* Sizes of fields, as multiples of one array: each has a spare, into which a field is written in its new order. */
-enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 16, MAX_COMPONENTS = 9 };
+enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 24, MAX_COMPONENTS = 9 };
 
 /* What a field is. Snapshots name fields by these numbers, so none gets another meaning. */
 typedef enum FieldTag {
@@ -23,6 +23,11 @@ typedef enum FieldTag {
     FIELD_ID = 9,
     FIELD_DEFORMATION = 10,
     FIELD_PRESSURE = 11,
+    FIELD_PAST_VELOCITY = 12,
+    FIELD_PAST_AFFINE = 13,
+    FIELD_PAST_WAY = 14,
+    FIELD_PAST_TURN = 15,
+    FIELD_PAST_DT = 16,
 } FieldTag;
 
 /* A quantity of the particles: `components` arrays of equal length in one allocation. */
@@ -46,6 +51,9 @@ typedef struct Particles {
     float *mass; /* density * rest volume in cells [kg/m^d]; kg = mass * dx^d */
     float *deformation[9];
     float *pressure; /* the dual solver's multiplier; null until it is used */
+    /* What BDF2 remembers, see multistep.h; null until it is used. Velocities before the last substep, and its displacement and gradient per
+     * second; all hold for substeps of past_dt seconds, 0: there is no past. */
+    float *past_velocity[3], *past_affine[9], *past_way[3], *past_turn[9], *past_dt;
     uint32_t *material; /* slot */
     int32_t *status;
     pbmpm_particle_id *id;
@@ -125,6 +133,12 @@ double particles_coordinate(const Particles *p, uint32_t row, int axis); /* in c
  * which nobody needs between steps. */
 const float *particles_positions(Particles *p, double cell_size, Pool *pool);
 const float *particles_kilograms(Particles *p, double cell_volume);
+
+/* The motion of a particle is not what it would have been: its past does not count. */
+static inline void particles_forget(Particles *p, uint32_t row)
+{
+    if (p->past_dt) p->past_dt[row] = 0.0f;
+}
 
 /* To be called when any particle has changed. */
 static inline void particles_changed(Particles *p) { p->positions_made = p->masses_made = false; }

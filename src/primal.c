@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "holds.h"
+#include "multistep.h"
 #include "result.h"
 
 /* Measured against converged solutions, see tests/python/test_primal.py. */
@@ -23,6 +24,7 @@ typedef struct BodySum {
     double mass, momentum[3]; /* of the predictor */
     double elastic;           /* energy of the elastic particles */
     bool with_liquid, touches, failed;
+    bool unsound;             /* failed at first */
     float share;              /* of the way from the start to the solution */
 } BodySum;
 
@@ -60,7 +62,7 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->body_sums, (size_t)state->bodies.count, sizeof(BodySum)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
-    return PBMPM_OK;
+    return multistep_prepare(world);
 }
 
 void primal_free(World *world)
@@ -68,6 +70,7 @@ void primal_free(World *world)
     PrimalState *s = &world->primal;
     Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->inverse, &s->sums, &s->body_sums};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
+    multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
     multilevel_free(&s->multilevel, &world->memory);
 }
@@ -382,9 +385,16 @@ static BodySum *body_of(const Primal *p, int32_t block)
     return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
 }
 
+static bool is_multistep(const Primal *p, int32_t block)
+{
+    const float *share = p->world->args.block_share;
+    return share && share[block] < 1.0f;
+}
+
 /* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
 static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
+    const bool multistep = is_multistep(p, block);
     const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
@@ -392,8 +402,13 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
         for (size_t c = 0; c < 3; c++) {
             const double u = (double)p->best[i + c], free = (double)p->base[i + c];
             const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
-            sum[0] += 0.5 * mass * u * u - mass * g * u;
-            sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
+            if (multistep) { /* the energy that the step minimises */
+                sum[0] += 0.5 * mass * (u - free) * (u - free);
+                sum[1] += 0.5 * mass * free * free;
+            } else {
+                sum[0] += 0.5 * mass * u * u - mass * g * u;
+                sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
+            }
             sum[4 + c] += mass * free;
         }
     }
@@ -425,7 +440,7 @@ static uint32_t check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    memset(body, 0, (size_t)state->bodies.count * sizeof *body);
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound};
     over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = body_of(p, block);
@@ -444,6 +459,7 @@ static uint32_t check_bodies(Primal *p)
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].failed = gained(&body[i]);
+        body[i].unsound = body[i].unsound || body[i].failed;
         failed += body[i].failed;
     }
     return failed;
@@ -473,6 +489,7 @@ static void pull_back_to(Primal *p, float share)
 
 static void keep_energy(Primal *p)
 {
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
     const uint32_t failed = check_bodies(p);
     p->world->record.energy_checks_failed = failed;
     if (failed == 0) return;
@@ -486,6 +503,13 @@ static void keep_energy(Primal *p)
 
 /* ---- The substep ---- */
 
+/* A body that an obstacle pushes or that gained energy: see multistep.h. */
+static void forget_pushed(Primal *p)
+{
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (body_of(p, block)->touches || body_of(p, block)->unsound) multistep_forget(p->world, block);
+}
+
 static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
@@ -497,6 +521,10 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
+    if (is_multistep(p, block)) {
+        multistep_predict(p->world, block, block + 1);
+        memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
+    }
     holds_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }
@@ -515,5 +543,6 @@ void primal_solve(World *world, const ContactFrame *contacts)
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0]);
     minimise(&p);
     keep_energy(&p);
+    forget_pushed(&p);
     over_blocks(&p, rub_and_write);
 }

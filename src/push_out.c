@@ -22,6 +22,7 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
         inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
     }
     particles_shift(p, row, way);
+    particles_forget(p, row);
     const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);
     for (int a = 0; a < p->dimension && inward < 0.0; a++) {
         const float before = p->velocity[a][row];

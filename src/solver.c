@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "dual.h"
 #include "explicit.h"
+#include "multistep.h"
 #include "paper.h"
 #include "primal.h"
 #include "result.h"
@@ -100,6 +101,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     memcpy(a->velocity, p->velocity, sizeof a->velocity);
     memcpy(a->affine, p->affine, sizeof a->affine);
     memcpy(a->deformation, p->deformation, sizeof a->deformation);
+    multistep_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
         const double pull = (double)world->settings.gravity[k] * dt * dt * cells_per_metre;
         a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
@@ -192,6 +194,7 @@ pbmpm_result solver_prepare(World *world)
     pbmpm_solver solver = world->settings.solver;
     if (solver == PBMPM_SOLVER_CONVERGENT) solver = holds_liquid(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     world->record.solver = solver;
+    if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
     if (!array_reserve(&world->memory, &world->grid.node_base, floats, sizeof(float)))
