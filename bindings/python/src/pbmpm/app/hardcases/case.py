@@ -56,6 +56,18 @@ class Setting:
             changes.setdefault("bulk_modulus", sound_modulus(cell_size))
         return pbmpm.Liquid(**changes)
 
+    def expansion_speed(self, cell_size: float) -> float:
+        """What squeezed matter may gain by expanding [m/s]: the speed of its pressure wave.
+
+        Squeezed by a strain of nearly 1 it holds almost M/2 of energy per volume, M = rho c^2 the modulus of the pressure
+        wave. What is incompressible stores none, nor does the matter of the paper's solver, whose rebound is bounded.
+        """
+        if self.solver == PAPER:
+            return 0.0
+        matter = self.parameters(cell_size)
+        modulus = matter.bulk_modulus if isinstance(matter, pbmpm.Liquid) else _wave_modulus(matter)
+        return math.sqrt(modulus / matter.density)
+
     def __str__(self) -> str:
         return f"{self.variant}, {self.solver}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
 
@@ -63,6 +75,12 @@ class Setting:
 def sound_modulus(cell_size: float) -> float:
     """Modulus of matter of the default density in which sound travels SOUND_CELLS_PER_SECOND: rho c^2."""
     return pbmpm.Liquid().density * (SOUND_CELLS_PER_SECOND * cell_size) ** 2
+
+
+def _wave_modulus(matter: pbmpm.Elastic) -> float:
+    """lambda + 2 mu."""
+    ratio = matter.poisson_ratio
+    return matter.young_modulus * (1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio))
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ import numpy as np
 import pbmpm
 
 from .case import Check, HardCase, Setting
-from .volume import PRESS_CELL, PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE
-from .watch import ENERGY_ROUNDING, Watch, downwards, make_world, vector
+from .volume import PRESS_CELL, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
+from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
 # H08
 
@@ -69,9 +69,9 @@ def _recovered(world: pbmpm.World) -> float:
     return float(((ratios > RECOVERED_RATIOS[0]) & (ratios < RECOVERED_RATIOS[1])).mean())
 
 
-def _free_speed() -> float:
+def _free_speed(setting: Setting) -> float:
     """What matter of the tank may reach: the speed bound of the press (H03), with the fall from the tank's top."""
-    return 4.0 * PRESS_SPEED + float(np.sqrt(2.0 * -downwards(2)[1] * TANK[1]))
+    return release_speed(setting, TANK_CELL, TANK[1])
 
 
 def trap(setting: Setting) -> list[Check]:
@@ -103,7 +103,7 @@ def trap(setting: Setting) -> list[Check]:
         # The median: the released liquid comes back from the tank's walls as a wave, which compresses it for a moment.
         share = float(np.median(shares[len(shares) // 2 :]))
         return [
-            Check("speed in the first 10 steps of release [m/s]", fastest, _free_speed()),
+            Check("speed in the first 10 steps of release [m/s]", fastest, _free_speed(setting)),
             Check("share of particles with J in [0.8, 1.2]", share, RECOVERED_SHARE, at_least=True),
             *watch.checks(),
         ]
@@ -125,7 +125,7 @@ def cover(setting: Setting) -> list[Check]:
         watch.forget()
         watch.run(1.0, setting.dt)
         return [
-            Check("highest speed [m/s]", watch.fastest, _free_speed()),
+            Check("highest speed [m/s]", watch.fastest, _free_speed(setting)),
             Check("particles left inside", len(ball.query()), 0),
             *watch.checks(),
         ]
