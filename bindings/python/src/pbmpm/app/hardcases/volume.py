@@ -176,16 +176,18 @@ def collapse(setting: Setting) -> list[Check]:
         else:
             positions[:] = place
         world.positions = positions
-        watch, drift = Watch(world), 0.0
+        watch, drift, unbalanced = Watch(world), 0.0, 0.0
         for _ in range(round(COLLAPSED_SECONDS / setting.dt)):
             stats = watch.step(setting.dt)
-            drift = max(drift, float(np.abs(stats.momentum).max()))
-        unit = stats.mass * COLLAPSED_CELL / setting.dt
+            # Unlike the other solvers' iterates those of the primal do not balance: by as much as its residual says.
+            unbalanced += stats.residual if stats.solver is pbmpm.Solver.PRIMAL else 0.0
+            unit = stats.mass * COLLAPSED_CELL / setting.dt
+            drift = max(drift, float(np.abs(stats.momentum).max()) / unit - unbalanced)
         volume = occupied_share(world, COLLAPSED_CELLS**d)
         return [
             Check("occupied over rest volume", volume, RECOVERED_VOLUME, at_least=True),
             Check("highest displacement [cells/step]", watch.longest, COLLAPSED_DISPLACEMENT),
-            Check("momentum over mass times a cell per step", drift / unit, COLLAPSED_DRIFT),
+            Check("momentum over mass times a cell per step", drift, COLLAPSED_DRIFT),
             *watch.checks(),
         ]
 
