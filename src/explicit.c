@@ -46,6 +46,6 @@ void explicit_solve(World *world, const ContactFrame *contacts)
     solver_over_particles(world, world->kernels->force);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, push, world);
-    contacts_apply(contacts, 0, world->grid.node_blocks);
+    solver_obey(world, contacts);
     world->record.iterations_used = 1;
 }

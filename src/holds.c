@@ -1,6 +1,7 @@
 #include "holds.h"
 
 #include <math.h>
+#include <string.h>
 
 /* How far from a surface [cells] a node that was put onto it may be, by rounding. */
 static const float TOUCH = 1e-5f;
@@ -117,6 +118,52 @@ void holds_rub(const ContactFrame *frame, const float *gradient, const float *ma
             const float mass = mass_node[node + 3];
             if (mass > 0.0f) rub(contact, along(gradient + node, contact->normal) / mass, displacement + node);
         }
+    }
+}
+
+static void book_contact(const BlockContacts *list, uint32_t i, float *gradient, float *before, const float *after, const float *base, double *booked)
+{
+    const size_t node = list->node + list->contact[i].node * K_NODE_WIDTH;
+    const float held[3] = {gradient[node], gradient[node + 1], gradient[node + 2]};
+    if (!list->contact[i].active) return;
+    take_out(&list->contact[i], gradient + node);
+    for (size_t a = 0; a < 3; a++) {
+        const double rubbed = (double)base[node + 3] * ((double)after[node + a] - (double)before[node + a]);
+        booked[a] += (double)held[a] - (double)gradient[node + a] + rubbed;
+        before[node + a] = after[node + a];
+    }
+}
+
+/* Momentum that the substep added to that of the predictor. */
+static void sum_gained(const Grid *grid, const float *after, const float *base, double gained[3])
+{
+    const size_t floats = (size_t)grid->node_blocks * (size_t)grid->block_cells * K_NODE_WIDTH;
+    gained[0] = gained[1] = gained[2] = 0.0;
+    for (size_t i = 0; i < floats; i += K_NODE_WIDTH)
+        for (size_t a = 0; a < 3; a++) gained[a] += (double)base[i + 3] * ((double)after[i + a] - (double)base[i + a]);
+}
+
+static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+void holds_book(const ContactFrame *frame, float *gradient, float *before, const float *after, const float *base)
+{
+    const Colliders *colliders = frame->colliders;
+    double *booked = colliders->impulses.contact.data, missing[3], size = 0.0;
+    if (!colliders->measures || colliders->contacts == 0) return;
+    memset(booked, 0, 3 * (size_t)colliders->contacts * sizeof *booked);
+    for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (int sweep = 0; sweep < 2; sweep++)
+            for (uint32_t i = list.begin; i < list.end; i++) book_contact(&list, i, gradient, before, after, base, booked + 3 * (size_t)i);
+    }
+    sum_gained(frame->grid, after, base, missing);
+    for (uint32_t i = 0; i < colliders->contacts; i++) {
+        for (size_t a = 0; a < 3; a++) missing[a] -= booked[3 * (size_t)i + a];
+        size += size_of(booked + 3 * (size_t)i);
+    }
+    for (uint32_t i = 0; i < colliders->contacts && size > 0.0; i++) {
+        const double share = size_of(booked + 3 * (size_t)i) / size;
+        for (size_t a = 0; a < 3; a++) booked[3 * (size_t)i + a] += share * missing[a];
     }
 }
 

@@ -20,6 +20,11 @@ void holds_remove(const ContactFrame *frame, float *vector, int32_t begin, int32
 void holds_rub(const ContactFrame *frame, const float *gradient, const float *mass_node, float *displacement,
                int32_t begin, int32_t end);
 
+/* Books what the contacts gave to matter: what the active ones hold of the gradient, and what rubbing changed from `before` to `after`.
+ * Nodes that a truncated solution leaves out of balance change momentum too. Matter has it from the obstacles in the end, so contacts share it in
+ * proportion to what they gave; without any it stays unaccounted. Uses up `gradient` and `before`. */
+void holds_book(const ContactFrame *frame, float *gradient, float *before, const float *after, const float *base);
+
 /* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of gradient . surface over active contacts. */
 double holds_work(const ContactFrame *frame, const float *gradient, int32_t block);
 

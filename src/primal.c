@@ -545,4 +545,5 @@ void primal_solve(World *world, const ContactFrame *contacts)
     keep_energy(&p);
     forget_pushed(&p);
     over_blocks(&p, rub_and_write);
+    holds_book(contacts, p.gradient, p.best, p.node, p.base);
 }

@@ -210,7 +210,8 @@ pbmpm_result surface_from_mesh(Surface *surface, Memory *memory, const pbmpm_mes
     if (result == PBMPM_OK && surface->elements == 0) result = fail(PBMPM_ERROR_INVALID_ARGUMENT, "all elements of the mesh are degenerate");
     if (result == PBMPM_OK) result = check_closed(surface, memory);
     if (result != PBMPM_OK) return result;
-    const double volume = enclosed(surface);
+    static const double NOTHING = 1e-9; /* of the lattice's cube; what rounding leaves of 0 */
+    const double volume = enclosed(surface) / pow(MESH_LATTICE, surface->dimension);
     surface->orientation = volume < 0.0 ? -1 : 1;
-    return volume != 0.0 ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT, "the mesh holds no volume");
+    return fabs(volume) > NOTHING ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT, "the mesh holds no volume");
 }

@@ -59,11 +59,12 @@ PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_colli
  *  sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
  *  depth.
  *
- *  A host's body of mass M follows with v += (gravity * dt + linear / M), then pbmpm_collider_move(x + v * dt). Matter feels that velocity
- *  one step later, so where the matter that must move along weighs more than the body (its added mass A > M: light bodies in liquid),
- *  this oscillates and grows, at any dt. Stable is v += (dt * M * gravity + linear + V * (last change of v)) / (M + V) with a virtual
- *  mass V > (A - M) / 2; V = A is best, and in equilibrium it changes nothing. A is about half (a ball) to once or twice (a flat box) the mass
- *  of the liquid that the body displaces when it is under. */
+ *  A host's body of mass M follows with v += gravity * dt + linear / M, then pbmpm_collider_move(x + v * dt). Matter feels that velocity one
+ *  step later. Where the matter that has to move along (the added mass A) weighs more than the body, this may oscillate and grow at
+ *  any dt. Stable is v += (M * gravity * dt + linear + V * last) / (M + V), where `last` is what v changed by in the step before: a virtual mass V
+ *  above (A - M) / 2 suffices, and in equilibrium it changes nothing. With V = (density of the liquid) * (volume of the body that is under)^2 /
+ *  (volume of the body) boxes of 0.1 to 0.5 of the liquid's density, released under water or dropped into it, were stable at 60 and 120 Hz.
+ *  With V = 0 bodies of half the density are stable, floating ones of 0.1 too; a box of 0.1 that is held under and released is not. */
 typedef struct pbmpm_impulse {
     uint32_t size;     /**< sizeof(pbmpm_impulse), set by the caller */
     double linear[3];  /**< [N s] */
