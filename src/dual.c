@@ -123,6 +123,19 @@ static void push(World *world, const ContactFrame *contacts, bool cells)
     world->args.momentum = momentum;
 }
 
+/* Pressures that balance what is wrong over the depth of a pool. Where that fails, as in a closed box that is too full, they are taken back. */
+static void guess(World *world, const ContactFrame *contacts, int iterations)
+{
+    guess_begin(world, contacts);
+    push(world, contacts, true);
+    const double before = guess_measure(world, contacts);
+    guess_solve(world, contacts, iterations, before);
+    push(world, contacts, true);
+    if (guess_measure(world, contacts) < before) return;
+    guess_take_back(world);
+    push(world, contacts, true);
+}
+
 /* First multipliers, and the displacements that they make. Returns the mass of the particles. */
 static double start(World *world, const ContactFrame *contacts)
 {
@@ -136,11 +149,10 @@ static double start(World *world, const ContactFrame *contacts)
         solver_over_particles(world, kernels->dual_begin);
     }
     const double mass = sum_blocks(&world->dual.change2, world->grid.particle_blocks);
-    push(world, contacts, cells);
-    if (guesses > 0) {
-        guess_pressure(world, contacts, guesses);
-        push(world, contacts, true);
-    }
+    if (guesses > 0)
+        guess(world, contacts, guesses);
+    else
+        push(world, contacts, cells);
     return mass;
 }
 
@@ -198,8 +210,8 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
 }
 
 /* A stress takes about as many iterations as sound takes cells per substep: n iterations get a stiffness of (n / 2.5)^2 to about a tenth
- * (bars and blocks). Bodies in a liquid hold together better if they are asked for more, and best above about (4 n)^2; more only makes
- * the unfinished solution rougher. */
+ * (bars and blocks); asked for more, a body by itself may gain energy. Bodies in a liquid hold together better if they are asked for more, and
+ * best above about (4 n)^2. */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double held = (world->settings.iterations - guess_iterations(world)) / 2.5;
@@ -208,6 +220,7 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, d
 
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
+    if (!solver_holds_liquid(world)) return dual_stiffness_share(world, def, substep);
     const double asked = 4.0 * (world->settings.iterations - guess_iterations(world));
     return fmin(1.0, asked * asked / stiffness_of(world, def, substep));
 }

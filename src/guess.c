@@ -3,10 +3,11 @@
 #include <math.h>
 #include <string.h>
 
+#include "depth.h"
 #include "result.h"
 
-/* Arrays of cells: residual, preconditioned residual, direction, response, pressure, mask. */
-enum { GUESS_ARRAYS = 6 };
+/* Arrays of cells: residual, preconditioned residual, direction, response, pressure before, mask, softness. */
+enum { GUESS_ARRAYS = 7 };
 
 pbmpm_result guess_prepare(World *world)
 {
@@ -25,13 +26,35 @@ void guess_free(World *world)
     pyramid_free(&world->guess.pyramid, &world->memory);
 }
 
-/* One conjugate gradient solve. */
+/* All pressures yield a little, a tenth as much as the slowest mode of matter n cells deep, whose eigenvalue is (pi / 4n)^2: a guess that is
+ * exact there answers the errors of the last substep with its full weight, and so they may grow. */
+static float least_softness(const World *world)
+{
+    const double root = 3.14159265358979 / (4.0 * matter_depth(world));
+    return (float)(0.1 * root * root);
+}
+
+/* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GROWTH_MAX per substep: the guess acts on all of a body at
+ * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. */
+static const float GROWTH_MAX = 0.05f;
+
+static float growth_share(const World *world) { return fminf(1.0f, 60.0f * world->args.dt); }
+
+/* The arrays of the conjugate gradients, one value per cell. */
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
     size_t cells;
-    float *residual, *better, *direction, *response, *pressure, *mask;
+    float *residual, *better, *direction, *response, *before, *mask, *soft;
 } Guess;
+
+static Guess guess_of(World *world, const ContactFrame *contacts)
+{
+    const size_t n = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    float *cells = world->guess.cells.data;
+    return (Guess){world,         contacts,      n,             cells,         cells + n,
+                   cells + 2 * n, cells + 3 * n, cells + 4 * n, cells + 5 * n, cells + 6 * n};
+}
 
 static double dot(const Guess *g, const float *a, const float *b)
 {
@@ -43,111 +66,142 @@ static double dot(const Guess *g, const float *a, const float *b)
 
 static void hold_nodes(void *context, int32_t begin, int32_t end) { contacts_hold(context, begin, end); }
 
-/* Displacements of the nodes from the pressures in `pressure` alone. */
-static void respond(Guess *g, float *pressure)
+/* Displacements of the nodes from the pressures `of` alone. */
+static void respond(const Guess *g, float *of)
 {
     World *world = g->world;
+    KernelArgs *a = &world->args;
     ContactFrame contacts = *g->contacts;
-    world->args.cell_pressure = world->args.cell_pressure_old = pressure;
+    float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
+    a->cell_pressure = a->cell_pressure_old = of;
     solver_over_particles(world, world->kernels->cells_push);
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);
     mirrors_apply(&world->mirrors, &world->grid);
     pool_for(world->pool, world->grid.node_blocks, 4, hold_nodes, &contacts);
+    a->cell_pressure = pressure;
+    a->cell_pressure_old = pressure_old;
 }
 
-/* Means of tr D of the displacements that the nodes have, into args.cell_trace. */
-static void trace(Guess *g, float *out)
+/* response = means of tr D of the displacements that the nodes have. */
+static void trace(const Guess *g)
 {
     World *world = g->world;
-    world->args.cell_trace = out;
+    world->args.cell_trace = g->response;
+    world->args.probing = 1;
     solver_over_particles(world, world->kernels->cells_trace);
     solver_over_nodes(world, world->kernels->cells_respond, NULL);
+    world->args.probing = 0;
+}
+
+/* In a closed box that is full a constant pressure moves nothing, and no pressure answers to a volume that does not fit: the solution would
+ * grow without bound. The surface of matter n cells deep gives a constant pressure an energy of about 0.45 / n per mass. */
+static bool is_closed(const Guess *g, const float *load)
+{
+    double energy = 0.0, mass = 0.0;
+    for (size_t i = 0; i < g->cells; i++) {
+        energy += (double)load[i];
+        mass += (double)g->world->args.cell_mass[i];
+    }
+    return energy * matter_depth(g->world) < 0.05 * mass;
+}
+
+/* Takes the mean over the mask from a field, if the box is closed. */
+static void take_mean(const Guess *g, float *field)
+{
+    if (!g->world->guess.closed) return;
+    const double mean = dot(g, field, g->mask) / fmax(dot(g, g->mask, g->mask), 1e-300);
+    for (size_t i = 0; i < g->cells; i++) field[i] -= (float)mean * g->mask[i];
 }
 
 /* The energy of a pressure field s is 4 sum_i m_i |u_i|^2 with m_i u_i = sum_p m w s (x_i - x_p). Where matter is all around, that is
  * -m_i grad s / 4; at a surface s itself counts, by the displacement that a pressure of 1 everywhere gives. */
-static void set_energy(Guess *g)
+void guess_begin(World *world, const ContactFrame *contacts)
 {
-    float *stiffness = g->better, *load = g->direction;
-    const float *node = g->world->grid.node.data, *mass = g->world->args.cell_mass, *soft = g->world->args.cell_softness;
-    for (size_t i = 0; i < g->cells; i++) g->response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
-    respond(g, g->response);
-    for (size_t i = 0; i < g->cells; i++) {
+    const Guess g = guess_of(world, contacts);
+    float *stiffness = g.better, *load = g.direction;
+    const float *node = world->grid.node.data, *mass = world->args.cell_mass;
+    const float least = least_softness(world);
+    for (size_t i = 0; i < g.cells; i++) g.response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
+    respond(&g, g.response);
+    for (size_t i = 0; i < g.cells; i++) {
         const float *u = node + i * K_NODE_WIDTH;
+        g.soft[i] = world->args.cell_softness[i] + least;
         stiffness[i] = 0.25f * u[3];
-        load[i] = 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + mass[i] * soft[i];
+        load[i] = 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + mass[i] * g.soft[i];
     }
-    pyramid_set_energy(&g->world->guess.pyramid, stiffness, load);
+    pyramid_set_energy(&world->guess.pyramid, stiffness, load);
+    world->guess.closed = is_closed(&g, load);
 }
 
 /* better = B residual, among the cells of the mask. */
-static void precondition(Guess *g)
+static void precondition(const Guess *g)
 {
-    const float *mass = g->world->args.cell_mass, *soft = g->world->args.cell_softness;
+    const float *mass = g->world->args.cell_mass;
     const float own = (float)g->world->def.dimension;
     for (size_t i = 0; i < g->cells; i++) {
-        g->better[i] = g->residual[i] / (own + soft[i]);
+        g->better[i] = g->residual[i] / (own + g->soft[i]);
         g->response[i] = mass[i] * g->residual[i];
     }
     pyramid_precondition(&g->world->guess.pyramid, g->response, g->better);
     for (size_t i = 0; i < g->cells; i++) g->better[i] *= g->mask[i];
+    take_mean(g, g->better);
 }
 
-/* The residual of the present pressures, and which cells take part: those under pressure, and those that want to be. */
-static void start(Guess *g, const float *start_pressure)
+double guess_measure(World *world, const ContactFrame *contacts)
 {
-    const KernelArgs *a = &g->world->args;
-    trace(g, g->response);
-    for (size_t i = 0; i < g->cells; i++) {
-        const float r = a->cell_growth[i] - g->response[i] - start_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > 0.0f && (start_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
-        g->residual[i] = r * g->mask[i];
-        g->pressure[i] = start_pressure[i];
+    const Guess g = guess_of(world, contacts);
+    const KernelArgs *a = &world->args;
+    const float share = growth_share(world);
+    trace(&g);
+    for (size_t i = 0; i < g.cells; i++) {
+        const float r = fminf(share * a->cell_growth[i], GROWTH_MAX) - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        g.mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        g.residual[i] = r * g.mask[i];
     }
+    take_mean(&g, g.residual);
+    precondition(&g);
+    return dot(&g, g.residual, g.better);
 }
 
-static void conjugate_gradients(Guess *g, int iterations)
+static void conjugate_gradients(const Guess *g, int iterations, double size)
 {
-    const float *soft = g->world->args.cell_softness;
-    precondition(g);
+    float *pressure = g->world->args.cell_pressure;
     memcpy(g->direction, g->better, g->cells * sizeof(float));
-    double rz = dot(g, g->residual, g->better);
-    for (int k = 0; k < iterations && rz > 0.0 && !solver_time_is_up(g->world); k++) {
+    for (int k = 0; k < iterations && size > 0.0 && !solver_time_is_up(g->world); k++) {
         g->world->record.iterations_used++;
         respond(g, g->direction);
-        trace(g, g->response);
-        for (size_t i = 0; i < g->cells; i++) g->response[i] = (g->response[i] + soft[i] * g->direction[i]) * g->mask[i];
+        trace(g);
+        for (size_t i = 0; i < g->cells; i++) g->response[i] = (g->response[i] + g->soft[i] * g->direction[i]) * g->mask[i];
         const double curvature = dot(g, g->direction, g->response);
         if (!(curvature > 0.0)) return;
-        const float step = (float)(rz / curvature);
+        const float step = (float)(size / curvature);
         for (size_t i = 0; i < g->cells; i++) {
-            g->pressure[i] += step * g->direction[i];
+            pressure[i] += step * g->direction[i];
             g->residual[i] -= step * g->response[i];
         }
         precondition(g);
         const double next = dot(g, g->residual, g->better);
-        const float keep = (float)(next / rz);
+        const float keep = (float)(next / size);
         for (size_t i = 0; i < g->cells; i++) g->direction[i] = g->better[i] + keep * g->direction[i];
-        rz = next;
+        size = next;
     }
 }
 
-void guess_pressure(World *world, const ContactFrame *contacts, int iterations)
+void guess_solve(World *world, const ContactFrame *contacts, int iterations, double size)
 {
-    KernelArgs *a = &world->args;
-    float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old, *cells = world->guess.cells.data;
-    const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
-    Guess g = {world,         contacts,          nodes,             cells,           cells + nodes,
-               cells + 2 * nodes, cells + 3 * nodes, cells + 4 * nodes, cells + 5 * nodes};
-    a->probing = 1;
-    start(&g, pressure);
-    set_energy(&g);
-    conjugate_gradients(&g, iterations);
-    a->probing = 0;
-    a->cell_pressure = pressure;
-    a->cell_pressure_old = pressure_old;
-    for (size_t i = 0; i < nodes; i++) {
-        const bool usable = g.pressure[i] > 0.0f && g.pressure[i] < K_INCREMENT_MAX;
-        pressure[i] = pressure_old[i] = usable ? g.pressure[i] : 0.0f;
+    const Guess g = guess_of(world, contacts);
+    float *pressure = world->args.cell_pressure;
+    memcpy(g.before, pressure, g.cells * sizeof(float));
+    conjugate_gradients(&g, iterations, size);
+    for (size_t i = 0; i < g.cells; i++) {
+        const bool usable = pressure[i] > 0.0f && pressure[i] < K_INCREMENT_MAX;
+        pressure[i] = world->args.cell_pressure_old[i] = usable ? pressure[i] : 0.0f;
     }
+}
+
+void guess_take_back(World *world)
+{
+    const Guess g = guess_of(world, NULL);
+    memcpy(world->args.cell_pressure, g.before, g.cells * sizeof(float));
+    memcpy(world->args.cell_pressure_old, g.before, g.cells * sizeof(float));
 }

@@ -13,7 +13,16 @@
 pbmpm_result guess_prepare(World *world);
 void guess_free(World *world);
 
-/* Improves args.cell_pressure by `iterations` steps. The nodes hold the displacements of the present pressures. */
-void guess_pressure(World *world, const ContactFrame *contacts, int iterations);
+/* Prepares the preconditioner. The nodes are used and left in disorder. */
+void guess_begin(World *world, const ContactFrame *contacts);
+
+/* How far args.cell_pressure, whose displacements the nodes hold, is from balancing volume: the residual in the metric of the preconditioner. */
+double guess_measure(World *world, const ContactFrame *contacts);
+
+/* Improves args.cell_pressure by `iterations` steps, from what guess_measure() found and returned as `size`. */
+void guess_solve(World *world, const ContactFrame *contacts, int iterations, double size);
+
+/* Back to the pressures before guess_solve(). */
+void guess_take_back(World *world);
 
 #endif

@@ -182,7 +182,7 @@ static const SolverKind kinds[] = {
     [PBMPM_SOLVER_EXPLICIT] = {explicit_prepare, explicit_solve},
 };
 
-static bool holds_liquid(const World *world)
+bool solver_holds_liquid(const World *world)
 {
     for (uint32_t run = 0; run < world->grid.runs; run++)
         if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
@@ -192,7 +192,7 @@ static bool holds_liquid(const World *world)
 pbmpm_result solver_prepare(World *world)
 {
     pbmpm_solver solver = world->settings.solver;
-    if (solver == PBMPM_SOLVER_CONVERGENT) solver = holds_liquid(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_holds_liquid(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     world->record.solver = solver;
     if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;

@@ -30,6 +30,9 @@ void solver_obey(World *world, const ContactFrame *contacts);
 /* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
 void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts);
 
+/* Whether the grid was built with a particle of a liquid. */
+bool solver_holds_liquid(const World *world);
+
 /* Whether the time budget of the step is spent. */
 bool solver_time_is_up(const World *world);
 

@@ -45,6 +45,7 @@ typedef struct DualState {
 typedef struct GuessState {
     Array cells;
     Pyramid pyramid;
+    bool closed; /* matter fills a closed box */
 } GuessState;
 
 /* A step on a thread of its own; see background.c. */

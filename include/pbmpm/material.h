@@ -29,7 +29,7 @@ typedef enum pbmpm_strain_policy {
 } pbmpm_strain_policy;
 
 /** How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
- *  Not used by the paper's solver. */
+ *  Not used by the paper's solver; the dual solver takes every body as fixed corotated. */
 typedef enum pbmpm_elastic_model {
     PBMPM_FIXED_COROTATED = 0, /**< energy mu |F - R|^2 + lambda/2 (J - 1)^2, R the rotation of F */
     PBMPM_NEO_HOOKEAN = 1,     /**< energy mu/2 (|F|^2 - d) - mu ln J + lambda/2 (ln J)^2; below J = 0.1 ln J is continued by its

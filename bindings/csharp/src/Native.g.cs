@@ -115,7 +115,7 @@ namespace Pbmpm
     }
 
     /// <summary>How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
-    /// Not used by the paper's solver.</summary>
+    /// Not used by the paper's solver; the dual solver takes every body as fixed corotated.</summary>
     public enum ElasticModel : int
     {
         /// <summary>energy mu |F - R|^2 + lambda/2 (J - 1)^2, R the rotation of F</summary>
