@@ -23,7 +23,7 @@ pbmpm_emitter_def emitter_defaults(void)
                                .enabled = 1,
                                .direction = {0.0f, -1.0f, 0.0f},
                                .particles_per_axis = 2.0f,
-                               .fill_limit = 1.2f};
+                               .fill_limit = 1.0f};
 }
 
 /* ---- Checking ---- */
@@ -222,25 +222,43 @@ static Nozzle nozzle_at(const Emitter *emitter, int dimension, float t)
     return nozzle;
 }
 
+/* What the random numbers of an emitter are for; no two use the same one. */
+enum { FOR_PLACE = 0, FOR_VELOCITY = 3, FOR_OFFSET = 5, PURPOSES = 8 };
+
+/* In [-1/2, 1/2). */
+static double random_of(const pbmpm_emitter_def *def, uint64_t number, int purpose)
+{
+    return scatter_number(def->seed, number * PURPOSES + (uint64_t)purpose);
+}
+
 /* The additive sequence with the steps 1/g, 1/g^2, .. where g^(n+1) = g + 1 for n dimensions, which fills a square or cube evenly
  * however many of its points are taken (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018). In [-1, 1). */
 static double sequence(const pbmpm_emitter_def *def, uint64_t number, int axis, int axes)
 {
     static const double root[] = {1.6180339887498949, 1.3247179572447460, 1.2207440846057596};
     const double step = pow(root[axes - 1], -(axis + 1.0));
-    const uint64_t offset = (uint64_t)((scatter_number(def->seed, (uint64_t)axis) + 0.5) * 0x1p64);
+    const uint64_t offset = (uint64_t)((random_of(def, 0, FOR_OFFSET + axis) + 0.5) * 0x1p64);
     const uint64_t point = offset + number * (uint64_t)(step * 0x1p64); /* modulo 1, exactly */
     return (double)(point >> 11) * 0x1p-52 - 1.0;
 }
 
-/* A point of the ball, capsule or box in its own axes; `u` in the cube. False: outside. */
-static bool point_in_shape(const Solid *solid, const double u[3], double local[3])
+/* How far the region reaches along an axis of its own [m]. */
+static double half_of(const Nozzle *nozzle, int axis)
 {
+    const Solid *solid = &nozzle->solid;
+    if (nozzle->region == PBMPM_EMIT_VOLUME && solid->kind == PBMPM_BOX) return solid->half_extents[axis];
+    const bool long_axis = nozzle->region == PBMPM_EMIT_VOLUME && solid->kind == PBMPM_CAPSULE && axis == 0;
+    return solid->radius + (long_axis ? solid->half_extents[0] : 0.0);
+}
+
+/* A point of the ball, capsule or box in its own axes; `u` in the cube. False: outside. */
+static bool point_in_shape(const Nozzle *nozzle, const double u[3], double local[3])
+{
+    const Solid *solid = &nozzle->solid;
     double beyond = 0.0;
     for (int a = 0; a < solid->dimension; a++) {
         const double along = solid->kind == PBMPM_CAPSULE && a == 0 ? solid->half_extents[0] : 0.0;
-        const double half = solid->kind == PBMPM_BOX ? solid->half_extents[a] : solid->radius + along;
-        local[a] = u[a] * half;
+        local[a] = u[a] * half_of(nozzle, a);
         const double past = fmax(0.0, fabs(local[a]) - along);
         beyond += past * past;
     }
@@ -258,20 +276,33 @@ static bool point_of(const Nozzle *nozzle, const double u[3], double point[3])
         return length2 <= 1.0;
     }
     double local[3] = {0};
-    const bool within = point_in_shape(solid, u, local);
+    const bool within = point_in_shape(nozzle, u, local);
     for (int a = 0; a < d; a++)
         for (int b = 0; b < d; b++) point[a] += solid->rotation[a * 3 + b] * local[b];
     return within;
 }
 
-/* The next point of the region. A ball takes half of a cube's points, so that none of 64 is in it does not happen; then it is the last. */
-static void draw_point(Emitter *emitter, const Nozzle *nozzle, double point[3])
+/* The sequence is a lattice in disguise, and shows as stripes where a stream is stretched. So each point is moved at random by up to a
+ * quarter of the particles' distance, as those of a fill are. */
+static const double JITTER = 0.5;
+
+/* What is inside shall be so after positions are rounded to floats. */
+static const double EDGE = 1.0 - 0x1p-20;
+
+/* The next point of the region. A ball takes half of a cube's points, so that none of 64 is in it does not happen; then it is the last.
+ * `spacing`: distance of particles [m]. */
+static void draw_point(Emitter *emitter, const Nozzle *nozzle, double spacing, double point[3])
 {
     const int axes = nozzle->solid.dimension - (nozzle->region == PBMPM_EMIT_DISC ? 1 : 0);
     for (int attempt = 0; attempt < 64; attempt++) {
         double u[3] = {0};
         const uint64_t number = emitter->state.drawn++;
-        for (int a = 0; a < axes; a++) u[a] = sequence(&emitter->def, number, a, axes);
+        for (int a = 0; a < axes; a++) {
+            const double way = JITTER * spacing * random_of(&emitter->def, number, FOR_PLACE + a);
+            u[a] = sequence(&emitter->def, number, a, axes) + way / half_of(nozzle, a);
+            if (fabs(u[a]) > 1.0) u[a] = copysign(2.0 - fabs(u[a]), u[a]); /* thrown back by the end of the region */
+            u[a] *= EDGE;
+        }
         if (point_of(nozzle, u, point)) return;
     }
 }
@@ -279,10 +310,9 @@ static void draw_point(Emitter *emitter, const Nozzle *nozzle, double point[3])
 /* A velocity inside the cone, evenly over its solid angle (2D: its angle). */
 static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double velocity[3])
 {
-    enum { NUMBERS_PER_PARTICLE = 2, AFTER_OFFSETS = 3 };
     const pbmpm_emitter_def *def = &emitter->def;
-    const uint64_t counter = AFTER_OFFSETS + emitter->state.born * NUMBERS_PER_PARTICLE;
-    const double first = scatter_number(def->seed, counter) + 0.5, second = scatter_number(def->seed, counter + 1);
+    const double first = random_of(def, emitter->state.born, FOR_VELOCITY) + 0.5;
+    const double second = random_of(def, emitter->state.born, FOR_VELOCITY + 1);
     const bool deep = nozzle->solid.dimension == 3;
     const double cosine = deep ? 1.0 - first * (1.0 - cos((double)def->spread)) : cos((2.0 * first - 1.0) * (double)def->spread);
     const double sine = deep ? sqrt(fmax(0.0, 1.0 - cosine * cosine)) : sin((2.0 * first - 1.0) * (double)def->spread);
@@ -496,6 +526,7 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
     EmitterState *state = &emitter->state;
     const EmitterState before = *state;
     const double rate = particle_rate(world, &emitter->def), parts = world->settings.substeps;
+    const double spacing = (double)world->def.cell_size / (double)emitter->def.particles_per_axis;
     const uint32_t generation = registry_next_generation();
     const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
     Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + 1) / parts));
@@ -505,7 +536,7 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
         const double after = fmin(fmax(((double)j - before.due) / rate, 0.0), (double)dt);
         Birth birth = {.since = (double)dt - after};
         if (emitter->moving) nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + after / (double)dt) / parts));
-        draw_point(emitter, &nozzle, birth.point);
+        draw_point(emitter, &nozzle, spacing, birth.point);
         draw_velocity(emitter, &nozzle, birth.velocity);
         state->born++;
         if (!be_born(world, emitter, crowd, &birth, generation)) state->refused_full++;

@@ -31,6 +31,14 @@ VALID: dict[str, Any] = {
 }
 
 
+PLANE: dict[str, Any] = {"kind": "plane", "position": [0, 0], "normal": [0, 1]}
+EMITTER: dict[str, Any] = {
+    "shape": {"kind": "sphere", "position": [0.5, 0.8], "radius": 0.1},
+    "material": "water",
+    "rate": 0.05,
+}
+
+
 def changed(path: str, value: Any) -> dict[str, Any]:
     """The valid scene with one field set; the path is written with dots."""
     data = copy.deepcopy(VALID)
@@ -79,6 +87,23 @@ def test_defaults() -> None:
             "colliders[0].shape.normal",
             "zero",
         ),
+        ("fills", [], "fills", "a fill or an emitter"),
+        ("emitters", [EMITTER | {"rate": -1}], "emitters[0].rate", "greater than or equal to 0"),
+        ("emitters", [EMITTER | {"material": "oil"}], "emitters[0].material", "'oil'"),
+        ("emitters", [EMITTER | {"direction": [0, 0]}], "emitters[0].direction", "zero"),
+        ("emitters", [EMITTER | {"direction": [0, 0, 1]}], "emitters[0].direction", "needs 2 numbers"),
+        ("emitters", [EMITTER | {"start": 2, "stop": 1}], "emitters[0]", "stop must be after start"),
+        ("emitters", [EMITTER | {"shape": PLANE}], "emitters[0].shape", "'plane'"),
+        ("emitters", [EMITTER | {"budget": 1.5}], "emitters[0].budget", "valid integer"),
+        ("drains", [{"shape": PLANE, "material": "oil"}], "drains[0].material", "'oil'"),
+        ("drains", [{"shape": PLANE, "rate": 1}], "drains[0].rate", "unknown field"),
+        ("kill_bounds", {"min": [0, 0], "max": [1, 0]}, "kill_bounds.max", "above"),
+        ("kill_bounds", {"min": [0, 0, 0], "max": [1, 1]}, "kill_bounds.min", "needs 2 numbers"),
+        ("forces", [{"kind": "push"}], "forces[0].kind", "'radial'"),
+        ("forces", [{"kind": "drag", "strength": -1}], "forces[0]", "must not be negative"),
+        ("forces", [{"kind": "radial", "falloff": "inverse_square"}], "forces[0]", "range"),
+        ("forces", [{"kind": "uniform", "direction": [0, 0]}], "forces[0].direction", "zero"),
+        ("capacity", 0, "capacity", "greater than or equal to 1"),
         ("pictures", {"times": [-1]}, "pictures.times[0]", "greater than or equal to 0"),
         ("name", "../evil", "name", "pattern"),
     ],
@@ -102,7 +127,7 @@ def test_the_world_gets_what_the_scene_says() -> None:
         assert (world.target_error, world.iterations, world.threads) == (0.01, 7, 1)
 
 
-@pytest.mark.parametrize("field", ["dimension", "cell_size", "gravity", "seconds", "materials", "fills", "name"])
+@pytest.mark.parametrize("field", ["dimension", "cell_size", "gravity", "seconds", "materials", "name"])
 def test_required_fields(field: str) -> None:
     data = {key: value for key, value in VALID.items() if key != field}
     with pytest.raises(InputError, match=rf"{field}: this field is required"):

@@ -243,7 +243,7 @@ class WorldFlow:
             direction: of the speed, before the shape's rotation; default down the second axis.
             spread: largest angle between a particle's velocity and `direction` [rad]; default 0.
             particles_per_axis: size of the particles: so many per cell and axis; default 2.
-            fill_limit: rest volume per volume where nothing more is emitted; default 1.2.
+            fill_limit: rest volume per volume where nothing more is emitted; default 1: full.
             budget: particles that it may emit in its life; 0 (default): no limit.
             seed: of places and directions.
             enabled: whether it begins with the next step (default) or when `Emitter.enabled` is set.

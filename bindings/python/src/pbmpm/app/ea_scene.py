@@ -5,9 +5,10 @@ away from its border. The demo knows no metres. Here its scene is taken to be so
 (2.5 grid heights per s^2) is 9.81 m/s^2: the grid is always 3.924 m high, whatever its resolution. Every figure
 in cells then has the same meaning as in the demo.
 
-Two things cannot be carried over exactly and are noted: the demo's border friction is a share of the tangential
-displacement removed per iteration and becomes a Coulomb coefficient here, and its ``iterationCount`` of n makes n - 1
-complete rounds where ours makes n.
+What cannot be carried over is noted, never fatal: the demo's border friction is a share of the tangential displacement
+removed per iteration and becomes a Coulomb coefficient here; its ``iterationCount`` of n makes n - 1 complete rounds where
+ours makes n; sand and viscoplastic matter get the nearest material that there is; settings, fields, shapes and functions
+that nobody knows are left out.
 """
 
 from __future__ import annotations
@@ -44,8 +45,11 @@ DEFAULTS = {
 MATERIALS = {0: "liquid", 1: "elastic", 2: "sand", 3: "visco"}
 FUNCTIONS = {0: "emitter", 1: "collider", 2: "drain", 3: "initial fill"}
 SHAPES = {0: "box", 1: "circle"}
-KNOWN_MATERIALS = ("liquid", "elastic")
-KNOWN_FUNCTIONS = ("collider", "initial fill")
+STAND_INS = {"sand": "a liquid as thick as can be", "visco": "an elastic body"}
+"""What stands in for materials that there are not."""
+KNOWN_FIELDS = {
+    *("id", "position", "halfSize", "rotation", "shape", "function", "emitMaterial", "emissionRate", "radius")
+}
 
 
 def looks_like_ea_scene(data: Any) -> bool:
@@ -54,17 +58,18 @@ def looks_like_ea_scene(data: Any) -> bool:
 
 
 def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
-    """Turns a decoded file of the demo into a Scene; refuses by name what is not supported.
+    """Turns a decoded file of the demo into a Scene; what it cannot carry over becomes a note of the scene.
 
     ``source`` is the name of the file: it begins each message and gives the scene its name.
     """
     settings, notes = _settings(data, source)
-    shapes = [_Shape(item, index, source) for index, item in enumerate(_list(data, "shapes", source))]
-    _refuse_unsupported(shapes, source)
+    shapes = _shapes(_list(data, "shapes", source), source, notes)
     width, height = _grid(data, settings["simResDivisor"], source)
     cell_size = STANDARD_GRAVITY / (DEFAULT_STRENGTH * height)
     scale = cell_size / settings["simResDivisor"]
     parts = [shape.as_part(scale, height * cell_size) for shape in shapes]
+    if any(shape.function == "emitter" for shape in shapes):
+        notes.append("emitters stop where the grid is full; the demo's go on to 1.5 times as much, those of solids for ever")
     scene = {
         "format": FORMAT_NAME,
         "version": FORMAT_VERSION,
@@ -77,11 +82,13 @@ def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
         "seconds": DEFAULT_SECONDS,
         "rate_hz": settings["simRate"],
         "iterations": int(settings["iterationCount"]),
-        "materials": _materials(settings, notes),
+        "materials": _materials(settings, {shape.material for shape in shapes if shape.emits}, notes),
         "fills": [
             _fill(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "initial fill"
         ],
         "colliders": [{"shape": p} for s, p in zip(shapes, parts) if s.function == "collider"],
+        "emitters": [_emitter(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "emitter"],
+        "drains": [{"shape": p} for s, p in zip(shapes, parts) if s.function == "drain"],
         "pictures": {"colour": "material"},
         "notes": notes,
     }
@@ -103,6 +110,7 @@ class _Shape:
         self.rotation = math.radians(_number(item, "rotation", where)) if "rotation" in item else 0.0
         self.half_size = _pair(item, "halfSize", where) if self.kind == "box" else None
         self.radius = _number(item, "radius", where) if self.kind == "circle" else None
+        self.emission_rate = _number(item, "emissionRate", where) if "emissionRate" in item else 0.0
 
     @property
     def emits(self) -> bool:
@@ -117,17 +125,29 @@ class _Shape:
         return {"kind": "box", "position": position, "half_extents": half_extents, "rotation": -self.rotation}
 
 
-def _refuse_unsupported(shapes: list[_Shape], source: str) -> None:
-    problems = []
-    for shape in shapes:
-        if shape.function not in KNOWN_FUNCTIONS:
-            problems.append(f"{shape.where}.function: '{shape.function}' is not supported yet")
-        if shape.emits and shape.material not in KNOWN_MATERIALS:
-            problems.append(f"{shape.where}.emitMaterial: the material '{shape.material}' is not supported yet")
-    if problems:
-        raise InputError("\n".join(problems))
-    if not any(shape.function == "initial fill" for shape in shapes):
-        raise InputError(f"{source}: shapes: nothing fills this scene (no shape with function 3)")
+def _shapes(items: list[Any], source: str, notes: list[str]) -> list[_Shape]:
+    """The shapes that mean something here."""
+    shapes = []
+    for index, item in enumerate(items):
+        where = f"{source}: shapes[{index}]"
+        strange = _strange_kinds(item, where) if isinstance(item, dict) else []
+        notes += [f"shapes[{index}] was left out: {problem}" for problem in strange]
+        if not strange:
+            shapes.append(_Shape(item, index, source))
+    fields = sorted({field for item in items if isinstance(item, dict) for field in item} - KNOWN_FIELDS)
+    notes += [f"the field '{field}' of shapes has no meaning here and was ignored" for field in fields]
+    if not any(shape.emits for shape in shapes):
+        raise InputError(f"{source}: shapes: nothing fills this scene (no shape with function 3 or 0)")
+    return shapes
+
+
+def _strange_kinds(item: dict[str, Any], where: str) -> list[str]:
+    """Shapes, functions and materials that are numbered as nothing that is known."""
+    found = []
+    for field, names in (("shape", SHAPES), ("function", FUNCTIONS), ("emitMaterial", MATERIALS)):
+        if field in item and (value := _number(item, field, where)) not in names:
+            found.append(f"{field} {value:g} is not known")
+    return found
 
 
 def _settings(data: dict[str, Any], source: str) -> tuple[dict[str, float], list[str]]:
@@ -148,22 +168,27 @@ def _settings(data: dict[str, Any], source: str) -> tuple[dict[str, float], list
     return settings, notes
 
 
-def _materials(settings: dict[str, float], notes: list[str]) -> dict[str, Any]:
+def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> dict[str, Any]:
     notes.append("border friction is a Coulomb coefficient here; the demo removes a share of the motion per iteration")
     notes.append("N iterations are N complete rounds here; the demo makes one fewer")
-    return {
-        "liquid": {
-            "kind": "liquid",
-            "relaxation": _relaxation(settings, "liquidRelaxation", notes),
-            "viscosity": settings["liquidViscosity"],
-            "volume_feedback": 0.1 if settings["useGridVolumeForLiquid"] else 0.0,
-        },
-        "elastic": {
-            "kind": "elastic",
-            "relaxation": _relaxation(settings, "elasticRelaxation", notes),
-            "elasticity_ratio": settings["elasticityRatio"],
-        },
+    notes += [f"there is no {name} here yet: {STAND_INS[name]} stands in for it" for name in sorted(used & STAND_INS.keys())]
+    liquid = {
+        "kind": "liquid",
+        "relaxation": _relaxation(settings, "liquidRelaxation", notes),
+        "viscosity": min(max(settings["liquidViscosity"], 0.0), 1.0),
+        "volume_feedback": 0.1 if settings["useGridVolumeForLiquid"] else 0.0,
     }
+    elastic = {
+        "kind": "elastic",
+        "relaxation": _relaxation(settings, "elasticRelaxation", notes),
+        "elasticity_ratio": min(max(settings["elasticityRatio"], 0.0), 1.0),
+    }
+    materials = {"liquid": liquid, "elastic": elastic}
+    if "sand" in used:
+        materials["sand"] = {**liquid, "viscosity": 1.0}
+    if "visco" in used:
+        materials["visco"] = dict(elastic)
+    return materials
 
 
 def _relaxation(settings: dict[str, float], name: str, notes: list[str]) -> float:
@@ -178,6 +203,18 @@ def _fill(shape: _Shape, part: dict[str, Any], index: int, settings: dict[str, f
     return {
         "shape": part,
         "material": shape.material,
+        "particles_per_axis": settings["particlesPerCellAxis"],
+        "seed": index + 1,
+    }
+
+
+def _emitter(shape: _Shape, part: dict[str, Any], index: int, settings: dict[str, float]) -> dict[str, Any]:
+    """The demo lets each site of a lattice emit so often per second: the whole area as often."""
+    area = math.pi * part["radius"] ** 2 if part["kind"] == "sphere" else 4 * math.prod(part["half_extents"])
+    return {
+        "shape": part,
+        "material": shape.material,
+        "rate": max(shape.emission_rate, 0.0) * area,
         "particles_per_axis": settings["particlesPerCellAxis"],
         "seed": index + 1,
     }

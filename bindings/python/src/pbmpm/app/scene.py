@@ -197,7 +197,7 @@ class EmitterPart(_TimedPart):
     """Default: down the second axis."""
     spread: Annotated[float, Field(ge=0, le=math.pi)] = 0.0
     particles_per_axis: Annotated[float, Field(ge=0.25, le=16)] = 2.0
-    fill_limit: Annotated[float, Field(ge=0.1, le=100)] = 1.2
+    fill_limit: Annotated[float, Field(ge=0.1, le=100)] = 1.0
     budget: Annotated[int, Field(ge=0, lt=2**64)] = 0
     """Particles; 0: no limit."""
     seed: Annotated[int, Field(ge=0, lt=2**32)] = 1
