@@ -14,6 +14,7 @@ static const double ARMIJO = 1e-4;          /* share of the promised decrease of
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double ENERGY_ROUNDING = 5e-7; /* of sums of energies in single precision */
 static const double SMALLEST_STEP = 1e-6;
+static const double FAR_FROM_DONE = 0.1;     /* residual over what forces changed */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4, VECTORS = 4 + 2 * PRIMAL_MEMORY };
@@ -503,11 +504,24 @@ static void keep_energy(Primal *p)
 
 /* ---- The substep ---- */
 
-/* A body that an obstacle pushes or that gained energy: see multistep.h. */
-static void forget_pushed(Primal *p)
+/* What forces changed: the mean square of u - u*, times the mass. */
+static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
+    (void)block;
+    for (size_t i = begin; i < end; i++) {
+        const double change = (double)p->best[i] - (double)p->base[i];
+        if (i % W != 3) sum[0] += (double)p->base[i - i % W + 3] * change * change;
+    }
+}
+
+/* See multistep.h. A solution that is far from done must not be extrapolated either: its error would feed the next step. */
+static void forget_past(Primal *p)
+{
+    if (!p->world->args.block_share) return;
+    over_blocks(p, sum_change);
+    const bool done = p->world->record.residual <= FAR_FROM_DONE * sqrt(p->total[0] / p->mass);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (body_of(p, block)->touches || body_of(p, block)->unsound) multistep_forget(p->world, block);
+        if (!done || body_of(p, block)->touches || body_of(p, block)->unsound) multistep_forget(p->world, block);
 }
 
 static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -543,7 +557,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0]);
     minimise(&p);
     keep_energy(&p);
-    forget_pushed(&p);
+    forget_past(&p);
     over_blocks(&p, rub_and_write);
     holds_book(contacts, p.gradient, p.best, p.node, p.base);
 }
