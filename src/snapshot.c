@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "result.h"
+#include "snapshot_flow.h"
 #include "snapshot_particles.h"
 
 /* What a snapshot begins with. */
@@ -74,6 +75,17 @@ bool snapshot_take(SnapshotIn *in, void *data, size_t bytes)
     return enough;
 }
 
+pbmpm_result snapshot_take_slot(SnapshotIn *in, void *entry, size_t bytes, uint32_t slot, const char *things)
+{
+    if (snapshot_take(in, entry, bytes) && memcmp(entry, &slot, sizeof slot) == 0) return PBMPM_OK;
+    return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", things, slot);
+}
+
+pbmpm_result snapshot_at_end(const SnapshotIn *in, const char *things)
+{
+    return in->at == in->bytes ? PBMPM_OK : fail(PBMPM_ERROR_FOREIGN, "the snapshot has more %s than the world", things);
+}
+
 pbmpm_result snapshot_malformed(void)
 {
     return fail(PBMPM_ERROR_FOREIGN, "a section of the snapshot is not laid out as this version writes it");
@@ -126,12 +138,17 @@ static void load_nothing(World *world, SnapshotIn in)
     (void)in;
 }
 
+typedef struct SavedMaterial {
+    uint32_t slot;
+    pbmpm_material_def def;
+} SavedMaterial;
+
 static void save_materials(const World *world, SnapshotOut *out)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
-        snapshot_put(out, &slot, sizeof slot);
-        snapshot_put(out, &world->materials.def[slot], sizeof(pbmpm_material_def));
+        const SavedMaterial saved = {slot, world->materials.def[slot]};
+        snapshot_put(out, &saved, sizeof saved);
     }
 }
 
@@ -139,14 +156,13 @@ static pbmpm_result check_materials(World *world, SnapshotIn in)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
-        uint32_t saved;
-        pbmpm_material_def def;
-        if (!snapshot_take(&in, &saved, sizeof saved) || !snapshot_take(&in, &def, sizeof def) || saved != slot)
-            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other materials than the world: not the one at index %u", slot);
-        if (memcmp(&def, &world->materials.def[slot], sizeof def) != 0)
+        SavedMaterial saved;
+        const pbmpm_result result = snapshot_take_slot(&in, &saved, sizeof saved, slot, "materials");
+        if (result != PBMPM_OK) return result;
+        if (memcmp(&saved.def, &world->materials.def[slot], sizeof saved.def) != 0)
             return fail(PBMPM_ERROR_FOREIGN, "material %u has other parameters than in the snapshot", slot);
     }
-    return in.at == in.bytes ? PBMPM_OK : fail(PBMPM_ERROR_FOREIGN, "the snapshot has more materials than the world");
+    return snapshot_at_end(&in, "materials");
 }
 
 /* ---- Settings and counters ---- */
@@ -231,8 +247,8 @@ static pbmpm_result check_colliders(World *world, SnapshotIn in)
         const Collider *collider = &world->colliders.slot[slot];
         if (collider->generation == 0) continue;
         SavedCollider saved;
-        if (!snapshot_take(&in, &saved, sizeof saved) || saved.slot != slot)
-            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other colliders than the world: not the one at index %u", slot);
+        const pbmpm_result result = snapshot_take_slot(&in, &saved, sizeof saved, slot, "colliders");
+        if (result != PBMPM_OK) return result;
         const pbmpm_collider_def own = kind_of(&collider->def), other = kind_of(&saved.def);
         if (memcmp(&own, &other, sizeof own) != 0)
             return fail(PBMPM_ERROR_FOREIGN, "collider %u has another shape, friction or kind than in the snapshot", slot);
@@ -244,7 +260,7 @@ static pbmpm_result check_colliders(World *world, SnapshotIn in)
             shape_problem_among(&target, world->def.dimension, &world->baked))
             return snapshot_malformed();
     }
-    return in.at == in.bytes ? PBMPM_OK : fail(PBMPM_ERROR_FOREIGN, "the snapshot has more colliders than the world");
+    return snapshot_at_end(&in, "colliders");
 }
 
 static void load_colliders(World *world, SnapshotIn in)
@@ -269,8 +285,9 @@ static const SnapshotSection counters_section = {4, save_counters, check_counter
 static const SnapshotSection colliders_section = {5, save_colliders, check_colliders, load_colliders};
 
 /* Particles come last: their check makes memory ready, when all else is known to fit. */
-static const SnapshotSection *const sections[] = {&made_section,     &materials_section, &settings_section,
-                                                  &counters_section, &colliders_section, &particles_section};
+static const SnapshotSection *const sections[] = {&made_section,      &materials_section, &settings_section, &counters_section,
+                                                  &colliders_section, &emitters_section,  &drains_section,   &forces_section,
+                                                  &flow_section,      &particles_section};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }

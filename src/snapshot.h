@@ -46,6 +46,12 @@ void snapshot_put(SnapshotOut *out, const void *data, size_t bytes);
 /* False, and zeros, when the payload is shorter. */
 bool snapshot_take(SnapshotIn *in, void *data, size_t bytes);
 
+/* The next entry of a list of things in slots, which begins with the number of its slot (uint32_t); FOREIGN if that is not `slot`. */
+pbmpm_result snapshot_take_slot(SnapshotIn *in, void *entry, size_t bytes, uint32_t slot, const char *things);
+
+/* FOREIGN if the list goes on. */
+pbmpm_result snapshot_at_end(const SnapshotIn *in, const char *things);
+
 /* Refuses a payload that cannot be what its tag says. */
 pbmpm_result snapshot_malformed(void);
 

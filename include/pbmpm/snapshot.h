@@ -13,16 +13,17 @@ enum {
 };
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
- * storage order and with all fields; the settings; poses and targets of colliders; counters and totals. It does not hold
- * what a world is made of: its definition, the parameters of its materials, the shapes of its colliders. Of these it holds
- * enough to refuse a world where they differ.
+ * storage order and with all fields; the settings; poses and targets of colliders; emitters, drains, forces and kill bounds with
+ * their definitions and books; counters and totals. It does not hold what a world is made of: its definition, the
+ * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
  *
  * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
  * number of threads. It need not be the same world: one that was made by the same calls will do, in another process too.
  *
  * Bytes per particle: 60 in 2D and 92 in 3D; 16 and 36 more in a world that has (or had) an elastic material; 4 more once
- * the dual solver was used or PRESSURE was set. Beside them some hundred bytes per world, 4 per identifier that was used and is
- * free again, 92 per material and 76 per collider. Little-endian; a snapshot may be stored and sent as it is. */
+ * the dual solver was used or PRESSURE was set; 52 and 100 more once the primal solver was used with BDF2. Beside them some hundred
+ * bytes for the world and for each material, collider, emitter, drain and force, and 4 per identifier that was used and is
+ * free again. Little-endian; a snapshot may be stored and sent as it is. */
 
 /** How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world. */
@@ -40,8 +41,8 @@ PBMPM_API pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, u
  *  correspond by index. Views expire, events are cleared, and the figures of the last step are 0 until the next one.
  *
  *  The world must have the dimension, cell size and domain box of the snapshot's; the same materials with the same
- *  parameters at the same indices; colliders of the same shape, friction and kind at the same indices; and room for
- *  the particles and their identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+ *  parameters at the same indices; colliders of the same shape, friction and kind at the same indices; emitters, drains and
+ *  forces at the same indices; and room for the particles and their identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
  *
  *  Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
  *  of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);

@@ -29,8 +29,8 @@ class WorldSnapshots:
 
     @property
     def snapshot_bytes_per_particle(self) -> int:
-        """How many bytes of a snapshot each particle takes: 60 in 2D and 92 in 3D, more with elastic materials (16 and 36)
-        and once the dual solver was used (4)."""
+        """How many bytes of a snapshot each particle takes: 60 in 2D and 92 in 3D; more with elastic materials (16 and 36), once
+        the dual solver was used (4), and once the primal solver was used with BDF2 (52 and 100)."""
         return self._snapshot_size()[1]
 
     def snapshot(self) -> bytearray:

@@ -1,0 +1,13 @@
+/* Emitters, drains, kill bounds and forces in a snapshot: their definitions, which may change between steps, and what they have
+ * done. Matched by slot. */
+#ifndef PBMPM_SRC_SNAPSHOT_FLOW_H
+#define PBMPM_SRC_SNAPSHOT_FLOW_H
+
+#include "snapshot.h"
+
+extern const SnapshotSection emitters_section;
+extern const SnapshotSection drains_section;
+extern const SnapshotSection forces_section;
+extern const SnapshotSection flow_section; /* kill bounds and the account */
+
+#endif
