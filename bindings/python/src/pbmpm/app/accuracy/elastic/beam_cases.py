@@ -114,7 +114,7 @@ class CantileverCase(ElasticCase):
         ),
     )
     notes = (
-        "One run stops the motion at each maximum of the kinetic energy and gives the tip at rest; another swings"
+        "One run brakes the beam and gives the tip at rest; another swings"
         " freely for 4 periods and gives the middle of the swing and its frequency, by a fitted oscillation."
         " The cost is that of the"
         " second. Swinging beams creep: they come to hang lower than those at rest."

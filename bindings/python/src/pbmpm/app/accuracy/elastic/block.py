@@ -8,7 +8,8 @@ P.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import math
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,7 +18,7 @@ import pbmpm
 from ...simulation import RunSettings
 from . import strain
 from .stage import CLAMP_OVERLAP, PARTICLES_PER_AXIS, Calmer, Record, Stage, lattice, run
-from .theory import Solid
+from .theory import Solid, bar_angular_frequency
 
 GRAVITY = 9.81
 _FREE_END_CELLS = 2.0
@@ -95,7 +96,8 @@ class Block:
         return Solid(density * GRAVITY * self.height / abs(self.load), self.poisson, density, self.dimension)
 
     def settle(self, settings: RunSettings, seconds: float) -> tuple[Record, Profile | None]:
-        """Lets the block find its rest; nothing is observed but where it comes to rest."""
+        """Lets the block find its rest, where the integrator does not matter: backward Euler."""
+        settings = replace(settings, integrator="euler")
         size = np.full(self.dimension, self.width_cells * self.cell_size)
         size[1] = self.height
         lower = np.zeros(self.dimension)
@@ -104,7 +106,7 @@ class Block:
         with Stage(self.solid, self.cell_size, settings, len(points), down, self.model) as stage:
             ids = stage.add_body(points, float(np.prod(size)))
             self._hold(stage)
-            calmer = Calmer(stage, ids)
+            calmer = Calmer(stage, ids, bar_angular_frequency(self.solid, self.height) / (2.0 * math.pi))
             record = run(stage, seconds, calmer.look, _SPEED_LIMIT * (2.0 * GRAVITY * self.height) ** 0.5)
             profile = self._profile(points, stage.state(ids).positions) if record.stable else None
         return record, profile

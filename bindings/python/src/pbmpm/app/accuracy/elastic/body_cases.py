@@ -43,8 +43,7 @@ class BlockCase(ElasticCase):
     )
     notes = (
         "Each layer carries the weight beyond it. Layers within the block's width of the upper hold, 2 cells of the"
-        " free end and 2 of the floor are left out. Motion is stopped at each maximum of the kinetic energy, so the"
-        " state is at rest."
+        " free end and 2 of the floor are left out. The block is braked until it rests."
         " The paper's solver has no modulus of its own and is left out."
     )
 
