@@ -8,9 +8,10 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter
 
 from ..files import replace_when_complete
-from .case import CurvePanel
+from .case import CurvePanel, ErrorMeasure
 from .sweep import CaseReport
 
 REAL_TIME_MS = 1000.0
@@ -27,14 +28,14 @@ def save_chart(report: CaseReport, machine: dict[str, Any], path: Path) -> None:
     figure = Figure(figsize=(7.5 * columns, 5 * lines), layout="constrained")
     places = figure.subplots(lines, columns, squeeze=False).ravel()
     for place, measure in zip(places, measures):
-        _error_panel(place, report, measure.name, f"{measure.name} [{measure.unit}]", measure.tolerance)
+        _error_panel(place, report, measure)
     for place, panel in zip(places[len(measures) :], panels):
         _curve_panel(place, report, panel)
     for place in places[count:]:
         place.set_visible(False)
     figure.suptitle(
-        f"{report.case.title}. {machine['cpu']}, {machine['isa']}, {machine['threads']} thread(s),"
-        f" {machine['date'][:10]}. Crosses: not stable. Figures: Hz x iterations.",
+        f"{report.case.title}; {machine['cpu']}, {machine['isa']}, {machine['threads']} thread(s),"
+        f" {machine['date'][:10]}; crosses: not stable; figures: Hz x iterations",
         fontsize=10,
     )
     FigureCanvasAgg(figure)
@@ -43,7 +44,8 @@ def save_chart(report: CaseReport, machine: dict[str, Any], path: Path) -> None:
         figure.savefig(temporary, format="png", dpi=100)
 
 
-def _error_panel(axes: Axes, report: CaseReport, name: str, title: str, tolerance: float | None) -> None:
+def _error_panel(axes: Axes, report: CaseReport, measure: ErrorMeasure) -> None:
+    name = measure.name
     groups: dict[tuple[str, int], list[dict[str, Any]]] = {}
     for row in report.rows:
         if row["errors"].get(name) is not None:
@@ -58,10 +60,14 @@ def _error_panel(axes: Axes, report: CaseReport, name: str, title: str, toleranc
             for row, cost, error in zip(chosen, costs, errors):
                 text = f"{row['rate_hz']:g}x{row['iterations']}"
                 axes.annotate(text, (cost, error), textcoords="offset points", xytext=(4, 4), fontsize=6, color=colour)
-    if tolerance is not None:
-        axes.axhline(tolerance, color="#444444", linewidth=0.8, linestyle="--")
+    if measure.tolerance is not None:
+        axes.axhline(measure.tolerance, color="#444444", linewidth=0.8, linestyle="--")
     axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time")
-    axes.set(xscale="log", yscale="log", title=title, xlabel="ms per simulated second", ylabel="error")
+    axes.set(xscale="log", yscale="log", title=f"{name}, {measure.kind}", xlabel="ms per simulated second")
+    axes.set_ylabel(f"error [{measure.unit}]")
+    if measure.unit == "%":
+        axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
+        axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}" if f"{value:e}"[0] in "25" else ""))
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
 

@@ -109,7 +109,8 @@ class EllipticalDrop(Case):
 
     @property
     def panels(self) -> tuple[CurvePanel, ...]:  # type: ignore[override]
-        return (CurvePanel("axis", "A0 t", "a / a0", exact_axis(), "exact"),)
+        times = np.linspace(0.0, END, 11)
+        return (CurvePanel("axis", "A0 t", "a / a0", Curve(times, exact_axis().at(times)), "exact"),)
 
     def sweep(self, quick: bool) -> list[Setting]:
         if quick:
