@@ -53,7 +53,8 @@ typedef struct pbmpm_emitter_def {
                                       the cone; default 0 */
     float particles_per_axis;    /**< size of the particles: so many per cell and axis, in [0.25, 16]; default 2 */
     float fill_limit;            /**< rest volume per volume of the grid where nothing more is emitted, in [0.1, 100]; default 1: full.
-                                      Only the part of the grid counts that obstacles leave open */
+                                      Only what obstacles leave open counts. A source inside a pool needs more: liquid at rest measures 1 +-
+                                      0.1, and at depth up to 1.2 with the paper's solver */
     uint64_t budget;             /**< particles that it may emit in its life; 0 (default): no limit */
 } pbmpm_emitter_def;
 

@@ -134,7 +134,8 @@ def test_emitters_and_drains() -> None:
     assert [emitter.material for emitter in scene.emitters] == ["liquid", "elastic"]
     assert scene.emitters[0].rate / cell**2 == pytest.approx(2.5 * 20 * 10)
     assert scene.emitters[1].rate == 0.0  # it names none
-    assert any("1.5 times" in note for note in scene.notes)
+    assert [emitter.fill_limit for emitter in scene.emitters] == [1.5, 1.5]
+    assert any("emitters of solids" in note for note in scene.notes)
     assert scene.drains[0].shape.half_extents == scene.emitters[0].shape.half_extents
     assert scene.effects() == ["emitters", "drains"]
 

@@ -47,9 +47,11 @@ FUNCTIONS = {0: "emitter", 1: "collider", 2: "drain", 3: "initial fill"}
 SHAPES = {0: "box", 1: "circle"}
 STAND_INS = {"sand": "a liquid as thick as can be", "visco": "an elastic body"}
 """What stands in for materials that there are not."""
-KNOWN_FIELDS = {
-    *("id", "position", "halfSize", "rotation", "shape", "function", "emitMaterial", "emissionRate", "radius")
-}
+KNOWN_FIELDS = {"id", "position", "halfSize", "rotation", "shape", "function", "emitMaterial", "emissionRate", "radius"}
+
+
+EMITTER_FILL_LIMIT = 1.5
+"""The demo emits no liquid where the nearest cell holds more than this: enough to pump up a pool from below."""
 
 
 def looks_like_ea_scene(data: Any) -> bool:
@@ -68,8 +70,8 @@ def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
     cell_size = STANDARD_GRAVITY / (DEFAULT_STRENGTH * height)
     scale = cell_size / settings["simResDivisor"]
     parts = [shape.as_part(scale, height * cell_size) for shape in shapes]
-    if any(shape.function == "emitter" for shape in shapes):
-        notes.append("emitters stop where the grid is full; the demo's go on to 1.5 times as much, those of solids for ever")
+    if any(shape.function == "emitter" and shape.material != "liquid" for shape in shapes):
+        notes.append("emitters of solids, too, stop where the grid is overfull; the demo's never do")
     scene = {
         "format": FORMAT_NAME,
         "version": FORMAT_VERSION,
@@ -216,6 +218,7 @@ def _emitter(shape: _Shape, part: dict[str, Any], index: int, settings: dict[str
         "material": shape.material,
         "rate": max(shape.emission_rate, 0.0) * area,
         "particles_per_axis": settings["particlesPerCellAxis"],
+        "fill_limit": EMITTER_FILL_LIMIT,
         "seed": index + 1,
     }
 
