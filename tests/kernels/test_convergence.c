@@ -223,6 +223,117 @@ static void test_mixture_in_cells(void)
     check_mixture("converged: mixture in cells, uniform strain", 2e4f, PBMPM_PRESSURE_CELLS, uniform_strain);
 }
 
+/* ---- The way there ---- */
+
+/* FISTA on the multipliers of elastic particles, in double precision: nine entries each of S, of S one iteration before, and of Y. */
+typedef struct Fista {
+    RefParticle *particle;
+    uint32_t count;
+    double *now, *old, *Y, t;
+    int restarts;
+} Fista;
+
+static Fista fista_open(const Scene *scene)
+{
+    const uint32_t count = scene->world->particles.count;
+    return (Fista){.particle = scene_particles(scene),
+                   .count = count,
+                   .now = calloc(9 * (size_t)count, sizeof(double)),
+                   .old = calloc(9 * (size_t)count, sizeof(double)),
+                   .Y = calloc(9 * (size_t)count, sizeof(double)),
+                   .t = 1.0};
+}
+
+static void fista_close(Fista *fista)
+{
+    free(fista->particle);
+    free(fista->now);
+    free(fista->old);
+    free(fista->Y);
+}
+
+/* A proximal step from Y, then t' = (1 + sqrt(1 + 4 t^2)) / 2 and Y = S' + (t - 1)/t' (S' - S); where the step went against the extrapolation, <Y - S',
+ * S' - S> > 0 by mass, it starts anew with t = 1 and Y = S'. */
+static void fista_iterate(Fista *fista, const RefGrid *base)
+{
+    const int n = base->dimension;
+    RefGrid u = {.dimension = n, .low = {base->low[0], base->low[1], base->low[2]}, .size = {base->size[0], base->size[1], base->size[2]}};
+    const size_t nodes = (size_t)u.size[0] * (size_t)u.size[1] * (size_t)u.size[2];
+    double uphill = 0.0;
+    u.node = calloc(nodes, sizeof *u.node);
+    for (uint32_t i = 0; i < fista->count; i++) reference_push(&u, &fista->particle[i], fista->Y + 9 * i);
+    for (size_t k = 0; k < nodes; k++)
+        for (int a = 0; a < n; a++)
+            u.node[k].u[a] = base->node[k].mass > 0.0 ? base->node[k].u[a] + u.node[k].u[a] / base->node[k].mass : 0.0;
+    for (uint32_t i = 0; i < fista->count; i++) {
+        const RefParticle *p = &fista->particle[i];
+        double d[3], D[9], *Y = fista->Y + 9 * i, *now = fista->now + 9 * i, *old = fista->old + 9 * i;
+        reference_gather(&u, p, d, D);
+        memcpy(old, now, 9 * sizeof *old);
+        reference_stress(n, &p->material, p->deformation, D, Y, NULL, now);
+        for (int k = 0; k < 9; k++) uphill += p->mass * (Y[k] - now[k]) * (now[k] - old[k]);
+    }
+    const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * fista->t * fista->t)), momentum = uphill > 0.0 ? 0.0 : (fista->t - 1.0) / next;
+    fista->restarts += uphill > 0.0;
+    fista->t = uphill > 0.0 ? 1.0 : next;
+    for (size_t k = 0; k < 9 * (size_t)fista->count; k++) fista->Y[k] = fista->now[k] + momentum * (fista->now[k] - fista->old[k]);
+    reference_grid_free(&u);
+}
+
+static SceneSpec elastic_cluster(void)
+{
+    SceneSpec spec = mixture("the loop", 1e6f);
+    spec.material[0] = spec.material[1];
+    spec.material[0].young_modulus = 1e5f;
+    spec.material[0].relaxation = 1.0f;
+    return spec;
+}
+
+/* After any number of iterations the library has the multipliers of the reference. Iterations enlarge no error but by the rounding of each: 1e-6 of
+ * the size of a stress, some units, times how many there were. */
+static int check_loop(const SceneSpec *spec, pbmpm_isa isa, int dimension)
+{
+    static const int stops[] = {1, 2, 3, 4, 6, 9, 14, 25, 40};
+    Fista fista = {0};
+    int done = 0;
+    for (size_t k = 0; k < sizeof stops / sizeof *stops; k++) {
+        Solved solved = solve(spec, isa, dimension, 5, PBMPM_PRESSURE_PARTICLES, stops[k]);
+        const Scene *scene = &solved.stage.scene;
+        if (k == 0) fista = fista_open(scene);
+        for (uint32_t i = 0; i < fista.count; i++) fista.particle[i].material = scene_particle(scene, i).material; /* what so many can hold */
+        check_true(scene->world->record.iterations_used == (uint32_t)stops[k], "all iterations are done", stops[k]);
+        memset(fista.now, 0, 9 * fista.count * sizeof(double));
+        memset(fista.Y, 0, 9 * fista.count * sizeof(double));
+        fista.t = 1.0;
+        for (done = 0; done < stops[k]; done++) fista_iterate(&fista, &solved.stage.base);
+        for (uint32_t i = 0; i < fista.count; i++) {
+            double S[9];
+            dual_multiplier(&solved.stage, i, S);
+            for (int e = 0; e < 9; e++)
+                if (e % 3 < dimension && e / 3 < dimension) check_near(fista.now[9 * i + (uint32_t)e], S[e], 1e-6 * (3.0 + done), "multiplier", stops[k]);
+        }
+        dual_check_displacements(&solved.stage, 0.0);
+        solved_free(&solved);
+    }
+    const int restarts = fista.restarts;
+    fista_close(&fista);
+    return restarts;
+}
+
+static void test_the_loop_is_fista(void)
+{
+    const SceneSpec spec = elastic_cluster();
+    int restarts = 0;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            check_subject(spec.name, isa, dimension);
+            restarts += check_loop(&spec, isa, dimension);
+        }
+    check_true(restarts > 0, "it was started anew", restarts);
+    check_report(spec.name);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -234,5 +345,6 @@ int main(void)
     RUN_TEST(test_soft_mixture);
     RUN_TEST(test_stiff_mixture);
     RUN_TEST(test_mixture_in_cells);
+    RUN_TEST(test_the_loop_is_fista);
     return UNITY_END();
 }
