@@ -114,6 +114,47 @@ static pbmpm_result call_query_collider(const target *ids)
     return pbmpm_query_collider(ids->world, ids->collider, NULL, 0, &count);
 }
 
+static pbmpm_result call_collider_impulse(const target *ids)
+{
+    pbmpm_impulse impulse = {.size = sizeof impulse};
+    return pbmpm_collider_impulse(ids->world, ids->collider, &impulse);
+}
+
+static pbmpm_result call_domain_impulse(const target *ids)
+{
+    pbmpm_impulse impulse = {.size = sizeof impulse};
+    return pbmpm_domain_impulse(ids->world, 1, 0, &impulse);
+}
+
+pbmpm_result load_triangle(pbmpm_world_id world, pbmpm_baked_id *baked)
+{
+    static const float vertices[6] = {0, 0, 1, 0, 0, 1};
+    char data[4096];
+    uint64_t bytes;
+    pbmpm_mesh_def def;
+    pbmpm_mesh_def_init(&def, sizeof def);
+    def.dimension = 2;
+    def.vertices = vertices;
+    def.vertex_count = 3;
+    def.resolution = 4;
+    const pbmpm_result result = pbmpm_bake_hull(&def, data, sizeof data, &bytes);
+    return result == PBMPM_OK ? pbmpm_baked_create(world, data, bytes, baked) : result;
+}
+
+static pbmpm_result call_baked_create(const target *ids)
+{
+    pbmpm_baked_id baked;
+    return load_triangle(ids->world, &baked);
+}
+
+static pbmpm_result call_baked_get(const target *ids)
+{
+    pbmpm_baked_info info = {.size = sizeof info};
+    return pbmpm_baked_get(ids->world, ids->baked, &info);
+}
+
+static pbmpm_result call_baked_destroy(const target *ids) { return pbmpm_baked_destroy(ids->world, ids->baked); }
+
 static pbmpm_result call_collider_destroy(const target *ids)
 {
     return pbmpm_collider_destroy(ids->world, ids->collider);
@@ -398,7 +439,12 @@ const world_call world_calls[] = {
     {"pbmpm_collider_move", call_collider_move, USES_COLLIDER},
     {"pbmpm_collider_teleport", call_collider_teleport, USES_COLLIDER},
     {"pbmpm_query_collider", call_query_collider, USES_COLLIDER},
+    {"pbmpm_collider_impulse", call_collider_impulse, USES_COLLIDER},
+    {"pbmpm_domain_impulse", call_domain_impulse, 0},
     {"pbmpm_collider_destroy", call_collider_destroy, USES_COLLIDER},
+    {"pbmpm_baked_create", call_baked_create, 0},
+    {"pbmpm_baked_get", call_baked_get, USES_BAKED},
+    {"pbmpm_baked_destroy", call_baked_destroy, USES_BAKED},
     {"pbmpm_particles_add", call_particles_add, USES_MATERIAL},
     {"pbmpm_particles_fill", call_particles_fill, USES_MATERIAL},
     {"pbmpm_particles_count", call_particles_count, 0},
@@ -447,12 +493,18 @@ target target_create(scene_tweak *tweak, void *user)
     def.domain_enabled = 1;
     for (int a = 0; a < 3; a++)
         def.domain_max[a] = 2;
+    def.domain_measures_impulse = 1;
     if (tweak)
         tweak(&def, user);
     target made = {.world = create_world(&def)};
     made.material = create_material(made.world, PBMPM_ELASTIC);
     made.spare = create_material(made.world, PBMPM_LIQUID);
-    made.collider = create_collider(made.world, box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f), true);
+    pbmpm_collider_def collider;
+    OK(pbmpm_collider_def_init(&collider, sizeof collider));
+    collider.shape = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    collider.kinematic = collider.measures_impulse = 1;
+    OK(pbmpm_collider_create(made.world, &collider, &made.collider));
+    OK(load_triangle(made.world, &made.baked));
     fill_shape(made.world, made.material, box_shape(1, 1, 0, 0.4f, 0.4f, 0.5f), (const float[3]){0.5f, 0, 0});
     made.emitter = create_emitter(made.world, made.material);
     made.drain = create_drain(made.world, box_shape(0.1f, 0.1f, 0, 0.05f, 0.05f, 0.05f));

@@ -12,6 +12,9 @@ void rules_set_up(void)
 {
     good = target_create(NULL, NULL);
     OK(pbmpm_world_step(good.world, 0.001f));
+    const pbmpm_shape any = sphere_shape(1, 1, 0, 0.1f);
+    uint32_t count;
+    OK(pbmpm_query_shape(good.world, &any, NULL, 0, &count)); /* the first query takes memory */
     before = snapshot_take(good.world);
 }
 

@@ -84,6 +84,7 @@ static void test_stale_identifiers(void)
     OK(pbmpm_emitter_destroy(good.world, gone.emitter));
     OK(pbmpm_drain_destroy(good.world, gone.drain));
     OK(pbmpm_force_destroy(good.world, gone.force));
+    OK(pbmpm_baked_destroy(good.world, gone.baked));
     OK(pbmpm_material_destroy(good.world, gone.spare));
     OK(pbmpm_collider_destroy(good.world, gone.collider));
     OK(pbmpm_particles_remove(good.world, &gone.particle, 1));
@@ -94,6 +95,7 @@ static void test_stale_identifiers(void)
     create_emitter(good.world, good.material);
     create_drain(good.world, sphere_shape(0.2f, 0.2f, 0, 0.1f));
     create_force(good.world);
+    OK(load_triangle(good.world, &good.baked));
     before = snapshot_take(good.world);
     refuse_parts(&gone, "a stale");
 }
@@ -116,13 +118,15 @@ static void test_random_identifiers(void)
         target ids = good;
         if (generation == good.world.generation || generation == good.material.generation || generation == good.spare.generation ||
             generation == good.collider.generation || generation == good.emitter.generation ||
-            generation == good.drain.generation || generation == good.force.generation)
+            generation == good.drain.generation || generation == good.force.generation ||
+            generation == good.baked.generation)
             continue;
         ids.material = ids.spare = (pbmpm_material_id){index, generation};
         ids.collider = (pbmpm_collider_id){index, generation};
         ids.emitter = (pbmpm_emitter_id){index, generation};
         ids.drain = (pbmpm_drain_id){index, generation};
         ids.force = (pbmpm_force_id){index, generation};
+        ids.baked = (pbmpm_baked_id){index, generation};
         ids.particle = (pbmpm_particle_id){index + before.count, generation}; /* beyond the slots ever used */
         if (!row->uses)
             ids.world = (pbmpm_world_id){index, generation};

@@ -333,6 +333,7 @@ static void test_colliders(void)
         {FIELD(pbmpm_collider_def, friction_coefficient), FLOAT32, 0, 100, false, false},
         {FIELD(pbmpm_collider_def, friction), INT32, PBMPM_FRICTION_COULOMB, PBMPM_FRICTION_SLIP, false, false},
         {FIELD(pbmpm_collider_def, kinematic), INT32, 0, 1, false, false},
+        {FIELD(pbmpm_collider_def, measures_impulse), INT32, 0, 1, false, false},
     };
     pbmpm_collider_def def;
     OK(pbmpm_collider_def_init(&def, sizeof def));

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "meshes.h"
-#include "scenes.h"
+#include "rules.h"
 
 static Mesh mesh;
 static struct {
@@ -61,6 +61,51 @@ static pbmpm_world_id open_world(int32_t dimension, uint32_t capacity)
 {
     const pbmpm_world_def def = default_world(dimension, 0.1f, capacity);
     return create_world(&def);
+}
+
+/* ---- Definitions ---- */
+
+static pbmpm_result use_mesh(const void *structure)
+{
+    uint64_t bytes;
+    return pbmpm_bake_mesh(structure, NULL, 0, &bytes);
+}
+
+static pbmpm_result use_heights(const void *structure)
+{
+    uint64_t bytes;
+    return pbmpm_bake_heights(structure, NULL, 0, &bytes);
+}
+
+static void test_ranges(void)
+{
+    static float heights[6] = {0, 1, 2, 1, 0, 1};
+    static const rule of_meshes[] = {
+        {FIELD(pbmpm_mesh_def, dimension), INT32, 2, 3, false, false},
+        {FIELD(pbmpm_mesh_def, resolution), INT32, 4, INFINITY, false, false}, /* the largest depends on the form */
+        {FIELD(pbmpm_mesh_def, vertex_count), UINT32, 1, INFINITY, true, false},
+        {FIELD(pbmpm_mesh_def, element_count), UINT32, 1, INFINITY, false, false},
+    };
+    static const rule of_heights[] = {
+        {FIELD(pbmpm_heights_def, dimension), INT32, 2, 3, false, false},
+        {FIELD(pbmpm_heights_def, up), INT32, 0, 2, false, false},
+        {FIELD(pbmpm_heights_def, count[0]), UINT32, 2, INFINITY, false, false},
+        {FIELD(pbmpm_heights_def, count[1]), UINT32, 2, INFINITY, false, false},
+        {FIELD(pbmpm_heights_def, spacing[1]), FLOAT32, (double)1e-6f, 1e6, false, false},
+        {FIELD(pbmpm_heights_def, thickness), FLOAT32, (double)1e-6f, 1e6, false, false},
+    };
+    rules_set_up();
+    mesh_clear(&mesh, 3);
+    mesh_add_ball(&mesh, 0, 0, 0, 1, 6);
+    const pbmpm_mesh_def made = mesh_def_of(&mesh, 8);
+    CHECK_RULES(of_meshes, made, use_mesh);
+    pbmpm_heights_def field;
+    OK(pbmpm_heights_def_init(&field, sizeof field));
+    field.count[0] = 2;
+    field.count[1] = 2;
+    field.heights = heights;
+    field.resolution = 4;
+    CHECK_RULES(of_heights, field, use_heights);
 }
 
 /* ---- The life of a solid ---- */
@@ -566,6 +611,7 @@ int main(void)
 {
     support_skip_without_isa();
     UNITY_BEGIN();
+    RUN_TEST(test_ranges);
     RUN_TEST(test_definitions_have_the_documented_defaults);
     RUN_TEST(test_a_solid_is_inspected_loaded_shared_and_destroyed);
     RUN_TEST(test_solids_that_do_not_fit);
