@@ -148,7 +148,7 @@ static stage busy_pool(scene_tweak *tweak)
     pbmpm_emitter_id emitter;
     pbmpm_drain_id hole;
     pbmpm_force_id vortex;
-    const float target[3] = {0.5f, 1.0f, 0};
+    const float there[3] = {0.5f, 1.0f, 0};
     OK(pbmpm_emitter_def_init(&source, sizeof source));
     source.material = water;
     source.shape = sphere_shape(0.3f, 1.0f, 0, 0.05f);
@@ -156,7 +156,7 @@ static stage busy_pool(scene_tweak *tweak)
     source.speed = 1.0f;
     source.spread = 0.4f;
     OK(pbmpm_emitter_create(made.world, &source, &emitter));
-    OK(pbmpm_emitter_move(made.world, emitter, target, NULL));
+    OK(pbmpm_emitter_move(made.world, emitter, there, NULL));
     OK(pbmpm_drain_def_init(&drain, sizeof drain));
     drain.material = water;
     drain.shape = sphere_shape(0.6f, 0.1f, 0, 0.2f);

@@ -1,0 +1,63 @@
+"""Steps in the background through Python."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbmpm
+
+
+def twin(world: pbmpm.World) -> pbmpm.World:
+    """The world of the fixture once more."""
+    dimension = world.dimension
+    lower, upper = world.domain or ((0.0,), (0.0,))
+    made = pbmpm.World(dimension, 0.1, capacity=world.capacity, gravity=world.gravity, domain=(lower, upper), threads=1)
+    made.fill(pbmpm.Box([1.0] * dimension, [0.2] * dimension), made.add_material(pbmpm.Liquid()))
+    return made
+
+
+def test_results_are_those_of_steps_that_wait(pool: pbmpm.World) -> None:
+    with twin(pool) as other:
+        for i in range(20):
+            pool.step(0.01)
+            other.step_begin(0.01)
+            while not other.step_end(wait=bool(i % 2)):
+                pass
+            assert pool.hash() == other.hash()
+
+
+def test_the_last_state_is_in_view_meanwhile(pool: pbmpm.World) -> None:
+    pool.step(0.01)
+    before = pool.positions.copy()
+    old = pool.positions
+    pool.step_begin(0.01)
+    meanwhile = pool.positions
+    assert old.expired and not meanwhile.expired
+    assert np.array_equal(meanwhile.copy(), before) and len(pool) == len(before)
+    assert pool.step_end()
+    assert meanwhile.expired
+    assert not np.array_equal(pool.positions.copy(), before)
+
+
+def test_other_calls_are_refused(pool: pbmpm.World) -> None:
+    pool.publish([pbmpm.Field.VELOCITY])
+    pool.step_begin(0.01)
+    assert pool.velocities.shape == (len(pool), pool.dimension)
+    for call in (lambda: pool.positions, lambda: pool.step(0.01), lambda: pool.step_begin(0.01), lambda: pool.stats, pool.hash):
+        with pytest.raises(pbmpm.BusyError):
+            call()
+    assert pool.step_end()
+    with pytest.raises(pbmpm.InvalidArgumentError, match="none was begun"):
+        pool.step_end()
+    with pytest.raises(pbmpm.InvalidArgumentError, match="dt"):
+        pool.step_begin(-1)
+
+
+def test_closing_while_a_step_runs(pool: pbmpm.World) -> None:
+    pool.step_begin(0.01)
+    array = pool.positions.array()
+    pool.close()
+    with pytest.raises(pbmpm.ClosedError):
+        pool.step_end()
+    assert np.isfinite(array).all()
