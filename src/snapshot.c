@@ -330,8 +330,15 @@ void snapshot_save(const World *world, void *buffer)
         header.sections++;
     }
     memcpy(data, &header, sizeof header);
-    header.checksum = checksum_of(data, header.bytes);
-    memcpy(data, &header, sizeof header);
+    snapshot_seal(data);
+}
+
+void snapshot_seal(void *snapshot)
+{
+    Header header;
+    memcpy(&header, snapshot, sizeof header);
+    header.checksum = checksum_of(snapshot, header.bytes);
+    memcpy(snapshot, &header, sizeof header);
 }
 
 /* ---- Restoring ---- */

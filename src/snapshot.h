@@ -14,6 +14,9 @@ uint32_t snapshot_bytes_per_particle(const World *world);
 /* There is room for snapshot_size(). */
 void snapshot_save(const World *world, void *buffer);
 
+/* Writes the checksum of a snapshot whose other bytes are final. */
+void snapshot_seal(void *snapshot);
+
 /* On failure nothing has changed. */
 pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes);
 
