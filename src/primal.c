@@ -371,11 +371,12 @@ static void minimise(Primal *p)
     }
 }
 
-/* Without stop rules, for what is done in addition. */
-static void descend_some(Primal *p, uint32_t most)
+/* Goes on along p->direction, without stop rules, for what is done in addition. */
+static void descend_further(Primal *p)
 {
+    const uint32_t most = (uint32_t)p->world->settings.iterations + 1;
     uint32_t passes = 0;
-    while (passes < most && find_direction(p) > 0.0 && descend(p, &passes, most)) {}
+    while (descend(p, &passes, most) && passes < most && find_direction(p) > 0.0) {}
 }
 
 /* ---- The energy check ---- */
@@ -494,8 +495,11 @@ static void keep_energy(Primal *p)
     const uint32_t failed = check_bodies(p);
     p->world->record.energy_checks_failed = failed;
     if (failed == 0) return;
+    descend_further(p); /* nearly there */
+    if (check_bodies(p) == 0) return;
     pull_back_to(p, 0.0f);
-    descend_some(p, (uint32_t)p->world->settings.iterations + 1);
+    find_direction(p);
+    descend_further(p);
     for (int halving = 0; check_bodies(p) > 0; halving++) {
         pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;
