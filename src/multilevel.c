@@ -271,8 +271,8 @@ static void prolong_from(const Multilevel *m, Pool *pool, int l, const float *fr
 /* ---- The operator ---- */
 
 /* Levels overlap: smooth motion is corrected by each of them. With 1 steps were too long by about the factor 2; iterations for the bar and the
- * cantilever of the accuracy cases were fewest from 2 to 4. */
-static const double OVERLAP = 3.0;
+ * cantilever of the accuracy cases were fewest around 2. */
+static const double OVERLAP = 2.0;
 
 void multilevel_weigh(Multilevel *m, Pool *pool, const float *weight)
 {

@@ -371,12 +371,12 @@ static void minimise(Primal *p)
     }
 }
 
-/* Goes on along p->direction, without stop rules, for what is done in addition. */
+/* Goes on along p->direction, without stop rules, for what the energy check asks for. */
 static void descend_further(Primal *p)
 {
-    const uint32_t most = (uint32_t)p->world->settings.iterations + 1;
-    uint32_t passes = 0;
-    while (descend(p, &passes, most) && passes < most && find_direction(p) > 0.0) {}
+    uint32_t *passes = &p->world->record.iterations_used;
+    const uint32_t most = *passes + (uint32_t)p->world->settings.iterations + 1;
+    while (descend(p, passes, most) && *passes < most && find_direction(p) > 0.0) {}
 }
 
 /* ---- The energy check ---- */
@@ -486,6 +486,7 @@ static void pull_back_to(Primal *p, float share)
     p->share = share;
     over_blocks(p, pull_back);
     evaluate(p);
+    p->world->record.iterations_used++;
     accept(p, false);
 }
 

@@ -20,6 +20,9 @@
 
 #include "solver.h"
 
+/* What an incompressible liquid is instead: sound travels sqrt(L) / 2 cells per substep. */
+static const float PRIMAL_STIFFEST = 1000.0f;
+
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result primal_prepare(World *world);
 void primal_free(World *world);
