@@ -188,6 +188,15 @@ uint32_t holds_touching(const ContactFrame *frame, int32_t block)
     return count;
 }
 
+bool holds_any(const ContactFrame *frame, int32_t block)
+{
+    if (frame->colliders->contacts == 0) return false;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++)
+        if (list.contact[i].gap <= 0.0f) return true;
+    return false;
+}
+
 void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;

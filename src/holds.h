@@ -35,4 +35,7 @@ uint32_t holds_touching(const ContactFrame *frame, int32_t block);
  * to the first three floats of `share`, which are 0 elsewhere. */
 void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end);
 
+/* Whether a node of the block is at or in an obstacle. */
+bool holds_any(const ContactFrame *frame, int32_t block);
+
 #endif
