@@ -100,8 +100,8 @@ def test_period_of_the_wave() -> None:
         pytest.param(Column(), Setting("dual", 60.0, 50, 32), {"height_error": 0.03}, id="column, 60 Hz x 50"),
         pytest.param(Column(), Setting("dual", 60.0, 100, 32), {"height_error": 0.005}, id="column, 60 Hz x 100"),
         pytest.param(Column(), Setting("dual", 240.0, 20, 32), {"height_error": 0.01}, id="column, 240 Hz x 20"),
-        pytest.param(Couette(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="couette"),
-        pytest.param(Poiseuille(), Setting("dual", 60.0, 5, 12), {"profile_error": 0.02}, id="poiseuille"),
+        pytest.param(Couette(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="couette"),
+        pytest.param(Poiseuille(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="poiseuille"),
         pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 8), {"gauge_mae": 0.12}, id="dam break on a box"),
         pytest.param(
             DamBreak(stability_seconds=2.0),
