@@ -225,6 +225,35 @@ static void test_rest_survives_changes_of_rate(void)
     }
 }
 
+/* A pool 64 cells deep at 1/60 s and 12 iterations. A pressure that moves by about a cell per iteration, as that of the dual solver alone, does not
+ * reach its floor: in the first second, while steps start from what the last ones found, it swings at 1.3 m/s. With the guess of the pressure it
+ * is at rest within a third of that, and its height within 2 %. */
+static void test_deep_pools_come_to_rest(void)
+{
+    for (int w = 0; w < way_count; w++) {
+        if (ways[w].solver != PBMPM_SOLVER_DUAL || ways[w].flip > 0)
+            continue;
+        char label[96];
+        pbmpm_world_def def = default_world(2, 0.1f, ROOM);
+        def.domain_enabled = 1;
+        def.domain_max[0] = 0.8f;
+        def.domain_max[1] = 9.6f;
+        const pbmpm_world_id world = create_world(&def);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.4f, 3.2f, 0, 0.4f, 3.2f, 0), (const float[3]){0, 0, 0});
+        set_gravity(world, 0, -9.81f, 0);
+        set_rate(world, 1, 12);
+        use_way(world, &ways[w]);
+        for (int i = 0; i < 60; i++)
+            OK(pbmpm_world_step(world, 1.0f / 60));
+        const pbmpm_stats stats = world_stats(world);
+        const double centre = stats.potential_energy / (9.81 * stats.mass);
+        const double speed = sqrt(2 * stats.kinetic_energy / stats.mass);
+        snprintf(label, sizeof label, "%s: centre at %.4f m of 3.2 m, rms speed %.3f m/s", ways[w].name, centre, speed);
+        TEST_ASSERT_TRUE_MESSAGE(fabs(centre - 3.2) < 0.02 * 3.2 && speed < 1.3 / 3, label);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
 /* ---- Free fall ---- */
 
 /* Nothing holds matter that falls freely: the same velocity, at any rate and however it is solved. */
@@ -259,6 +288,7 @@ int main(void)
     RUN_TEST(test_momentum_in_3d);
     RUN_TEST(test_the_mean_pressure_is_half_of_the_weight);
     RUN_TEST(test_rest_survives_changes_of_rate);
+    RUN_TEST(test_deep_pools_come_to_rest);
     RUN_TEST(test_free_fall);
     return UNITY_END();
 }

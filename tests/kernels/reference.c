@@ -19,6 +19,14 @@ static double spline(double x)
     return r < 1.5 ? 0.5 * (1.5 - r) * (1.5 - r) : 0.0;
 }
 
+/* Its derivative. */
+static double spline_slope(double x)
+{
+    const double r = fabs(x);
+    if (r <= 0.5) return -2.0 * x;
+    return r < 1.5 ? -copysign(1.5 - r, x) : 0.0;
+}
+
 RefStencil reference_stencil(int dimension, const RefParticle *p)
 {
     RefStencil s = {0};
@@ -101,6 +109,28 @@ void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], do
             for (int c = 0; c < grid->dimension; c++) D[r * 3 + c] += 4.0 * s.weight[i] * node->u[r] * s.offset[i][c];
         }
     }
+}
+
+/* The weight of a node is the spline of its offset, node minus particle: its derivative by the particle's place has the other sign. */
+double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9])
+{
+    const int n = grid->dimension;
+    double size[9] = {0}, largest = 0.0;
+    const RefStencil s = reference_stencil(n, p);
+    memset(gradient, 0, 9 * sizeof *gradient);
+    for (int i = 0; i < s.count; i++) {
+        const RefNode *node = &grid->node[reference_index(grid, s.node[i])];
+        for (int c = 0; c < n; c++) {
+            double slope = -1.0;
+            for (int a = 0; a < n; a++) slope *= a == c ? spline_slope(s.offset[i][a]) : spline(s.offset[i][a]);
+            for (int r = 0; r < n; r++) {
+                gradient[r * 3 + c] += slope * node->u[r];
+                size[r * 3 + c] += fabs(slope * node->u[r]);
+                largest = fmax(largest, size[r * 3 + c]);
+            }
+        }
+    }
+    return largest;
 }
 
 double reference_compression(const RefGrid *grid, const RefParticle *p)
@@ -284,12 +314,15 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
     reference_gather(grid, p, d, D);
     memcpy(motion, d, sizeof motion);
     if (reference_flips(step, p)) keep_fine_motion(step, p, D, d, motion);
-    if (p->material.kind == K_ELASTIC)
-        integrate_elastic(step, p, D);
-    else if (step->tensionless)
+    if (p->material.kind == K_ELASTIC) {
+        double gradient[9];
+        reference_gradient(grid, p, gradient);
+        integrate_elastic(step, p, step->tensionless ? gradient : D); /* the paper's F follows D */
+    } else if (step->tensionless) {
         integrate_tensionless(step, grid, p, D);
-    else
+    } else {
         integrate_liquid(step, grid, p, D);
+    }
     move(step, p, d, motion);
     for (int k = 0; k < 9; k++) p->affine[k] = D[k] / step->dt;
 }

@@ -75,6 +75,9 @@ void reference_scatter(RefGrid *grid, const RefParticle *p, const double d[3], c
 /* d = sum w u and D = 4 sum w u (x_i - x_p)^T. */
 void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], double D[9]);
 
+/* The gradient of the motion x += sum w_i(x) u_i at the particle: sum u_i (grad w_i)^T. Returns the largest sum of the sizes of an entry's terms. */
+double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9]);
+
 /* Moves D towards what the particle's material allows. */
 void reference_project(int dimension, const RefParticle *p, double D[9]);
 

@@ -75,6 +75,33 @@ static void test_affine_fields_are_gathered_exactly(void)
         }
 }
 
+/* The gradient of the motion is that of differences: over 1e-6 they have the rounding of 1e-16 / 1e-6, and quadratic splines no error but their jump
+ * of curvature. */
+static void test_the_gradient_is_that_of_the_motion(void)
+{
+    Random random = {8};
+    for (int n = 2; n <= 3; n++)
+        for (int i = 0; i < 50; i++) {
+            RefParticle p = random_particle(&random);
+            RefGrid grid = reference_grid(n, low, high);
+            const size_t count = (size_t)grid.size[0] * (size_t)grid.size[1] * (size_t)grid.size[2];
+            double gradient[9], unused[9];
+            for (size_t k = 0; k < count; k++) random_array(&random, grid.node[k].u, 3, -1.0, 1.0);
+            for (int a = 0; a < n; a++) p.fraction[a] *= 0.999;
+            reference_gradient(&grid, &p, gradient);
+            for (int c = 0; c < n; c++) {
+                double d[2][3];
+                for (int side = 0; side < 2; side++) {
+                    RefParticle moved = p;
+                    moved.fraction[c] += side ? 1e-6 : -1e-6;
+                    reference_gather(&grid, &moved, d[side], unused);
+                }
+                for (int r = 0; r < n; r++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, (d[1][r] - d[0][r]) / 2e-6, gradient[r * 3 + c]);
+            }
+            reference_grid_free(&grid);
+        }
+}
+
 /* Linear momentum, and angular momentum about the origin, of a grid of momenta. */
 static void momentum_of(const RefGrid *grid, double linear[3], double angular[3])
 {
@@ -186,6 +213,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_moments_of_the_splines);
     RUN_TEST(test_affine_fields_are_gathered_exactly);
+    RUN_TEST(test_the_gradient_is_that_of_the_motion);
     RUN_TEST(test_projections_conserve_momentum);
     RUN_TEST(test_fixed_points);
     RUN_TEST(test_decomposition);
