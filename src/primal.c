@@ -26,6 +26,7 @@ typedef struct BodySum {
     double elastic;           /* energy of the elastic particles */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
+    bool leans;               /* on an obstacle */
     float share;              /* of the way from the start to the solution */
 } BodySum;
 
@@ -537,6 +538,16 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
     holds_rub(p->contacts, p->gradient, p->base, p->node, block, block + 1);
 }
 
+/* Bodies at or in an obstacle. */
+static void find_leaning(Primal *p)
+{
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (holds_any(p->contacts, block)) body_of(p, block)->leans = true;
+}
+
+/* First displacements: those of the predictor, or for a body that leans on something, without what gravity and forces add in the
+ * substep, which are most likely balanced: a beam at rest starts at rest. */
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
@@ -544,6 +555,8 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
         multistep_predict(p->world, block, block + 1);
         memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     }
+    for (size_t i = begin; i < end && body_of(p, block)->leans; i += W)
+        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
     holds_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }
@@ -551,6 +564,7 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
 void primal_solve(World *world, const ContactFrame *contacts)
 {
     Primal p = open_solve(world, contacts);
+    find_leaning(&p);
     over_blocks(&p, start);
     solver_over_particles(world, world->kernels->force_first);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
