@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from . import bad_input, energy, impact, rate, strain, volume
+from . import bad_input, energy, impact, overfull, rate, strain, volume
 from .case import HardCase
 
 CASES: tuple[HardCase, ...] = tuple(
     sorted(
-        (*volume.CASES, *strain.CASES, *energy.CASES, *bad_input.CASES, *impact.CASES, *rate.CASES),
+        (*volume.CASES, *strain.CASES, *energy.CASES, *bad_input.CASES, *impact.CASES, *overfull.CASES, *rate.CASES),
         key=lambda case: case.id,
     )
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import Check, HardCase, Setting
+from .case import PHYSICAL_SOLVERS, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
 from .volume import PRESS_CELL, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
 from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
@@ -178,6 +178,13 @@ def obstacles(setting: Setting) -> list[Check]:
     return OBSTACLES[setting.variant](setting)
 
 
+_THIN_WALL = KnownFailure(
+    "at 5 cells per step and more the displacements of nodes on both sides of a wall of one cell carry particles across it;"
+    " walls of two cells hold at any speed",
+    solvers=PHYSICAL_SOLVERS,
+    variants=tuple(name for name, (speed, wall) in IMPACTS.items() if wall == 1 and speed >= 5),
+)
+
 CASES = (
     HardCase(
         "H08",
@@ -186,6 +193,7 @@ CASES = (
         "nothing through or inside the wall, kinetic energy never above the start's",
         hit_wall,
         variants=tuple(IMPACTS),
+        known_failures=(_THIN_WALL, UNFINISHED_LIQUID),
     ),
     HardCase(
         "H16",

@@ -10,7 +10,7 @@ import numpy as np
 import pbmpm
 
 from ..accuracy import laws
-from .case import LIQUID, PAPER, Check, HardCase, Setting
+from .case import DUAL, LIQUID, PAPER, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
 from .watch import GRAVITY, Watch, make_world, occupied_share, potential_energy, total_energy, vector
 
 #: Share of the volume that has to come back, of what the solver's own compressibility leaves of it.
@@ -192,6 +192,13 @@ def collapse(setting: Setting) -> list[Check]:
         ]
 
 
+_ONE_ITERATION = KnownFailure(
+    "one iteration per 1/30 s does not carry the pressure of an incompressible liquid through a column of 64 cells",
+    solvers=(DUAL,),
+    dimensions=(2,),
+    most_iterations=1,
+)
+
 CASES = (
     HardCase(
         "H01",
@@ -202,6 +209,7 @@ CASES = (
         materials=(LIQUID,),
         rate_hz=30.0,
         iterations=1,
+        known_failures=(_ONE_ITERATION, UNFINISHED_LIQUID),
     ),
     HardCase(
         "H03",

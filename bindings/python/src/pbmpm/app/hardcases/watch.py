@@ -103,7 +103,8 @@ class Watch:
     def checks(self) -> list[Check]:
         """The universal checks. Deletions are reported by the library's own count."""
         world = self.world
-        lost = self.start_count - len(world) - world.stats.deleted_total
+        flow = world.flow
+        lost = self.start_count + flow.emitted - flow.drained - flow.killed - len(world) - world.stats.deleted_total
         return [
             Check("values that are not finite", self.not_finite, 0),
             Check("particles lost without an event", abs(lost), 0),
