@@ -1,6 +1,7 @@
 #include "emitters.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "numbers.h"
@@ -324,6 +325,11 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
 
 /* ---- Whether there is space: the rest volume on the nodes around the emitter, as the grid will see it ---- */
 
+enum { WIDE = 2 }; /* nodes to either side of a particle's own that count */
+
+/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
+static const double DENSEST = 1.25;
+
 typedef struct Crowd {
     int32_t low[3];
     int32_t size[3]; /* nodes */
@@ -337,7 +343,7 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
     double gravity2 = 0.0;
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double way = ((double)emitter->def.speed + sqrt(gravity2) * (double)dt) * (double)dt / dx;
-    const double reach = fmin(way, (double)world->settings.max_displacement) + 2.0;
+    const double reach = fmin(way, (double)world->settings.max_displacement) + WIDE + 2.0;
     Crowd crowd = {.size = {1, 1, 1}};
     double low[2][3], high[2][3];
     for (int end = 0; end < 2; end++) {
@@ -416,29 +422,49 @@ static void crowd_measure(const World *world, Crowd *crowd)
 }
 
 /* The share of a node's cell that obstacles leave open. */
-static double open_share_at(const World *world, const double node[3])
+static double open_share_at(const World *world, const int32_t node[3])
 {
-    double share = 1.0;
+    double share = 1.0, point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
     for (int i = 0; i < world->colliders.obstacle_count; i++)
-        share *= obstacle_open_share(&world->colliders.obstacle[i], node, (double)world->def.cell_size);
+        share *= obstacle_open_share(&world->colliders.obstacle[i], point, (double)world->def.cell_size);
     return share;
 }
 
-/* Rest volume per volume that is open, at a place. Obstacles count only if `walled`. */
-static double crowd_at(const World *world, const Crowd *crowd, const double place[3], const Spot *spot, bool walled)
+/* How full the surroundings of a place are: rest volume per volume that obstacles leave open. Of the nodes up to WIDE away, weighed by a tent:
+ * where particles lie at random single nodes hold a tenth more or less, and matter that moves would let an emitter find
+ * a gap for ever. Obstacles are looked at only if `walled`. */
+static double crowd_at(const World *world, const Crowd *crowd, const double place[3], bool walled)
 {
-    const int d = world->def.dimension;
-    double held = 0.0;
-    for (int k = 0; k < (d == 3 ? 3 : 1); k++)
-        for (int j = 0; j < 3; j++)
-            for (int i = 0; i < 3; i++) {
-                const double volume = (double)crowd->volume[spot_node(crowd, spot, i, j, k)];
-                const int offset[3] = {i - 1, j - 1, k - 1};
-                double node[3] = {0}, share = 1.0;
-                for (int a = 0; a < d; a++) node[a] = (floor(place[a] + 0.5) + offset[a]) * (double)world->def.cell_size;
-                if (walled && volume > 0.0) share = open_share_at(world, node);
-                held += spot->w[0][i] * spot->w[1][j] * spot->w[2][k] * volume / share;
+    const int d = world->def.dimension, depth = d == 3 ? WIDE : 0;
+    double held = 0.0, open = 0.0;
+    for (int k = -depth; k <= depth; k++)
+        for (int j = -WIDE; j <= WIDE; j++)
+            for (int i = -WIDE; i <= WIDE; i++) {
+                const int offset[3] = {i, j, k};
+                int32_t node[3] = {0};
+                size_t at = 0, stride = 1;
+                double weight = 1.0;
+                for (int a = 0; a < d; a++) {
+                    node[a] = (int32_t)floor(place[a] + 0.5) + offset[a];
+                    at += (size_t)(node[a] - crowd->low[a]) * stride;
+                    stride *= (size_t)crowd->size[a];
+                    weight *= WIDE + 1 - abs(offset[a]);
+                }
+                held += weight * (double)crowd->volume[at];
+                open += weight * (walled ? open_share_at(world, node) : 1.0);
             }
+    return held / open;
+}
+
+/* The same of the nodes that a particle there touches, obstacles or not: particles shall not be put on top of each other. */
+static double density_at(const Crowd *crowd, int dimension, const Spot *spot)
+{
+    double held = 0.0;
+    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++)
+                held += spot->w[0][i] * spot->w[1][j] * spot->w[2][k] * (double)crowd->volume[spot_node(crowd, spot, i, j, k)];
     return held;
 }
 
@@ -451,8 +477,8 @@ static double clearance(const World *world, const double point[3])
     return nearest / (double)world->def.cell_size;
 }
 
-/* Nodes farther from an obstacle than this are open [cells]: a particle's own stencil, and the support of its nodes. */
-static const double FREE = 5.0;
+/* Farther from an obstacle than this [cells] all nodes that count are open: WIDE + 1/2 and their support, 3/2, across the axes. */
+static const double FREE = 6.5;
 /* A place on a surface is not inside it, whatever rounding says. */
 static const double SURFACE = 0.01;
 
@@ -474,7 +500,8 @@ static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *bi
     Spot spot;
     for (int a = 0; a < d; a++) place[a] = point[a] / dx;
     if (!find_spot(crowd, d, place, &spot)) return false;
-    if (crowd_at(world, crowd, place, &spot, clear < FREE) > (double)emitter->def.fill_limit) return false;
+    const double limit = (double)emitter->def.fill_limit;
+    if (density_at(crowd, d, &spot) > DENSEST * limit || crowd_at(world, crowd, place, clear < FREE) > limit) return false;
     NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index};
     for (int a = 0; a < d; a++) {
         particle.position[a] = place[a];
@@ -498,10 +525,14 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     const double slow = length > limit * limit ? limit / sqrt(length) : 1.0;
     for (int a = 0; a < world->def.dimension; a++) point[a] = birth->point[a] + slow * way[a];
     double clear = clearance(world, point);
-    const bool blocked = clear < -SURFACE;
-    if (blocked) clear = clearance(world, birth->point);
+    if (clear < 0.0) { /* something is in the way */
+        memcpy(point, birth->point, sizeof point);
+        clear = clearance(world, point);
+    }
     if (clear < -SURFACE) return false;
-    return settle(world, emitter, crowd, birth, blocked ? birth->point : point, clear, generation);
+    const Domain *domain = &world->domain;
+    for (int a = 0; a < world->def.dimension && domain->enabled; a++) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
+    return settle(world, emitter, crowd, birth, point, clear, generation);
 }
 
 /* Particles that come due in a part of the length dt, counted as far as anybody can. */
