@@ -38,7 +38,8 @@ typedef struct pbmpm_mesh_def {
 } pbmpm_mesh_def;
 
 /** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
- *  the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). */
+ *  the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). Let terrain reach some cells past the walls
+ *  of a domain: matter at a wall that its side is flush with would slip down between them. */
 typedef struct pbmpm_heights_def {
     uint32_t size;        /**< sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init() */
     int32_t dimension;    /**< 2 or 3; default 3 */

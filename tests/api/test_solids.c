@@ -569,7 +569,7 @@ static double float_box(double share, double *level)
     settings.gravity[1] = PULL;
     settings.solver = PBMPM_SOLVER_DUAL;
     settings.substeps = 2;
-    settings.iterations = 10;
+    settings.iterations = 20;
     OK(pbmpm_world_set_settings(world, &settings));
     const uint32_t count = fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, -0.5f, 0, 1, 0.5f, 0), (const float[3]){0, 0, 0});
     pbmpm_collider_def made;

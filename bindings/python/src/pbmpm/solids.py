@@ -84,6 +84,13 @@ class BakedSolid:
         """The grid."""
         return self._info
 
+    @property
+    def distances(self) -> npt.NDArray[np.float32]:
+        """The signed distances at the nodes of the grid [m], one axis per dimension; read-only."""
+        counts = self._info.counts
+        start = len(self._data) - 4 * int(np.prod(counts))
+        return np.frombuffer(self._data, np.float32, offset=start).reshape(counts[::-1]).T
+
     def __repr__(self) -> str:
         return f"<pbmpm.BakedSolid {self._info.dimension}D, {' x '.join(map(str, self._info.counts))} values>"
 

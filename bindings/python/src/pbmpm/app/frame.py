@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -24,6 +24,8 @@ class Frame:
     """(n,) uint8: position of the material in the scene's list of materials"""
     ids: np.ndarray
     """(n, 2) uint32: index and generation; stable over the life of a particle"""
+    body_poses: dict[int, tuple[list[float], list[float]]] = field(default_factory=dict)
+    """Position (3 components) and quaternion of the scene's colliders, by index, that matter moves"""
 
     @property
     def dimension(self) -> int:

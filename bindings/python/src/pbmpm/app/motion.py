@@ -7,6 +7,7 @@ from bisect import bisect_right
 
 import numpy as np
 
+from .frame import Frame
 from .scene import ColliderPart, MotionPart
 
 Pose = tuple[list[float], list[float]]
@@ -43,6 +44,13 @@ def collider_pose(collider: ColliderPart, time: float) -> Pose:
     if collider.motion is None:
         return pad3(collider.shape.position), quaternion(getattr(collider.shape, "rotation", 0.0))
     return pose_at(collider.motion, time)
+
+
+def obstacle_poses(colliders: list[ColliderPart], frame: Frame) -> list[Pose]:
+    """The poses of all obstacles at the moment of a frame: of bodies as it holds them, of others as the scene says."""
+    return [
+        frame.body_poses.get(index) or collider_pose(collider, frame.time) for index, collider in enumerate(colliders)
+    ]
 
 
 def pose_at(motion: MotionPart, time: float) -> Pose:

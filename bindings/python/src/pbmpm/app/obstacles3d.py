@@ -7,22 +7,22 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from .camera import Camera
-from .motion import collider_pose, rotation_matrix
+from .motion import Pose, rotation_matrix
 from .picture import OBSTACLE
 from .scene import ColliderPart
+from .solids import baked_solid, distance_function
 
 _STEPS = 64
 _TOUCH = 2e-4  # [scene sizes] a ray that comes this near has hit
 
 
 def trace_obstacles(
-    colliders: list[ColliderPart], time: float, camera: Camera, rays: np.ndarray, light: np.ndarray, size: float
+    colliders: list[ColliderPart], poses: list[Pose], camera: Camera, rays: np.ndarray, light: np.ndarray, size: float
 ) -> Iterator[tuple[np.ndarray, np.ndarray]]:
     """Yields depth and colour images of each obstacle. Planes are left out: the floor stands for them."""
-    for collider in colliders:
+    for collider, (position, rotation) in zip(colliders, poses):
         if collider.shape.kind == "plane":
             continue
-        position, rotation = collider_pose(collider, time)
         turn = rotation_matrix(rotation)
         eye = (camera.eye - np.array(position)) @ turn
         rows, columns = _rows_and_columns(camera, np.array(position), _outer_radius(collider.shape))
@@ -58,6 +58,8 @@ def _distance_function(shape) -> Callable[[np.ndarray], np.ndarray]:
         return lambda p: (
             np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
         )
+    if shape.kind in ("mesh", "heights"):
+        return distance_function(baked_solid(shape, 3))
     half = np.array(shape.half_extents)
 
     def box(p: np.ndarray) -> np.ndarray:
@@ -80,6 +82,9 @@ def _gradient(distance, points: np.ndarray, step: float) -> np.ndarray:
 def _outer_radius(shape) -> float:
     if shape.kind == "box":
         return float(np.linalg.norm(shape.half_extents))
+    if shape.kind in ("mesh", "heights"):
+        info = baked_solid(shape, 3).info
+        return float(np.linalg.norm(np.maximum(np.abs(info.minimum), np.abs(info.maximum))))
     return shape.radius + getattr(shape, "half_length", 0.0)
 
 

@@ -8,9 +8,10 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from .frame import Frame
-from .motion import collider_pose, rotation_matrix
+from .motion import Pose, obstacle_poses, rotation_matrix
 from .picture import BACKGROUND, INK, OBSTACLE, Look, particle_colours
 from .scene import ColliderPart
+from .solids import baked_solid, distance_function
 
 OVERSAMPLING = 2
 _AIR = (34, 38, 46)  # dark, so that fast (bright) particles stand out
@@ -42,9 +43,14 @@ def draw_2d(frame: Frame, look: Look) -> Image.Image:
     image = Image.new("RGB", (view.width, view.height), BACKGROUND)
     draw = ImageDraw.Draw(image)
     draw.rectangle(_inside(view, look), fill=_AIR)
-    for collider in look.scene.colliders:
-        draw.polygon([tuple(p) for p in view.pixels(_outline(collider, frame.time, view))], fill=OBSTACLE)
+    poses = obstacle_poses(look.scene.colliders, frame)
+    for collider, pose in zip(look.scene.colliders, poses):
+        if collider.shape.kind not in ("mesh", "heights"):
+            draw.polygon([tuple(p) for p in view.pixels(_outline(collider, pose, view))], fill=OBSTACLE)
     pixels = np.array(image)
+    for collider, pose in zip(look.scene.colliders, poses):
+        if collider.shape.kind in ("mesh", "heights"):
+            pixels[_baked_mask(collider, pose, view)] = OBSTACLE
     _splat(pixels, view, frame, look)
     image = Image.fromarray(pixels)
     _draw_domain(ImageDraw.Draw(image), view, look)
@@ -79,6 +85,10 @@ def _bounds(frame: Frame, look: Look) -> tuple[np.ndarray, np.ndarray]:
 
 def _reach_of(shape) -> tuple[np.ndarray, np.ndarray]:
     """A box around a shape, whatever its rotation."""
+    if shape.kind in ("mesh", "heights"):
+        info = baked_solid(shape, len(shape.position)).info
+        size = math.hypot(*np.maximum(np.abs(info.minimum), np.abs(info.maximum)))
+        return np.array(shape.position) - size, np.array(shape.position) + size
     size = math.hypot(
         *getattr(shape, "half_extents", [getattr(shape, "half_length", 0.0) + getattr(shape, "radius", 0.0)])
     )
@@ -86,10 +96,20 @@ def _reach_of(shape) -> tuple[np.ndarray, np.ndarray]:
     return centre - size, centre + size
 
 
-def _outline(collider: ColliderPart, time: float, view: _View) -> np.ndarray:
+def _baked_mask(collider: ColliderPart, pose: Pose, view: _View) -> np.ndarray:
+    """(height, width): the pixels inside a baked obstacle."""
+    position, rotation = pose
+    distance = distance_function(baked_solid(collider.shape, 2))
+    columns, rows = np.meshgrid(np.arange(view.width) + 0.5, np.arange(view.height) + 0.5)
+    points = np.stack([columns.ravel(), view.height - rows.ravel()], axis=1) / view.scale + view.low
+    local = (points - np.array(position[:2])) @ rotation_matrix(rotation)[:2, :2]
+    return distance(local).reshape(view.height, view.width) < 0
+
+
+def _outline(collider: ColliderPart, pose: Pose, view: _View) -> np.ndarray:
     """(n, 2) corners of an obstacle in the world."""
     shape = collider.shape
-    position, rotation = collider_pose(collider, time)
+    position, rotation = pose
     local = _local_outline(shape, float(max(view.high - view.low)) * _FAR)
     return local @ rotation_matrix(rotation)[:2, :2].T + np.array(position[:2])
 

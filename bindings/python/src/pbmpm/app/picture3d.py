@@ -15,6 +15,7 @@ from PIL import Image
 
 from .camera import Camera, scene_camera, scene_up
 from .frame import Frame
+from .motion import obstacle_poses
 from .obstacles3d import trace_obstacles
 from .picture import BACKGROUND, INK, Look, particle_colours
 
@@ -44,7 +45,12 @@ def draw_3d(frame: Frame, look: Look) -> Image.Image:
     canvas = _background(camera)
     _draw_floor(canvas, camera, rays, frame, look, low, high)
     for depth, colour in trace_obstacles(
-        look.scene.colliders, frame.time, camera, rays, light, float(np.linalg.norm(high - low))
+        look.scene.colliders,
+        obstacle_poses(look.scene.colliders, frame),
+        camera,
+        rays,
+        light,
+        float(np.linalg.norm(high - low)),
     ):
         _merge(canvas, depth, colour)
     _draw_particles(canvas, camera, rays, frame, look, light)

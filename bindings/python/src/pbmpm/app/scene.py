@@ -113,8 +113,57 @@ class CapsulePart(_Part):
     rotation: Rotation = 0.0
 
 
+class MeshPart(_Part):
+    """A solid of any form: closed triangles (2D: edges), from a file or given here, baked to a grid of distances."""
+
+    kind: Literal["mesh"]
+    position: Vector
+    """Where the origin of the mesh stands."""
+    rotation: Rotation = 0.0
+    file: str | None = None
+    """OBJ, STL, PLY ..., or a baked solid (.sdf); relative to the scene file."""
+    vertices: list[Vector] | None = None
+    elements: list[Annotated[list[Annotated[int, Field(ge=0)]], Field(min_length=2, max_length=3)]] | None = None
+    hull: bool = False
+    """The convex hull of the vertices."""
+    resolution: Annotated[int, Field(ge=4, le=1024)] = 64
+
+    @model_validator(mode="after")
+    def _has_one_source(self) -> MeshPart:
+        if (self.file is None) == (self.vertices is None):
+            raise ValueError("a mesh needs either a file or vertices")
+        if self.vertices is not None and (self.elements is None) != self.hull:
+            raise ValueError("vertices need elements, or hull, and not both")
+        return self
+
+
+class HeightsPart(_Part):
+    """A body that is solid from heights over a lattice down to a base."""
+
+    kind: Literal["heights"]
+    position: Vector
+    """Where height 0 of the first sample stands."""
+    rotation: Rotation = 0.0
+    heights: list[Finite] | list[list[Finite]]
+    spacing: Positive
+    up: Annotated[int, Field(ge=0, le=2)] = 1
+    thickness: Positive = 1.0
+    resolution: Annotated[int, Field(ge=4, le=1024)] | None = None
+
+    @model_validator(mode="after")
+    def _is_a_lattice(self) -> HeightsPart:
+        if len({len(row) if isinstance(row, list) else 0 for row in self.heights}) != 1:
+            raise ValueError("heights: all rows need the same length")
+        return self
+
+
 SolidPart = Annotated[BoxPart | SpherePart | CapsulePart, Field(discriminator="kind")]
 ObstaclePart = Annotated[PlanePart | BoxPart | SpherePart | CapsulePart, Field(discriminator="kind")]
+
+
+AnyObstaclePart = Annotated[
+    PlanePart | BoxPart | SpherePart | CapsulePart | MeshPart | HeightsPart, Field(discriminator="kind")
+]
 
 
 class DomainPart(_Part):
@@ -158,13 +207,33 @@ class MotionPart(_Part):
         return self
 
 
-class ColliderPart(_Part):
-    """An obstacle; with ``motion`` it is kinematic."""
+class BodyPart(_Part):
+    """What makes an obstacle a rigid body that matter pushes. It keeps inside the domain and passes other obstacles."""
 
-    shape: ObstaclePart
+    mass: Positive
+    """[kg]; in 2D per metre of depth"""
+    turns: bool = True
+    velocity: Vector | None = None
+    virtual_mass: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    """[kg], for bodies much lighter than the liquid that holds them; see ``pbmpm_impulse``"""
+
+
+class ColliderPart(_Part):
+    """An obstacle; with ``motion`` or ``body`` it is kinematic."""
+
+    shape: AnyObstaclePart
     friction: Literal["coulomb", "stick", "slip"] = "coulomb"
     friction_coefficient: Annotated[float, Field(ge=0, le=100)] = 0.2
     motion: MotionPart | None = None
+    body: BodyPart | None = None
+
+    @model_validator(mode="after")
+    def _moves_one_way(self) -> ColliderPart:
+        if self.body is not None and self.motion is not None:
+            raise ValueError("an obstacle has a motion or a body, not both")
+        if self.body is not None and self.shape.kind not in ("box", "sphere"):
+            raise ValueError("body: only boxes and spheres can be bodies")
+        return self
 
 
 class _TimedPart(_Part):
@@ -313,6 +382,8 @@ class Scene(_Part):
         """What is in the scene besides liquids, elastic bodies and obstacles that stand still."""
         parts = {
             "moving obstacles": any(collider.motion is not None for collider in self.colliders),
+            "rigid bodies": any(collider.body is not None for collider in self.colliders),
+            "baked solids": any(collider.shape.kind in ("mesh", "heights") for collider in self.colliders),
             "emitters": self.emitters,
             "drains": self.drains,
             "kill bounds": self.kill_bounds is not None,
@@ -334,7 +405,17 @@ def load_scene(path: Path) -> Scene:
     data = read_json(path)
     if looks_like_ea_scene(data):
         return import_ea_scene(data, path.name)
+    _find_files(data, path.parent)
     return parse_scene(data, str(path))
+
+
+def _find_files(data: Any, folder: Path) -> None:
+    """Makes the names of mesh files relative to the folder of the scene; what is no scene is left to the checks."""
+    colliders = data.get("colliders") if isinstance(data, dict) else None
+    for collider in colliders if isinstance(colliders, list) else []:
+        shape = collider.get("shape") if isinstance(collider, dict) else None
+        if isinstance(shape, dict) and isinstance(shape.get("file"), str):
+            shape["file"] = str(folder / shape["file"])
 
 
 def parse_scene(data: Any, source: str = "scene") -> Scene:

@@ -12,11 +12,13 @@ import numpy as np
 import pbmpm
 
 from .errors import InputError
+from .bodies import Body
 from .flows import Flows, emitted_at_most, shape_of
 from .frame import Frame
 from .motion import collider_pose
 from .names import IntegratorName, PressureName, SolverName
 from .scene import Scene
+from .solids import baked_solid
 
 DELETIONS = (
     pbmpm.EventKind.DELETED_NOT_FINITE,
@@ -132,18 +134,28 @@ class Simulation:
                     f"{self.scene.name}: fills[{index}]: no particle fits into this shape inside the domain"
                 )
         self._moving = []
-        for part in self.scene.colliders:
+        self._bodies: dict[int, Body] = {}
+        for index, part in enumerate(self.scene.colliders):
             collider = self.world.add_collider(
-                shape_of(part.shape),
+                self._obstacle_shape(part.shape),
                 friction=pbmpm.Friction[part.friction.upper()],
                 friction_coefficient=part.friction_coefficient,
-                kinematic=part.motion is not None,
+                kinematic=part.motion is not None or part.body is not None,
+                measures_impulse=part.body is not None,
             )
+            if part.body is not None:
+                self._bodies[index] = Body(collider, part, self.scene)
             if part.motion is not None:
                 position, rotation = collider_pose(part, 0.0)
                 collider.teleport(position[: self.scene.dimension], rotation)
                 self._moving.append((collider, part))
         self._flows = Flows(self.world, self.scene, self.materials)
+
+    def _obstacle_shape(self, part: Any) -> pbmpm.Shape:
+        if part.kind not in ("mesh", "heights"):
+            return shape_of(part)
+        solid = self.world.load_solid(baked_solid(part, self.scene.dimension))
+        return pbmpm.Baked(part.position, solid, part.rotation)
 
     @property
     def time(self) -> float:
@@ -166,7 +178,11 @@ class Simulation:
             position, rotation = collider_pose(part, (self.steps + 1) * self.settings.dt)
             collider.move(position[: self.scene.dimension], rotation)
         self._flows.before_step(self.time, self.settings.dt)
+        for body in self._bodies.values():
+            body.before_step(self.settings.dt)
         self.world.step(self.settings.dt)
+        for body in self._bodies.values():
+            body.after_step(self.settings.dt)
         self.steps += 1
 
     def stats(self) -> pbmpm.Stats:
@@ -187,6 +203,7 @@ class Simulation:
             world.volume_ratios.copy(),
             self._rows[world.material_indices.copy()],
             world.ids.copy(),
+            {index: body.pose for index, body in self._bodies.items()},
         )
 
     def finite(self) -> bool:
@@ -230,6 +247,7 @@ class Simulation:
             "clamped": stats.clamped_total,
             "events": dict(self.events),
             **self._flows.figures(),
+            **({"bodies": [body.figures() for body in self._bodies.values()]} if self._bodies else {}),
             "finite": self.finite(),
             "memory_bytes": stats.memory_bytes,
             "hash": f"{self.world.hash():016x}",

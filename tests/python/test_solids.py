@@ -1,0 +1,292 @@
+"""Baked solids and impulses in Python, in scene files and in pictures."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pbmpm
+from pbmpm.app.errors import InputError
+from pbmpm.app.picture2d import draw_2d
+from pbmpm.app.picture import look_of
+from pbmpm.app.scene import load_scene, parse_scene
+from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.app.solids import distance_function
+
+SQUARE = np.array([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)], float)
+AROUND = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
+CUBE = np.array([(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)], float)
+
+
+@pytest.fixture(autouse=True)
+def _own_cache(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+
+
+# Baking
+
+
+def test_a_square_and_its_distances() -> None:
+    solid = pbmpm.bake_mesh(SQUARE, AROUND, resolution=40)
+    assert solid.info.dimension == 2 and solid.info.counts == (45, 25)
+    assert solid.info.spacing == pytest.approx(0.05)
+    points = np.array([(0, 0), (0.9, 0), (1.08, 0), (1.06, 0.58)])
+    expected = [-0.5, -0.1, 0.08, 0.1]
+    assert distance_function(solid)(points) == pytest.approx(expected, abs=0.026)  # half a cell, and rounding
+    assert 1.8 < distance_function(solid)(np.array([(3.0, 0.0)]))[0] <= 2.0  # beyond the grid
+    assert solid.distances.shape == (45, 25) and solid.distances.min() == pytest.approx(-0.5, abs=0.026)
+
+
+def test_a_hull_of_a_cube() -> None:
+    solid = pbmpm.bake_hull(np.concatenate([CUBE, 0.5 * CUBE]), resolution=16)
+    points = np.array([(0.0, 0, 0), (0.75, 0, 0), (0, 1.2, 0)])
+    assert distance_function(solid)(points) == pytest.approx([-1.0, -0.25, 0.2], abs=0.0625)
+
+
+def test_heights_in_both_dimensions() -> None:
+    flat = pbmpm.bake_heights(np.zeros(9), 0.25, thickness=0.5)
+    assert distance_function(flat)(np.array([(1.0, 0.1), (1.0, -0.1)])) == pytest.approx([0.1, -0.1], abs=0.01)
+    slope = 0.5 * np.arange(9)[:, None] * 0.25 * np.ones((9, 6))  # rises along the first axis
+    hill = pbmpm.bake_heights(slope, 0.25, up=2)
+    assert hill.info.counts[0] > hill.info.counts[1]
+    near = distance_function(hill)(np.array([(1.0, 0.6, 0.6), (1.0, 0.6, 0.4)]))
+    assert near == pytest.approx([0.1 / math.sqrt(1.25), -0.1 / math.sqrt(1.25)], abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("elements", "message"),
+    [
+        (AROUND[:3], "open at"),
+        (np.array([(0, 1), (1, 2), (2, 3), (0, 3)]), "wound in two ways"),
+        (np.array([(0, 1), (1, 0)]), "no volume"),
+        (np.array([(0, 1), (1, 9)]), "a vertex that does not exist"),
+        (AROUND.astype(float), "whole numbers"),
+        (AROUND - 1, "negative"),
+    ],
+)
+def test_bad_meshes_are_refused(elements: np.ndarray, message: str) -> None:
+    with pytest.raises(pbmpm.InvalidArgumentError, match=message):
+        pbmpm.bake_mesh(SQUARE, elements)
+
+
+def test_saved_and_loaded(tmp_path: Path) -> None:
+    solid = pbmpm.bake_mesh(SQUARE, AROUND, resolution=8)
+    solid.save(tmp_path / "a.sdf")
+    assert pbmpm.BakedSolid.load(tmp_path / "a.sdf").data == solid.data
+    assert [path.name for path in tmp_path.glob("a*")] == ["a.sdf"]
+    for spoiled in (solid.data[:-1], solid.data[:100] + b"x" + solid.data[101:], b"", b"nonsense" * 20):
+        with pytest.raises(pbmpm.DamagedError):
+            pbmpm.BakedSolid(spoiled)
+
+
+def test_the_cache_is_used_and_repaired(tmp_path: Path) -> None:
+    folder = tmp_path / "made" / "here"
+    solid = pbmpm.bake_mesh(SQUARE, AROUND, resolution=8, cache=folder)
+    (stored,) = folder.iterdir()
+    assert stored.read_bytes() == solid.data
+    other = pbmpm.bake_hull(SQUARE, resolution=8)
+    other.save(stored)  # what lies there is believed
+    assert pbmpm.bake_mesh(SQUARE, AROUND, resolution=8, cache=folder).data == other.data
+    stored.write_bytes(b"broken")
+    assert pbmpm.bake_mesh(SQUARE, AROUND, resolution=8, cache=folder).data == solid.data
+    pbmpm.bake_mesh(SQUARE, AROUND, resolution=9, cache=folder)
+    assert len(list(folder.iterdir())) == 2
+
+
+# Worlds
+
+
+def test_obstacles_share_a_solid() -> None:
+    with pbmpm.World(2, 0.1, gravity=(0, -9.81), capacity=5000) as world:
+        solid = world.load_solid(pbmpm.bake_mesh(SQUARE, AROUND, resolution=20))
+        assert solid.info.counts == (25, 15)
+        ground = world.add_collider(pbmpm.Baked((0, -1), solid))
+        other = world.add_collider(pbmpm.Baked((3, -1), solid, rotation=0.5), kinematic=True)
+        shape = ground.shape
+        assert isinstance(shape, pbmpm.Baked) and shape.solid == solid and shape.position == (0, -1)
+        water = world.add_material(pbmpm.Liquid())
+        world.fill(pbmpm.Box((0, 0), (0.4, 0.3)), water)
+        for step in range(60):
+            other.move((3, -1 + 0.01 * step), 0.5)
+            world.step(1 / 60)
+        assert len(ground.query()) < 10
+        with pytest.raises(pbmpm.InUseError):
+            solid.destroy()
+        ground.destroy()
+        other.destroy()
+        solid.destroy()
+        with pytest.raises(pbmpm.InvalidArgumentError, match="no baked solid"):
+            world.add_collider(pbmpm.Baked((0, 0), solid))
+
+
+def test_impulses_bear_the_weight_of_water() -> None:
+    with pbmpm.World(
+        2, 0.1, gravity=(0, -10), domain=((0, 0), (1, 2)), domain_measures_impulse=True, iterations=10, capacity=5000
+    ) as world:
+        world.fill(pbmpm.Box((0.5, 0.3), (0.5, 0.3)), world.add_material(pbmpm.Liquid()))
+        given = np.zeros(2)
+        before = np.array(world.stats.momentum[:2])
+        for _ in range(120):
+            world.step(1 / 120)
+            for axis in range(2):
+                given += world.wall_impulse(axis).linear
+                given += world.wall_impulse(axis, upper=True).linear
+        stats = world.stats
+        weight = np.array([0, -10 * stats.mass])
+        gained = np.array(stats.momentum[:2]) - before
+        assert gained == pytest.approx(weight - given, abs=1e-5 * 10 * stats.mass)
+
+
+def test_impulses_have_to_be_asked_for() -> None:
+    with pbmpm.World(3, 0.1, capacity=10) as world:
+        silent = world.add_collider(pbmpm.Sphere((0, 0, 0), 1))
+        asked = world.add_collider(pbmpm.Sphere((5, 0, 0), 1), measures_impulse=True)
+        assert not silent.measures_impulse and asked.measures_impulse
+        assert asked.impulse == pbmpm.Impulse((0, 0, 0), (0, 0, 0))
+        with pytest.raises(pbmpm.InvalidArgumentError, match="measures no impulse"):
+            _ = silent.impulse
+        with pytest.raises(pbmpm.InvalidArgumentError, match="walls measure no impulse"):
+            world.wall_impulse(0)
+
+
+# Scenes
+
+
+def _scene(shape: dict[str, Any], **collider: Any) -> dict[str, Any]:
+    return {
+        "format": "pbmpm-scene",
+        "version": 1,
+        "name": "solid",
+        "dimension": 2,
+        "cell_size": 0.1,
+        "gravity": [0, -9.81],
+        "domain": {"min": [-2, -2], "max": [2, 2]},
+        "seconds": 1,
+        "materials": {"water": {"kind": "liquid"}},
+        "fills": [{"shape": {"kind": "box", "position": [0, 0], "half_extents": [0.5, 0.3]}, "material": "water"}],
+        "colliders": [{"shape": shape, **collider}],
+    }
+
+
+POLYGON = {
+    "kind": "mesh",
+    "position": [0, -1],
+    "vertices": SQUARE.tolist(),
+    "elements": AROUND.tolist(),
+    "resolution": 24,
+}
+
+
+def test_a_scene_with_a_polygon_runs_and_is_drawn() -> None:
+    scene = parse_scene(_scene(POLYGON))
+    assert scene.effects() == ["baked solids"]
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        for _ in range(30):
+            simulation.step()
+        frame = simulation.frame()
+        low = frame.positions[np.abs(frame.positions[:, 0]) < 0.9, 1].min()
+        assert low > -0.52  # rests on top of the square
+        picture = np.array(draw_2d(frame, look_of(scene, "")))
+    height, width = picture.shape[:2]
+    inside, beside = picture[int(0.75 * height), width // 2], picture[int(0.75 * height), int(0.9 * width)]
+    assert inside.tolist() == [128, 133, 142] and beside.max() < 60
+
+
+def test_a_scene_with_heights_and_a_file(tmp_path: Path) -> None:
+    heights = {"kind": "heights", "position": [-2.7, -1], "heights": [0.2, 0.0, 0.0, 0.2], "spacing": 1.8, "resolution": 40}
+    scene = parse_scene(_scene(heights))
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        for _ in range(60):
+            simulation.step()
+        assert simulation.frame().positions[:, 1].min() > -1.05
+    (tmp_path / "cube.obj").write_text(
+        "".join(f"v {x} {y} {z}\n" for x, y, z in CUBE)
+        + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+    )
+    data = _scene({"kind": "mesh", "position": [0, -3, 0], "file": "cube.obj", "resolution": 8})
+    data.update(dimension=3, gravity=[0, -9.81, 0], domain=None)
+    data["fills"][0]["shape"] = {"kind": "sphere", "position": [0, 0, 0], "radius": 0.3}
+    (tmp_path / "scene.json").write_text(json.dumps(data))
+    scene = load_scene(tmp_path / "scene.json")
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        simulation.step()
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"file": "a.obj"}, "either a file or vertices"),
+        ({"hull": True}, "vertices need elements, or hull"),
+        ({"elements": None}, "vertices need elements, or hull"),
+        ({"resolution": 2}, "resolution"),
+    ],
+)
+def test_bad_meshes_in_scenes(change: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        parse_scene(_scene({**POLYGON, **change}))
+
+
+def test_an_open_polygon_in_a_scene() -> None:
+    scene = parse_scene(_scene({**POLYGON, "elements": AROUND[:3].tolist()}))
+    with pytest.raises(InputError, match="open"):
+        Simulation(scene, RunSettings.of(scene))
+
+
+# Bodies
+
+
+def _rest_height(mass: float, seconds: float = 7.0) -> float:
+    """Mean height of a box of 0.5 m x 0.6 m after 3 s of a run in a basin of water with its surface at 0. It bobs with a period of
+    some 1.3 s."""
+    box = {"kind": "box", "position": [0, 0.4], "half_extents": [0.25, 0.3]}
+    data = _scene(box, friction_coefficient=0, body={"mass": mass, "turns": False})
+    data.update(cell_size=0.05, rate_hz=120, substeps=2, iterations=20, solver={"solver": "dual"})
+    data["domain"] = {"min": [-1, -1], "max": [1, 1.5]}
+    data["fills"][0]["shape"] = {"kind": "box", "position": [0, -0.5], "half_extents": [1, 0.5]}
+    scene = parse_scene(data)
+    heights = []
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        for _ in range(int(seconds * 120)):
+            simulation.step()
+            heights.append(simulation.frame().body_poses[0][0][1])
+    return float(np.mean(heights[3 * 120 :]))
+
+
+def test_a_light_body_floats_and_a_heavy_one_sinks() -> None:
+    level = 0.5 * 0.3 / 2  # it displaces 0.15 m^2 in a basin of 2 m
+    draught = level - (_rest_height(150.0) - 0.3)
+    assert draught == pytest.approx(0.3, rel=0.05)  # Archimedes: half of 0.6 m
+    assert _rest_height(600.0, 4.0) == pytest.approx(-0.7, abs=0.01)  # on the ground
+
+
+def test_a_body_turns_upright_again() -> None:
+    """A wide flat box that falls in at a slant ends up flat."""
+    box = {"kind": "box", "position": [0, 0.3], "half_extents": [0.6, 0.1], "rotation": 0.3}
+    data = _scene(box, friction_coefficient=0, body={"mass": 120.0})
+    data.update(rate_hz=120, substeps=2, iterations=10, solver={"solver": "dual"})
+    data["fills"][0]["shape"] = {"kind": "box", "position": [0, -1], "half_extents": [2, 1]}
+    scene = parse_scene(data)
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        angles = []
+        for _ in range(480):
+            simulation.step()
+            x, y, z, w = simulation.frame().body_poses[0][1]
+            angles.append(2 * math.atan2(z, w))
+    assert x == y == 0
+    assert abs(np.mean(angles[240:])) < 0.1 and np.max(np.abs(angles[240:])) < 0.3
+
+
+def test_bodies_that_make_no_sense() -> None:
+    with pytest.raises(InputError, match="only boxes and spheres"):
+        parse_scene(_scene(POLYGON, body={"mass": 1.0}))
+    box = {"kind": "box", "position": [0, 0], "half_extents": [1, 1]}
+    frames = [{"time": 0, "position": [0, 0]}, {"time": 1, "position": [1, 0]}]
+    with pytest.raises(InputError, match="not both"):
+        parse_scene(_scene(box, body={"mass": 1.0}, motion={"keyframes": frames}))
+    with pytest.raises(InputError, match="body.mass"):
+        parse_scene(_scene(box, body={"mass": 0.0}))
