@@ -81,8 +81,9 @@ def accuracy(
         if json_target != "-":
             click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
     whole = report_of(reports, options["threads"])
-    for report in reports if chart is not None else ():
-        save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
+    if chart is not None:
+        for report in reports:
+            save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
     emit_json(whole, json_target)
     if html is not None:
         from ..report.accuracy_page import save_accuracy_page

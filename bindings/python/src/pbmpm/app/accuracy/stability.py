@@ -5,8 +5,8 @@ A run is stable when, at every step,
 - no particle has been deleted,
 - kinetic plus potential energy (zero level: the floor) is at most ENERGY_TOLERANCE of its start value above it, unless
   the case drives the matter,
-and when at the end of a case that comes to rest the liquid occupies a volume between SETTLED_LOWEST times what the solver's own compressibility
-predicts and SETTLED_HIGHEST times the rest volume. Compression itself is an error, not an instability: it is shown
+and when at the end of a case that comes to rest the liquid occupies a volume between SETTLED_LOWEST times what the
+compressibility of the paper's solver predicts and SETTLED_HIGHEST times the rest volume. Compression itself is an error, not an instability: it is shown
 as volume error and settled volume. The lower bound is there to find liquids that go on losing volume without end.
 """
 

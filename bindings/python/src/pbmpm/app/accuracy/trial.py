@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from ..meter import Meter
@@ -20,7 +20,8 @@ class Trial:
     """A run: what it cost, whether it was stable.
 
     ``prepare`` may change the particles before the first step. ``observe`` is called before the first step and after
-    each ``every``-th and the last one; its time does not count. The run ends early when it breaks. ``judge`` goes on with the verdict of a run before.
+    each ``every``-th and the last one; its time does not count. The run ends early when it breaks. ``judge`` goes on with
+    the verdict of a run before.
     """
 
     def __init__(
@@ -60,7 +61,7 @@ class Trial:
         self.meter.add(stats, seconds, cpu_seconds)
         self.judge.watch(stats)
 
-    def measurement(self, errors: dict[str, float | None], **more: Any) -> Measurement:
+    def measurement(self, errors: Mapping[str, float | None], **more: Any) -> Measurement:
         """The measurement of a case that consists of this run alone. Errors of a run that broke are dropped."""
         broken = self.judge.broken
         figures = {
@@ -70,7 +71,7 @@ class Trial:
             "stops": dict(self.meter.stops),
         }
         return Measurement(
-            errors=dict.fromkeys(errors) if broken else errors,
+            errors=dict.fromkeys(errors) if broken else dict(errors),
             ms_per_simulated_second=self.meter.ms_per_simulated_second(self.setting.dt),
             iterations_used=self.meter.mean_iterations_used,
             predicted_error=self.meter.mean_predicted_error,

@@ -170,7 +170,7 @@ class StiffnessClaim(Column):
     name = "claim-stiffness"
     title = "Claim: stiffness grows with the iterations; by law with N / dt^2"
     truth = "law of the paper's solver: K = rho w N dx^2 / (4 d dt^2) [Pa]; mean compression of a column of 1 m"
-    error_kinds = (
+    error_kinds = (  # type: ignore[assignment]
         ErrorMeasure("law_error", "discretisation", "%", "|compression - law| / law, without volume feedback"),
         ErrorMeasure("compression", "discretisation", "%", "mean compression of the column"),
     )

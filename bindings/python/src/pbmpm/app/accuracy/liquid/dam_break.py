@@ -58,7 +58,7 @@ class DamBreak(Case):
     )
     error_kinds = (
         ErrorMeasure("front_rms_shifted", "model", "%", "RMS of (Z - Z_exp) / Z_exp, best time shift within 0.5", 0.04),
-        ErrorMeasure("front_rms", "model", "%", "the same without a shift: a right front is ahead; a soft one may meet it by luck"),
+        ErrorMeasure("front_rms", "model", "%", "without a shift: a right front is ahead; a soft one may meet it by luck"),
         ErrorMeasure("height_rms", "model", "1", "RMS of H - H_exp", 0.10),
     )
     length_name = "width of the column"

@@ -33,7 +33,10 @@ class TaylorGreen(Case):
     title = "Taylor-Green vortices, planar"
     dimension = 2
     kind = "liquid"
-    truth = "exact: without viscosity the kinetic energy stays; share of it that is lost in 0.25 s at U = 0.25 m/s, wave length 0.5 m"
+    truth = (
+        "exact: without viscosity the kinetic energy stays; share of it that is lost in 0.25 s at U = 0.25 m/s,"
+        " wave length 0.5 m"
+    )
     error_kinds = (
         ErrorMeasure("energy_lost", "discretisation", "%", "share of the kinetic energy that is gone after 0.25 s"),
         ErrorMeasure(
