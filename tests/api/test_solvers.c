@@ -58,11 +58,15 @@ static void test_any_number_of_threads_gives_the_same_hash_in_3d(void)
     check_threads(3);
 }
 
-/* The control: each setting does something. */
+/* The control: each setting does something. BDF2 gives way to backward Euler where liquid or obstacles push, see below. */
 static void test_each_way_is_another(void)
 {
     uint64_t hashes[16];
     for (int w = 0; w < way_count; w++) {
+        if (ways[w].solver == PBMPM_SOLVER_PRIMAL && ways[w].integrator == PBMPM_INTEGRATOR_BDF2) {
+            hashes[w] = 0;
+            continue;
+        }
         hashes[w] = hash_with(2, &ways[w], 2);
         for (int v = 0; v < w; v++)
             TEST_ASSERT_TRUE_MESSAGE(hashes[v] != hashes[w], ways[w].name);
@@ -71,15 +75,16 @@ static void test_each_way_is_another(void)
 
 /* ---- The convergent solver ---- */
 
-static uint64_t hash_of_pool(pbmpm_material_kind kind, pbmpm_solver solver)
+static uint64_t hash_of_pool(pbmpm_material_kind kind, pbmpm_solver solver, pbmpm_integrator integrator)
 {
     const pbmpm_world_def def = default_world(2, 0.05f, 4096);
     const pbmpm_world_id world = create_world(&def);
-    const way chosen = {"", solver, PBMPM_PRESSURE_PARTICLES, PBMPM_INTEGRATOR_EULER, 0};
+    const way chosen = {"", solver, PBMPM_PRESSURE_PARTICLES, integrator, 0};
     create_material(world, kind == PBMPM_LIQUID ? PBMPM_ELASTIC : PBMPM_LIQUID); /* a material without particles does not count */
     fill_shape(world, create_material(world, kind), box_shape(0, 0, 0, 0.4f, 0.3f, 0), (const float[3]){0.1f, 0, 0});
     create_collider(world, plane_shape(0, -0.3f, 0, 0.3f, 1, 0), false);
     set_gravity(world, 0, -9.81f, 0);
+    set_rate(world, 1, 60);
     use_way(world, &chosen);
     for (int i = 0; i < 20; i++)
         OK(pbmpm_world_step(world, 1.0f / 120));
@@ -90,9 +95,40 @@ static uint64_t hash_of_pool(pbmpm_material_kind kind, pbmpm_solver solver)
 
 static void test_the_convergent_solver_is_the_dual_with_liquid_and_else_the_primal(void)
 {
-    TEST_ASSERT_EQUAL_HEX64(hash_of_pool(PBMPM_LIQUID, PBMPM_SOLVER_DUAL), hash_of_pool(PBMPM_LIQUID, PBMPM_SOLVER_CONVERGENT));
-    TEST_ASSERT_EQUAL_HEX64(hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_PRIMAL), hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_CONVERGENT));
-    TEST_ASSERT_TRUE(hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_PRIMAL) != hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_DUAL));
+    const pbmpm_integrator euler = PBMPM_INTEGRATOR_EULER, bdf2 = PBMPM_INTEGRATOR_BDF2;
+    const uint64_t primal = hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_PRIMAL, euler);
+    TEST_ASSERT_EQUAL_HEX64(hash_of_pool(PBMPM_LIQUID, PBMPM_SOLVER_DUAL, euler), hash_of_pool(PBMPM_LIQUID, PBMPM_SOLVER_CONVERGENT, euler));
+    TEST_ASSERT_EQUAL_HEX64(primal, hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_CONVERGENT, euler));
+    TEST_ASSERT_TRUE(primal != hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_DUAL, euler));
+    TEST_ASSERT_EQUAL_HEX64(primal, hash_of_pool(PBMPM_ELASTIC, PBMPM_SOLVER_PRIMAL, bdf2)); /* pushed by an obstacle: backward Euler */
+}
+
+/* A body that turns and that nothing pushes. */
+static uint64_t hash_of_flight(pbmpm_integrator integrator)
+{
+    enum { COUNT = 256 };
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    const way chosen = {"", PBMPM_SOLVER_PRIMAL, PBMPM_PRESSURE_PARTICLES, integrator, 0};
+    const pbmpm_view place = view_of(world, PBMPM_POSITION);
+    float velocity[2 * COUNT];
+    TEST_ASSERT_EQUAL_UINT32(COUNT, place.count);
+    for (uint32_t i = 0; i < COUNT; i++) {
+        velocity[2 * i] = -3 * view_float(&place, i, 1);
+        velocity[2 * i + 1] = 3 * view_float(&place, i, 0);
+    }
+    OK(pbmpm_particles_set(world, PBMPM_VELOCITY, NULL, COUNT, velocity));
+    set_rate(world, 1, 40);
+    use_way(world, &chosen);
+    for (int i = 0; i < 10; i++)
+        OK(pbmpm_world_step(world, 1.0f / 120));
+    const uint64_t hash = world_hash(world);
+    OK(pbmpm_world_destroy(world));
+    return hash;
+}
+
+static void test_the_integrator_makes_a_difference_in_flight(void)
+{
+    TEST_ASSERT_TRUE(hash_of_flight(PBMPM_INTEGRATOR_EULER) != hash_of_flight(PBMPM_INTEGRATOR_BDF2));
 }
 
 /* ---- Changes between steps ---- */
@@ -321,6 +357,7 @@ int main(void)
     RUN_TEST(test_any_number_of_threads_gives_the_same_hash_in_3d);
     RUN_TEST(test_each_way_is_another);
     RUN_TEST(test_the_convergent_solver_is_the_dual_with_liquid_and_else_the_primal);
+    RUN_TEST(test_the_integrator_makes_a_difference_in_flight);
     RUN_TEST(test_everything_may_change_between_steps);
     RUN_TEST(test_a_warm_step_allocates_nothing);
     RUN_TEST(test_refused_memory_is_reported_and_forgiven);
