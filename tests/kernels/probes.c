@@ -5,10 +5,11 @@
     DecomposeAll decompose_all2_##isa, decompose_all3_##isa;                                                                  \
     StressAll stress_all2_##isa, stress_all3_##isa;                                                                           \
     PressureAll pressure_all2_##isa, pressure_all3_##isa;                                                                     \
+    EnergyAll energy_all2_##isa, energy_all3_##isa;                                                                           \
     WriteLayout layout_of_material3_##isa, layout_of_args3_##isa;
 #define MATRICES(isa)                                                                                                         \
-    {{rotate_all2_##isa, decompose_all2_##isa, stress_all2_##isa, pressure_all2_##isa},                                       \
-     {rotate_all3_##isa, decompose_all3_##isa, stress_all3_##isa, pressure_all3_##isa}}
+    {{rotate_all2_##isa, decompose_all2_##isa, stress_all2_##isa, pressure_all2_##isa, energy_all2_##isa},                                       \
+     {rotate_all3_##isa, decompose_all3_##isa, stress_all3_##isa, pressure_all3_##isa, energy_all3_##isa}}
 #define LAYOUTS(isa) {layout_of_material3_##isa, layout_of_args3_##isa}
 
 DECLARE(sse4)

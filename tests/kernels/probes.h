@@ -12,6 +12,8 @@ typedef void DecomposeAll(const float *f, float *u, float *s, float *v, int32_t 
 /* The proximal steps of the dual solver. `f`, `d`, `y`, `s`: matrices as above. */
 typedef void StressAll(const KernelMaterial *material, const float *f, const float *d, const float *y, float *s, int32_t count);
 typedef void PressureAll(const KernelMaterial *material, const float *ratio, const float *trace, const float *y, float *s, int32_t count);
+/* Elastic energies and stresses at the displacement gradients `d`: matrices as above. */
+typedef void EnergyAll(const KernelMaterial *material, const float *f, const float *d, float *stress, float *energy, int32_t count);
 /* `out`: see LAYOUT_VALUES. */
 typedef void WriteLayout(int32_t *out);
 
@@ -20,6 +22,7 @@ typedef struct Probes {
     DecomposeAll *decompose_all;
     StressAll *stress_all;
     PressureAll *pressure_all;
+    EnergyAll *energy_all;
 } Probes;
 
 const Probes *probes_for(pbmpm_isa isa, int dimension);

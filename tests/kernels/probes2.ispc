@@ -14,3 +14,7 @@ export void pressure_all2(const uniform struct KernelMaterial *uniform material,
                           const uniform float y[], uniform float s[], uniform int count) {
     pressure_all(material, ratio, trace, y, s, count);
 }
+export void energy_all2(const uniform struct KernelMaterial *uniform material, const uniform float f[], const uniform float d[],
+                        uniform float stress[], uniform float energy[], uniform int count) {
+    energy_all(material, f, d, stress, energy, count);
+}

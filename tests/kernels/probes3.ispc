@@ -15,6 +15,10 @@ export void pressure_all3(const uniform struct KernelMaterial *uniform material,
                           const uniform float y[], uniform float s[], uniform int count) {
     pressure_all(material, ratio, trace, y, s, count);
 }
+export void energy_all3(const uniform struct KernelMaterial *uniform material, const uniform float f[], const uniform float d[],
+                        uniform float stress[], uniform float energy[], uniform int count) {
+    energy_all(material, f, d, stress, energy, count);
+}
 
 #define WRITE_FIELD(name)                                                                                                     \
     out[n++] = (uniform int32)((uniform int64)&probe.name - (uniform int64)&probe);                                           \
