@@ -12,11 +12,15 @@ enum { CELL_ARRAYS = 5 };
 
 static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
 
-/* How many of the iterations go into the guess: enough to reach through a pool, and at least half are left. */
+/* How many of the iterations go into the guess: enough to reach through a pool, and at least half are left. A single one is worth much in a pool
+ * and does harm in free flight. */
 static int guess_iterations(const World *world)
 {
     enum { MOST = 4 };
     const int half = world->settings.iterations / 2;
+    const float *g = world->settings.gravity;
+    const bool weightless = g[0] == 0.0f && g[1] == 0.0f && g[2] == 0.0f;
+    if (half == 1 && weightless) return 0;
     return half < MOST ? half : MOST;
 }
 
