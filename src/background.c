@@ -67,7 +67,7 @@ static void copy_field(Background *background, pbmpm_field field)
     view->data = view->count ? to : NULL;
     view->generation = background->generation;
     if (view->stride == (uint64_t)view->components * view->component_stride) {
-        memcpy(to, from, view->count ? view->count * view->stride : 0);
+        if (view->count) memcpy(to, from, view->count * view->stride);
         return;
     }
     const uint32_t apart = (uint32_t)(background->world->particles.capacity * sizeof(float));
