@@ -1,9 +1,9 @@
 #include "emitters.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
+#include "crowd.h"
 #include "numbers.h"
 #include "registry.h"
 #include "result.h"
@@ -26,6 +26,9 @@ pbmpm_emitter_def emitter_defaults(void)
                                .particles_per_axis = 2.0f,
                                .fill_limit = 1.0f};
 }
+
+/* A way in one part of a step with more nodes around it is a jump. */
+static const double WAY_NODES_MAX = 33554432.0;
 
 /* ---- Checking ---- */
 
@@ -116,15 +119,17 @@ void emitter_move(Emitter *emitter, const float position[3], const float *rotati
     emitter->moving = true;
 }
 
+static void arrive(Emitter *emitter)
+{
+    memcpy(emitter->def.shape.position, emitter->target_position, sizeof emitter->target_position);
+    memcpy(emitter->def.shape.rotation, emitter->target_rotation, sizeof emitter->target_rotation);
+    emitter->moving = false;
+}
+
 void emitters_end_step(Emitters *emitters)
 {
-    for (uint32_t slot = 0; slot < emitters->used; slot++) {
-        Emitter *emitter = &emitters->slot[slot];
-        if (!emitter->moving) continue;
-        memcpy(emitter->def.shape.position, emitter->target_position, sizeof emitter->target_position);
-        memcpy(emitter->def.shape.rotation, emitter->target_rotation, sizeof emitter->target_rotation);
-        emitter->moving = false;
-    }
+    for (uint32_t slot = 0; slot < emitters->used; slot++)
+        if (emitters->slot[slot].moving) arrive(&emitters->slot[slot]);
 }
 
 bool emitters_use(const Emitters *emitters, pbmpm_material_id material)
@@ -323,18 +328,7 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
                       (cosine * nozzle->axis[a] + sine * (cos(turn) * nozzle->across[0][a] + sin(turn) * nozzle->across[1][a]));
 }
 
-/* ---- Whether there is space: the rest volume on the nodes around the emitter, as the grid will see it ---- */
-
-enum { WIDE = 2 }; /* nodes to either side of a particle's own that count */
-
-/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
-static const double DENSEST = 1.25;
-
-typedef struct Crowd {
-    int32_t low[3];
-    int32_t size[3]; /* nodes */
-    float *volume;
-} Crowd;
+/* ---- Whether there is space ---- */
 
 /* The nodes that particles which appear in this part can touch. */
 static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, float dt)
@@ -343,7 +337,7 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
     double gravity2 = 0.0;
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double way = ((double)emitter->def.speed + sqrt(gravity2) * (double)dt) * (double)dt / dx;
-    const double reach = fmin(way, (double)world->settings.max_displacement) + WIDE + 2.0;
+    const double reach = fmin(way, (double)world->settings.max_displacement) + CROWD_WIDE + 2.0;
     Crowd crowd = {.size = {1, 1, 1}};
     double low[2][3], high[2][3];
     for (int end = 0; end < 2; end++) {
@@ -357,132 +351,16 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
     return crowd;
 }
 
-static double crowd_nodes(const Crowd *crowd) { return (double)crowd->size[0] * (double)crowd->size[1] * (double)crowd->size[2]; }
+/* ---- Births ---- */
 
-/* Quadratic B-spline weights of the nodes below, at and above the nearest; f in [-1/2, 1/2). */
-static void weights_of(double f, double w[3])
-{
-    w[0] = 0.5 * (0.5 - f) * (0.5 - f);
-    w[1] = 0.75 - f * f;
-    w[2] = 0.5 * (0.5 + f) * (0.5 + f);
-}
+/* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
+static const double DENSEST = 1.25;
 
-/* A point between the nodes of the crowd. */
-typedef struct Spot {
-    size_t corner; /* of its stencil */
-    double w[3][3];
-} Spot;
-
-/* False: some node that it touches is not in the crowd. `place` in cells. */
-static bool find_spot(const Crowd *crowd, int dimension, const double place[3], Spot *spot)
-{
-    size_t stride = 1;
-    *spot = (Spot){.w = {[2] = {1.0, 0.0, 0.0}}};
-    for (int a = 0; a < dimension; a++) {
-        const double node = floor(place[a] + 0.5);
-        const double first = node - 1.0 - crowd->low[a];
-        if (first < 0.0 || first + 3.0 > crowd->size[a]) return false;
-        weights_of(place[a] - node, spot->w[a]);
-        spot->corner += (size_t)first * stride;
-        stride *= (size_t)crowd->size[a];
-    }
-    return true;
-}
-
-static size_t spot_node(const Crowd *crowd, const Spot *spot, int i, int j, int k)
-{
-    return spot->corner + (size_t)i + (size_t)crowd->size[0] * ((size_t)j + (size_t)crowd->size[1] * (size_t)k);
-}
-
-static void crowd_add(Crowd *crowd, int dimension, const Spot *spot, double volume)
-{
-    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
-        for (int j = 0; j < 3; j++)
-            for (int i = 0; i < 3; i++)
-                crowd->volume[spot_node(crowd, spot, i, j, k)] += (float)(volume * spot->w[0][i] * spot->w[1][j] * spot->w[2][k]);
-}
-
-static void crowd_measure(const World *world, Crowd *crowd)
-{
-    const Particles *p = &world->particles;
-    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
-    for (uint32_t row = 0; row < p->count; row++) {
-        bool near = true;
-        for (int a = 0; a < p->dimension; a++) {
-            const int32_t from_low = p->cell[a][row] - crowd->low[a];
-            near = near && from_low >= 1 && from_low < crowd->size[a] - 1;
-        }
-        double place[3] = {0};
-        Spot spot;
-        if (!near) continue;
-        for (int a = 0; a < p->dimension; a++) place[a] = particles_coordinate(p, row, a);
-        if (!find_spot(crowd, p->dimension, place, &spot)) continue;
-        crowd_add(crowd, p->dimension, &spot, (double)(p->mass[row] * world->materials.kernel[p->material[row]].inverse_density));
-    }
-}
-
-/* The share of a node's cell that obstacles leave open. */
-static double open_share_at(const World *world, const int32_t node[3])
-{
-    double share = 1.0, point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
-    for (int i = 0; i < world->colliders.obstacle_count; i++)
-        share *= obstacle_open_share(&world->colliders.obstacle[i], point, (double)world->def.cell_size);
-    return share;
-}
-
-/* How full the surroundings of a place are: rest volume per volume that obstacles leave open. Of the nodes up to WIDE away, weighed by a tent:
- * where particles lie at random single nodes hold a tenth more or less, and matter that moves would let an emitter find
- * a gap for ever. Obstacles are looked at only if `walled`. */
-static double crowd_at(const World *world, const Crowd *crowd, const double place[3], bool walled)
-{
-    const int d = world->def.dimension, depth = d == 3 ? WIDE : 0;
-    double held = 0.0, open = 0.0;
-    for (int k = -depth; k <= depth; k++)
-        for (int j = -WIDE; j <= WIDE; j++)
-            for (int i = -WIDE; i <= WIDE; i++) {
-                const int offset[3] = {i, j, k};
-                int32_t node[3] = {0};
-                size_t at = 0, stride = 1;
-                double weight = 1.0;
-                for (int a = 0; a < d; a++) {
-                    node[a] = (int32_t)floor(place[a] + 0.5) + offset[a];
-                    at += (size_t)(node[a] - crowd->low[a]) * stride;
-                    stride *= (size_t)crowd->size[a];
-                    weight *= WIDE + 1 - abs(offset[a]);
-                }
-                held += weight * (double)crowd->volume[at];
-                open += weight * (walled ? open_share_at(world, node) : 1.0);
-            }
-    return held / open;
-}
-
-/* The same of the nodes that a particle there touches, obstacles or not: particles shall not be put on top of each other. */
-static double density_at(const Crowd *crowd, int dimension, const Spot *spot)
-{
-    double held = 0.0;
-    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
-        for (int j = 0; j < 3; j++)
-            for (int i = 0; i < 3; i++)
-                held += spot->w[0][i] * spot->w[1][j] * spot->w[2][k] * (double)crowd->volume[spot_node(crowd, spot, i, j, k)];
-    return held;
-}
-
-/* How near the next obstacle is [cells]; negative inside. */
-static double clearance(const World *world, const double point[3])
-{
-    double nearest = INFINITY, normal[3];
-    for (int i = 0; i < world->colliders.obstacle_count; i++)
-        nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
-    return nearest / (double)world->def.cell_size;
-}
-
-/* Farther from an obstacle than this [cells] all nodes that count are open: WIDE + 1/2 and their support, 3/2, across the axes. */
+/* Farther from an obstacle than this [cells] all nodes that count are open: CROWD_WIDE + 1/2 and their support, 3/2, across the axes. */
 static const double FREE = 6.5;
+
 /* A place on a surface is not inside it, whatever rounding says. */
 static const double SURFACE = 0.01;
-
-/* ---- Births ---- */
 
 /* A particle of an emitter in one part of a step. */
 typedef struct Birth {
@@ -499,9 +377,9 @@ static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *bi
     double place[3] = {0};
     Spot spot;
     for (int a = 0; a < d; a++) place[a] = point[a] / dx;
-    if (!find_spot(crowd, d, place, &spot)) return false;
+    if (!crowd_find(crowd, d, place, &spot)) return false;
     const double limit = (double)emitter->def.fill_limit;
-    if (density_at(crowd, d, &spot) > DENSEST * limit || crowd_at(world, crowd, place, clear < FREE) > limit) return false;
+    if (crowd_density(crowd, d, &spot) > DENSEST * limit || crowd_filling(world, crowd, place, clear < FREE) > limit) return false;
     NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index};
     for (int a = 0; a < d; a++) {
         particle.position[a] = place[a];
@@ -524,10 +402,10 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     const double limit = (double)world->settings.max_displacement * (double)world->def.cell_size;
     const double slow = length > limit * limit ? limit / sqrt(length) : 1.0;
     for (int a = 0; a < world->def.dimension; a++) point[a] = birth->point[a] + slow * way[a];
-    double clear = clearance(world, point);
+    double clear = crowd_clearance(world, point);
     if (clear < 0.0) { /* something is in the way */
         memcpy(point, birth->point, sizeof point);
-        clear = clearance(world, point);
+        clear = crowd_clearance(world, point);
     }
     if (clear < -SURFACE) return false;
     const Domain *domain = &world->domain;
@@ -587,9 +465,13 @@ pbmpm_result emitters_prepare(World *world, int part, float dt)
 {
     Emitters *emitters = &world->emitters;
     for (uint32_t slot = 0; slot < emitters->used; slot++) {
-        const Emitter *emitter = &emitters->slot[slot];
+        Emitter *emitter = &emitters->slot[slot];
         if (!works(emitter) || count_due(world, emitter, dt) < 1.0) continue;
-        const Crowd crowd = crowd_bounds(world, emitter, part, dt);
+        Crowd crowd = crowd_bounds(world, emitter, part, dt);
+        if (emitter->moving && crowd_nodes(&crowd) > WAY_NODES_MAX) {
+            arrive(emitter);
+            crowd = crowd_bounds(world, emitter, part, dt);
+        }
         if (crowd_nodes(&crowd) > 1e9 || !array_reserve(&world->memory, &emitters->crowd, (size_t)crowd_nodes(&crowd), sizeof(float)))
             return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", crowd_nodes(&crowd));
     }

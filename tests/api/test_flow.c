@@ -381,6 +381,22 @@ static void test_kill_bounds_tell_of_what_they_take(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-9 * mass, mass, flow_of(world).killed_mass);
 }
 
+/* From one end of the range of cells to the other in a step: it jumps, and the step is none the worse. */
+static void test_a_move_across_the_world(void)
+{
+    pbmpm_material_id water;
+    const pbmpm_world_id world = open_world(1000, &water);
+    pbmpm_emitter_def def = default_emitter(water);
+    pbmpm_emitter_id emitter;
+    def.rate = 100 * 0.05f * 0.05f;
+    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_move(world, emitter, (const float[3]){2e5f, -2e5f, 0}, NULL));
+    OK(pbmpm_world_step(world, 1.0f));
+    TEST_ASSERT_EQUAL_UINT64(100, emitter_status(world, emitter).emitted);
+    const pbmpm_view places = view_of(world, PBMPM_POSITION);
+    for (uint32_t row = 0; row < places.count; row++) TEST_ASSERT_TRUE(fabsf(view_float(&places, row, 0) - 2e5f) <= 0.6f);
+}
+
 /* ---- Memory ---- */
 
 static void use_ledger(pbmpm_world_def *def, void *user) { def->allocator = ledger_allocator(user); }
@@ -460,6 +476,7 @@ int main(void)
     RUN_TEST(test_a_monstrous_rate_ends);
     RUN_TEST(test_drains_count_what_they_take);
     RUN_TEST(test_kill_bounds_tell_of_what_they_take);
+    RUN_TEST(test_a_move_across_the_world);
     RUN_TEST(test_warm_steps_take_no_memory);
     RUN_TEST(test_a_step_without_memory_is_made_up_for);
     return UNITY_END();

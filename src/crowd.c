@@ -1,0 +1,119 @@
+#include "crowd.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double crowd_nodes(const Crowd *crowd) { return (double)crowd->size[0] * (double)crowd->size[1] * (double)crowd->size[2]; }
+
+/* Quadratic B-spline weights of the nodes below, at and above the nearest; f in [-1/2, 1/2). */
+static void weights_of(double f, double w[3])
+{
+    w[0] = 0.5 * (0.5 - f) * (0.5 - f);
+    w[1] = 0.75 - f * f;
+    w[2] = 0.5 * (0.5 + f) * (0.5 + f);
+}
+
+/* False: some node that it touches is not in the crowd. `place` in cells. */
+bool crowd_find(const Crowd *crowd, int dimension, const double place[3], Spot *spot)
+{
+    size_t stride = 1;
+    *spot = (Spot){.w = {[2] = {1.0, 0.0, 0.0}}};
+    for (int a = 0; a < dimension; a++) {
+        const double node = floor(place[a] + 0.5);
+        const double first = node - 1.0 - crowd->low[a];
+        if (first < 0.0 || first + 3.0 > crowd->size[a]) return false;
+        weights_of(place[a] - node, spot->w[a]);
+        spot->corner += (size_t)first * stride;
+        stride *= (size_t)crowd->size[a];
+    }
+    return true;
+}
+
+static size_t spot_node(const Crowd *crowd, const Spot *spot, int i, int j, int k)
+{
+    return spot->corner + (size_t)i + (size_t)crowd->size[0] * ((size_t)j + (size_t)crowd->size[1] * (size_t)k);
+}
+
+void crowd_add(Crowd *crowd, int dimension, const Spot *spot, double volume)
+{
+    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++)
+                crowd->volume[spot_node(crowd, spot, i, j, k)] += (float)(volume * spot->w[0][i] * spot->w[1][j] * spot->w[2][k]);
+}
+
+void crowd_measure(const World *world, Crowd *crowd)
+{
+    const Particles *p = &world->particles;
+    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
+    for (uint32_t row = 0; row < p->count; row++) {
+        bool near = true;
+        for (int a = 0; a < p->dimension; a++) {
+            const int32_t from_low = p->cell[a][row] - crowd->low[a];
+            near = near && from_low >= 1 && from_low < crowd->size[a] - 1;
+        }
+        double place[3] = {0};
+        Spot spot;
+        if (!near) continue;
+        for (int a = 0; a < p->dimension; a++) place[a] = particles_coordinate(p, row, a);
+        if (!crowd_find(crowd, p->dimension, place, &spot)) continue;
+        crowd_add(crowd, p->dimension, &spot, (double)(p->mass[row] * world->materials.kernel[p->material[row]].inverse_density));
+    }
+}
+
+/* The share of a node's cell that obstacles leave open. */
+static double open_share_at(const World *world, const int32_t node[3])
+{
+    double share = 1.0, point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
+    for (int i = 0; i < world->colliders.obstacle_count; i++)
+        share *= obstacle_open_share(&world->colliders.obstacle[i], point, (double)world->def.cell_size);
+    return share;
+}
+
+/* How full the surroundings of a place are: rest volume per volume that obstacles leave open. Of the nodes up to CROWD_WIDE away, weighed by a tent:
+ * where particles lie at random single nodes hold a tenth more or less, and matter that moves would let an emitter find
+ * a gap for ever. Obstacles are looked at only if `walled`. */
+double crowd_filling(const World *world, const Crowd *crowd, const double place[3], bool walled)
+{
+    const int d = world->def.dimension, depth = d == 3 ? CROWD_WIDE : 0;
+    double held = 0.0, open = 0.0;
+    for (int k = -depth; k <= depth; k++)
+        for (int j = -CROWD_WIDE; j <= CROWD_WIDE; j++)
+            for (int i = -CROWD_WIDE; i <= CROWD_WIDE; i++) {
+                const int offset[3] = {i, j, k};
+                int32_t node[3] = {0};
+                size_t at = 0, stride = 1;
+                double weight = 1.0;
+                for (int a = 0; a < d; a++) {
+                    node[a] = (int32_t)floor(place[a] + 0.5) + offset[a];
+                    at += (size_t)(node[a] - crowd->low[a]) * stride;
+                    stride *= (size_t)crowd->size[a];
+                    weight *= CROWD_WIDE + 1 - abs(offset[a]);
+                }
+                held += weight * (double)crowd->volume[at];
+                open += weight * (walled ? open_share_at(world, node) : 1.0);
+            }
+    return held / open;
+}
+
+/* The same of the nodes that a particle there touches, obstacles or not: particles shall not be put on top of each other. */
+double crowd_density(const Crowd *crowd, int dimension, const Spot *spot)
+{
+    double held = 0.0;
+    for (int k = 0; k < (dimension == 3 ? 3 : 1); k++)
+        for (int j = 0; j < 3; j++)
+            for (int i = 0; i < 3; i++)
+                held += spot->w[0][i] * spot->w[1][j] * spot->w[2][k] * (double)crowd->volume[spot_node(crowd, spot, i, j, k)];
+    return held;
+}
+
+/* How near the next obstacle is [cells]; negative inside. */
+double crowd_clearance(const World *world, const double point[3])
+{
+    double nearest = INFINITY, normal[3];
+    for (int i = 0; i < world->colliders.obstacle_count; i++)
+        nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
+    return nearest / (double)world->def.cell_size;
+}
