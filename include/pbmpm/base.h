@@ -29,7 +29,7 @@ typedef enum pbmpm_result {
     PBMPM_ERROR_INVALID_ID = 2,       /**< null, stale, foreign or made-up identifier */
     PBMPM_ERROR_OUT_OF_MEMORY = 3,    /**< the allocator returned null, or the memory budget is used up */
     PBMPM_ERROR_CAPACITY = 4,         /**< more particles, materials, colliders or worlds than there is room for */
-    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world */
+    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world, or a step of it runs in the background */
     PBMPM_ERROR_UNSUPPORTED_CPU = 6,  /**< the CPU has no SSE4.2 */
     PBMPM_ERROR_UNSUPPORTED = 7,      /**< a structure size, material or feature that this build does not know */
     PBMPM_ERROR_THREAD = 8,           /**< a worker thread could not be started */
@@ -73,7 +73,7 @@ typedef struct pbmpm_particle_id {
 } pbmpm_particle_id;
 
 /** Receives one line per notable happening (a refused call, an event). May come from any thread that calls the
- *  library, never from a worker; must not call the library. */
+ *  library and from a step in the background, never from a worker; must not call the library. */
 typedef void pbmpm_log_callback(const char *message, void *user);
 
 /** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
@@ -81,7 +81,8 @@ typedef void pbmpm_log_callback(const char *message, void *user);
 PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 
 /** Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
- *  null; `release` gets the size that was asked for. Called from the thread that calls the library. */
+ *  null; `release` gets the size that was asked for. Called from the thread that calls the library, and
+ *  from that of a step in the background (async.h); for one world never from two at once. */
 typedef struct pbmpm_allocator {
     void *(*allocate)(size_t size, size_t alignment, void *user); /**< aligned to at least `alignment` */
     void (*release)(void *memory, size_t size, void *user);       /**< null exactly when allocate is */

@@ -101,7 +101,7 @@ PBMPM_API pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field fie
 PBMPM_API pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
 
 /** Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
- *  `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
+ *  `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY (see query.h), BUSY. */
 PBMPM_API pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity,
                                          uint32_t *count);
 

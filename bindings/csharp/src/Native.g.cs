@@ -66,7 +66,7 @@ namespace Pbmpm
         ErrorOutOfMemory = 3,
         /// <summary>more particles, materials, colliders or worlds than there is room for</summary>
         ErrorCapacity = 4,
-        /// <summary>another thread is inside a call on the same world</summary>
+        /// <summary>another thread is inside a call on the same world, or a step of it runs in the background</summary>
         ErrorBusy = 5,
         /// <summary>the CPU has no SSE4.2</summary>
         ErrorUnsupportedCpu = 6,
@@ -1159,7 +1159,8 @@ namespace Pbmpm
 namespace Pbmpm.Native
 {
     /// <summary>Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
-    /// null; `release` gets the size that was asked for. Called from the thread that calls the library.</summary>
+    /// null; `release` gets the size that was asked for. Called from the thread that calls the library, and
+    /// from that of a step in the background (async.h); for one world never from two at once.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Allocator
     {
@@ -1544,7 +1545,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_find(WorldId world, ParticleId* ids, uint count, uint* rows);
 
         /// <summary>Particles inside a shape, in storage order. Writes up to `capacity` identifiers; *count is the full number.
-        /// `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        /// `ids` may be null when capacity is 0. Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY (see query.h), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
 
@@ -1672,7 +1673,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def);
 
         /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
-        /// motion. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        /// motion. A way of more than 2^25 nodes per substep is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_move(WorldId world, EmitterId emitter, Float3* position, Float4* rotation);
 
