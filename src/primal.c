@@ -508,6 +508,53 @@ static void keep_energy(Primal *p)
     }
 }
 
+/* ---- Momentum ---- */
+
+/* Bodies at or in an obstacle. */
+static void find_leaning(Primal *p)
+{
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (holds_any(p->contacts, block)) body_of(p, block)->leans = true;
+}
+
+static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)block;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[0] += mass;
+        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
+    }
+}
+
+static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = body_of(p, block);
+    (void)sum;
+    if (body->leans || body->mass == 0.0) return;
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
+}
+
+/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
+ * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
+static void keep_momentum(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    BodySum *body = state->body_sums.data;
+    const double *sums = state->sums.data;
+    find_leaning(p);
+    over_blocks(p, sum_momentum_error);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *b = body_of(p, block);
+        b->mass += sums[(size_t)block * SUMS];
+        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
+    over_blocks(p, move_free_body);
+}
+
 /* ---- The substep ---- */
 
 /* What forces changed: the mean square of u - u*, times the mass. */
@@ -536,14 +583,6 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
     for (size_t i = begin; i < end; i++)
         if (i % W != 3) p->node[i] = p->best[i];
     holds_rub(p->contacts, p->gradient, p->base, p->node, block, block + 1);
-}
-
-/* Bodies at or in an obstacle. */
-static void find_leaning(Primal *p)
-{
-    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (holds_any(p->contacts, block)) body_of(p, block)->leans = true;
 }
 
 /* First displacements: those of the predictor, or for a body that leans on something, without what gravity and forces add in the
@@ -577,6 +616,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     minimise(&p);
     keep_energy(&p);
     forget_past(&p);
+    keep_momentum(&p);
     over_blocks(&p, rub_and_write);
     holds_book(contacts, p.gradient, p.best, p.node, p.base);
 }
