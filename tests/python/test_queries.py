@@ -17,6 +17,8 @@ Array = npt.NDArray[np.float64]
 CLOSE = 1e-6
 SAMPLE = 0.25  # cells from one sample on a line to the next
 HALVINGS = 12
+# Where the filling is within rounding of the level at a halving, the two decide differently, and end one of the smallest steps apart.
+STEP = SAMPLE * 0.1 / 2**HALVINGS + CLOSE
 
 
 class Brute:
@@ -220,7 +222,7 @@ def test_heights(dimension: int) -> None:
                 top = math.ceil((np.linalg.norm(brute.x - point, axis=1).max() / brute.dx + 3) / SAMPLE)
                 way = brute.crossing(point, -up, -top, top, level)
                 expected = -math.inf if way is None else point @ up - way
-                assert height == pytest.approx(expected, abs=CLOSE)
+                assert height == pytest.approx(expected, abs=STEP)
 
 
 def test_heights_of_still_water(dimension: int) -> None:
@@ -251,8 +253,8 @@ def test_rays(dimension: int) -> None:
             hits += 1
             place = point.astype(np.float64) + way * unit
             row = brute.nearest(place)
-            assert hit.distance == pytest.approx(way, abs=CLOSE)
-            assert np.allclose(hit.position, place, atol=CLOSE)
+            assert hit.distance == pytest.approx(way, abs=STEP)
+            assert np.allclose(hit.position, place, atol=STEP)
             assert np.allclose(hit.normal, brute.normal(place), atol=1e-4)
             assert hit.particle == tuple(brute.ids[row])
             assert hit.material.index == brute.material[row]
