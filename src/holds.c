@@ -179,6 +179,22 @@ double holds_work(const ContactFrame *frame, const float *gradient, int32_t bloc
     return work;
 }
 
+void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3])
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        if (!contact->active) continue;
+        double inward = 0.0;
+        for (int a = 0; a < 3; a++) inward += (displacement[a] - (double)contact->surface[a]) * (double)contact->normal[a];
+        for (int a = 0; a < 3; a++) {
+            if (is_held(contact)) displacement[a] = 0.0;
+            if (inward < 0.0) displacement[a] -= inward * (double)contact->normal[a];
+        }
+    }
+}
+
 uint32_t holds_touching(const ContactFrame *frame, int32_t block)
 {
     uint32_t count = 0;

@@ -28,6 +28,9 @@ void holds_book(const ContactFrame *frame, float *gradient, float *before, const
 /* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of gradient . surface over active contacts. */
 double holds_work(const ContactFrame *frame, const float *gradient, int32_t block);
 
+/* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
+void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3]);
+
 /* How many contacts of a block are active and not held for good. */
 uint32_t holds_touching(const ContactFrame *frame, int32_t block);
 

@@ -23,6 +23,7 @@ enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4, VECTORS 
 typedef struct BodySum {
     double before, after, work;
     double mass, momentum[3]; /* of the predictor */
+    double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
@@ -461,10 +462,13 @@ static uint32_t check_bodies(Primal *p)
         b->with_liquid = b->with_liquid || has_liquid(p->world, block);
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
+        for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
         body[i].failed = gained(&body[i]);
         body[i].unsound = body[i].unsound || body[i].failed;
         failed += body[i].failed;
     }
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
+        holds_turn_aside(p->contacts, block, body_of(p, block)->start);
     return failed;
 }
 
@@ -476,7 +480,7 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = body->touches || body->mass == 0.0 ? 0.0f : (float)(body->momentum[c] / body->mass);
+        const float start = (float)body->start[c];
         p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     holds_project(p->contacts, p->node, block, block + 1);

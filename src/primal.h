@@ -13,15 +13,15 @@
  *
  *     sum m/2 |u|^2 - m g.u + Psi(u)  <=  sum m/2 |u* - g|^2 + Psi(0) + work of moving surfaces
  *
- * holds for the exact solution of a convex energy. Where it does not hold, the body starts again from its mean motion, or from rest if it
- * touches something; what still gains energy is moved towards that start. */
+ * holds for the exact solution of a convex energy. Where it does not hold, the search goes on, then starts again from the
+ * body's mean motion, as far as obstacles allow it; what still gains energy is moved towards that start. */
 #ifndef PBMPM_SRC_PRIMAL_H
 #define PBMPM_SRC_PRIMAL_H
 
 #include "solver.h"
 
-/* What an incompressible liquid is instead: sound travels sqrt(L) / 2 cells per substep. */
-static const float PRIMAL_STIFFEST = 1000.0f;
+/* The dilation of what stands for an incompressible liquid: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
+static inline float primal_stiffest(int iterations) { return 0.25f * (float)iterations * (float)iterations; }
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result primal_prepare(World *world);

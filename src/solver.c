@@ -40,7 +40,7 @@ static void set_moduli(World *world, float dt)
         double c = 4.0 * cells * cells / (double)def->density;
         if (material->kind == K_LIQUID) {
             const bool incompressible = def->bulk_modulus == 0.0f;
-            const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? PRIMAL_STIFFEST : FLT_MAX;
+            const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_stiffest(world->settings.iterations) : FLT_MAX;
             material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
             material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
             material->volume_feedback = feedback_share(def, dt);
