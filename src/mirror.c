@@ -108,7 +108,7 @@ bool mirrors_measure(Mirrors *mirrors, Memory *memory, bool measures)
     mirrors->books = measures;
     for (int axis = 0; axis < 3 && measures; axis++) {
         if (!array_reserve(memory, &mirrors->booked[axis], 6 * (size_t)mirrors->count[axis], sizeof(double))) return false;
-        memset(mirrors->booked[axis].data, 0, mirrors->booked[axis].bytes);
+        if (mirrors->booked[axis].data) memset(mirrors->booked[axis].data, 0, mirrors->booked[axis].bytes);
     }
     return true;
 }
