@@ -25,7 +25,7 @@ class AxialBar(ElasticCase):
     name = "axial-bar"
     title = "Axial vibration of a bar"
     length_name = "bar"
-    cells = (32, 16, 64)
+    cells = (64, 32, 16)
     bar: Bar = STIFF_BAR
     error_kinds = (
         ErrorMeasure("frequency", "discretisation", "%", "frequency against that of the exact motion", 0.02),
@@ -234,14 +234,21 @@ class TurekHronCase(ElasticCase):
     length = TurekHronBeam.BEAM.height
     cells = (6, 4, 8)
     rates = (60.0, 120.0, 240.0)
-    iterations = (5, 10, 20)
-    grid_setting = ("primal-bdf2", 240.0, 10)
+    iterations = (10, 20, 60)
+    quick_rates = (120.0,)
+    quick_iterations = (20,)
+    grid_setting = ("primal-bdf2", 120.0, 60)
+    particles_per_axis = 4
     error_kinds = (
         ErrorMeasure("amplitude", "discretisation", "%", "of the tip's height over 5 to 10 s", 0.05),
         ErrorMeasure("mean", "discretisation", "%", "of the tip's height, over the amplitude", 0.05),
         ErrorMeasure("frequency", "discretisation", "%", "of the tip's height", 0.05),
     )
-    notes = "The beam is not damped: every loss of amplitude is the solver's."
+    notes = (
+        f"The beam is not damped: every loss of amplitude is the solver's. {particles_per_axis} particles per cell and"
+        " axis: the tip moves 40 cells up and down, and with 2 the swing is lost to what the grid does not see."
+        " Within 5 % at primal-bdf2, 120 Hz, 60 iterations, 6 cells over the height."
+    )
 
     def __init__(self) -> None:
         up = TurekHronBeam().truth[1]
@@ -255,10 +262,10 @@ class TurekHronCase(ElasticCase):
         return TurekHronBeam.BEAM.solid
 
     def explicit_rates(self, quick: bool) -> list[float]:
-        return super().explicit_rates(True)
+        return []  # 160,000 steps and more: minutes for one row
 
     def measure(self, setting: Setting) -> Measurement:
-        beam = TurekHronBeam(setting.cells)
+        beam = TurekHronBeam(setting.cells, particles_per_axis=self.particles_per_axis)
         record, _, up = beam.swing(setting.run_settings())
         truth, found = beam.truth[1], up or Swing(math.nan, math.nan, None)
         errors = {

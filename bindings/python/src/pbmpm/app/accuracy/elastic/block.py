@@ -17,7 +17,7 @@ import pbmpm
 
 from ...simulation import RunSettings
 from . import strain
-from .stage import CLAMP_OVERLAP, PARTICLES_PER_AXIS, Calmer, Record, Stage, lattice, run
+from .stage import CLAMP_OVERLAP, Calmer, Record, Stage, lattice, run
 from .theory import Solid, bar_angular_frequency
 
 GRAVITY = 9.81
@@ -86,6 +86,9 @@ class Block:
     width_cells: int = 8
     """A standing block must be about as wide as high: it buckles under 12 load (height / width)^2 > 7.84."""
 
+    particles_per_axis: int = 3
+    """With 2, layers that are stretched by more than a fifth have less than two rows to a cell and stretch 5 % too far."""
+
     @property
     def cell_size(self) -> float:
         return self.height / self.cells
@@ -101,7 +104,7 @@ class Block:
         size = np.full(self.dimension, self.width_cells * self.cell_size)
         size[1] = self.height
         lower = np.zeros(self.dimension)
-        points = lattice(lower, size, self.cell_size)
+        points = lattice(lower, size, self.cell_size, self.particles_per_axis)
         down = [0.0, -GRAVITY, 0.0][: self.dimension]
         with Stage(self.solid, self.cell_size, settings, len(points), down, self.model) as stage:
             ids = stage.add_body(points, float(np.prod(size)))
@@ -126,7 +129,7 @@ class Block:
         """
         rows, row = np.unique(np.round(points[:, 1], 9), return_inverse=True)
         heights = np.bincount(row, weights=places[:, 1]) / np.bincount(row)
-        gap = PARTICLES_PER_AXIS  # rows a cell apart
+        gap = self.particles_per_axis  # rows a cell apart
         stretches = (heights[gap:] - heights[:-gap]) / (rows[gap:] - rows[:-gap])
         middles = 0.5 * (rows[gap:] + rows[:-gap])
         hangs = self.load > 0.0

@@ -27,6 +27,7 @@ class BlockCase(ElasticCase):
     length = 1.0
     cells = (32, 16, 48)
     model = strain.FIXED_COROTATED
+    particles_per_axis = Block.particles_per_axis
     seconds = 3.0
     rates = (60.0, 240.0)
     iterations = (5, 20, 50)
@@ -57,11 +58,14 @@ class BlockCase(ElasticCase):
     def solid(self) -> Solid:
         return self._hanging(self.cells[0]).solid
 
+    def _block(self, load: float, cells: int, width: int) -> Block:
+        return Block(self.model, load, 0.3, self.dimension, self.length, cells, width, self.particles_per_axis)
+
     def _hanging(self, cells: int) -> Block:
-        return Block(self.model, self.hanging_load, 0.3, self.dimension, self.length, cells, max(4, cells // 4))
+        return self._block(self.hanging_load, cells, max(4, cells // 4))
 
     def _standing(self, cells: int) -> Block:
-        return Block(self.model, self.standing_load, 0.3, self.dimension, self.length, cells, cells)
+        return self._block(self.standing_load, cells, cells)
 
     def measure(self, setting: Setting) -> Measurement:
         blocks = {"pulled": self._hanging(setting.cells), "pressed": self._standing(setting.cells)}
@@ -92,6 +96,7 @@ class Block3DCase(BlockCase):
     title = "Stress and stretch of a block in 3D, fixed corotated"
     dimension = 3
     cells = (16,)
+    particles_per_axis = 2
     rates = (60.0,)
     quick_rates = (60.0,)
     iterations = (10, 20)
