@@ -82,7 +82,7 @@ def test_a_wrong_type_is_a_type_error(world: pbmpm.World, water: pbmpm.Material)
         world.step("soon")
     with pytest.raises(TypeError, match="substeps"):
         world.substeps = 1.5
-    with pytest.raises(TypeError, match="Plane, Box, Sphere or Capsule"):
+    with pytest.raises(TypeError, match="Plane, Box, Sphere, Capsule or Baked"):
         world.fill((0, 0), water)
     with pytest.raises(TypeError, match="a Material is needed"):
         world.add_particles(water.parameters, [[1.0] * world.dimension])
