@@ -51,6 +51,10 @@ static class ParticleTests
             var elastic = MaterialDef.Default;
             elastic.Kind = MaterialKind.Elastic;
             world.AddMaterial(elastic);
+            var settings = world.Settings;
+            settings.Solver = Solver.Dual; // makes pressures
+            world.Settings = settings;
+            world.Step(0.01f);
             foreach (Field field in Enum.GetValues(typeof(Field)))
             {
                 if (field == Field.Material || field == Field.Particle) continue;
