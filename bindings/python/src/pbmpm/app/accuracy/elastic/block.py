@@ -87,7 +87,7 @@ class Block:
     """A standing block must be about as wide as high: it buckles under 12 load (height / width)^2 > 7.84."""
 
     particles_per_axis: int = 3
-    """With 2, layers that are stretched by more than a fifth have less than two rows to a cell and stretch 5 % too far."""
+    """With 2, layers that stretch by more than a fifth have less than two rows to a cell and stretch 5 % too far."""
 
     @property
     def cell_size(self) -> float:
