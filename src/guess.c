@@ -34,9 +34,9 @@ static float least_softness(const World *world)
     return (float)(0.1 * root * root);
 }
 
-/* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GROWTH_MAX per substep: the guess acts on all of a body at
+/* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GUESS_GROWTH_MAX per substep: the guess acts on all of a body at
  * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. */
-static const float GROWTH_MAX = 0.05f;
+static const float GUESS_GROWTH_MAX = 0.05f;
 
 static float growth_share(const World *world) { return fminf(1.0f, 60.0f * world->args.dt); }
 
@@ -154,7 +154,7 @@ double guess_measure(World *world, const ContactFrame *contacts)
     const float share = growth_share(world);
     trace(&g);
     for (size_t i = 0; i < g.cells; i++) {
-        const float r = fminf(share * a->cell_growth[i], GROWTH_MAX) - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        const float r = fminf(share * a->cell_growth[i], GUESS_GROWTH_MAX) - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
         g.mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g.residual[i] = r * g.mask[i];
     }
