@@ -7,11 +7,12 @@ from typing import Any
 
 from ._ffi import ffi
 from ._library import lib
+from ._member import WorldPart
 from .errors import BusyError
 from .views import Field
 
 
-class WorldBackground:
+class WorldBackground(WorldPart):
     """Steps of a `World` in the background.
 
     Between `step_begin()` and the `step_end()` that returns True the world can be asked for its views of published fields,
@@ -20,10 +21,6 @@ class WorldBackground:
     """
 
     __slots__ = ()
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def publish(self, fields: Iterable[Field]) -> None:
         """Sets which fields can be viewed while a step runs; until then POSITION, VELOCITY, MATERIAL and PARTICLE. Their copies

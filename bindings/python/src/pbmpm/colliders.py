@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
-from ._convert import Rotation, Vector, assign, initialised, plain, quaternion, shortest, sized, vector
+from ._convert import Rotation, Vector, assign, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import Member
 from .shapes import Baked, Shape, from_c, to_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
-
-if TYPE_CHECKING:
-    from .world import World
 
 
 class Friction(enum.Enum):
@@ -45,20 +43,11 @@ def definition(
     return out
 
 
-class Collider:
+class Collider(Member):
     """An obstacle in a world. Made by `World.add_collider()`."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
-
-    def _definition(self) -> Any:
-        out = sized("pbmpm_collider_def")
-        out.shape.size = ffi.sizeof("pbmpm_shape")
-        self._world._call(lib.pbmpm_collider_get, self._id, out)
-        return out
+    __slots__ = ()
+    _name = "collider"
 
     @property
     def shape(self) -> Shape:
@@ -92,7 +81,7 @@ class Collider:
     def impulse(self) -> Impulse:
         """What matter gave to the obstacle in the last step."""
         out = sized("pbmpm_impulse")
-        self._world._call(lib.pbmpm_collider_impulse, self._id, out)
+        self._apply("impulse", out)
         return impulse_from_c(out, self._world.dimension)
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
@@ -102,25 +91,12 @@ class Collider:
             position: shape (d,) [m].
             rotation: angle [rad] in 2D, or a quaternion (x, y, z, w); None leaves it as it is.
         """
-        self._set_pose(lib.pbmpm_collider_move, position, rotation)
+        self._set_pose("move", position, rotation)
 
     def teleport(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Puts the obstacle somewhere at once, without velocity; static ones too. Arguments as for `move()`."""
-        self._set_pose(lib.pbmpm_collider_teleport, position, rotation)
-
-    def _set_pose(self, function: Any, position: Vector, rotation: Rotation | None) -> None:
-        components = vector("position", position, self._world.dimension)
-        c_position = ffi.new("float[3]", components)
-        c_rotation = ffi.NULL if rotation is None else ffi.new("float[4]", quaternion(rotation))
-        self._world._call(function, self._id, c_position, c_rotation)
+        self._set_pose("teleport", position, rotation)
 
     def query(self) -> npt.NDArray[np.uint32]:
         """Identifiers of the particles inside, deeper than 1/100 cell: shape (n, 2), in storage order."""
         return self._world._query(lib.pbmpm_query_collider, self._id)
-
-    def destroy(self) -> None:
-        """Removes the obstacle."""
-        self._world._call(lib.pbmpm_collider_destroy, self._id)
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.Collider {self._id.index}:{self._id.generation}>"

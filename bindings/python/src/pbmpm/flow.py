@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import enum
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any, TypeVar
 
-from ._convert import Rotation, Vector, assign, assign_vector, initialised, plain, quaternion, shortest, sized, vector
+from ._convert import Rotation, Vector, assign_vector, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import WorldPart
+from ._switchable import Switchable, axes, number, set_enabled
 from .materials import Material
-from .shapes import Shape, from_c, to_c
+from .shapes import Shape, to_c
 
-if TYPE_CHECKING:
-    from .world import World
+Record = TypeVar("Record")
 
 
 class Region(enum.Enum):
@@ -61,35 +62,40 @@ class Flow:
     killed_mass: float
 
 
-def _read(kind: type, structure: Any) -> Any:
-    return kind(**{item.name: plain(getattr(structure, item.name)) for item in fields(kind)})
+def _read(kind: type[Record], structure: Any) -> Record:
+    return kind(**{item.name: plain(getattr(structure, item.name)) for item in fields(kind)})  # type: ignore[arg-type]
 
 
-class Emitter:
+def _set_shape(out: Any, value: Shape, dimension: int) -> None:
+    out.shape = to_c(value, dimension)[0]
+
+
+def _set_material(out: Any, value: Material, dimension: int) -> None:
+    if not isinstance(value, Material):
+        raise TypeError(f"material: a Material is needed (World.add_material), not {type(value).__name__}")
+    out.material = value._id
+
+
+def _set_region(out: Any, value: Region, dimension: int) -> None:
+    out.region = Region(value).value
+
+
+class Emitter(Switchable):
     """A source of particles in a world. Made by `World.add_emitter()`."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
-
-    def _definition(self) -> Any:
-        out = sized("pbmpm_emitter_def")
-        out.shape.size = ffi.sizeof("pbmpm_shape")
-        self._world._call(lib.pbmpm_emitter_get, self._id, out)
-        return out
-
-    def change(self, **values: Any) -> None:
-        """Changes what is named, with the names of `World.add_emitter()`; counts and fractions of a particle are kept."""
-        definition = self._definition()
-        _fill_emitter(definition, self._world.dimension, values)
-        self._world._call(lib.pbmpm_emitter_set, self._id, definition)
-
-    @property
-    def shape(self) -> Shape:
-        """The shape with its current pose; the rotation is a quaternion."""
-        return from_c(self._definition().shape, self._world.dimension)
+    __slots__ = ()
+    _name = "emitter"
+    _setters = {
+        "shape": _set_shape,
+        "material": _set_material,
+        "region": _set_region,
+        "direction": axes("direction"),
+        "enabled": set_enabled,
+        **{
+            name: number(name)
+            for name in ("rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget", "seed")
+        },
+    }
 
     @property
     def rate(self) -> float:
@@ -97,21 +103,9 @@ class Emitter:
         return shortest(self._definition().rate)
 
     @property
-    def enabled(self) -> bool:
-        """Whether it emits. Assigning switches it on and off; no time passes for it when it is off."""
-        return bool(self._definition().enabled)
-
-    @enabled.setter
-    def enabled(self, value: bool) -> None:
-        self.change(enabled=value)
-
-    @property
     def status(self) -> EmitterStatus:
         """Counts since it was created."""
-        out = sized("pbmpm_emitter_status")
-        self._world._call(lib.pbmpm_emitter_status_get, self._id, out)
-        status: EmitterStatus = _read(EmitterStatus, out)
-        return status
+        return _read(EmitterStatus, self._status())
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Sets the pose that it shall have at the end of the next step; particles are born all along the way.
@@ -120,101 +114,26 @@ class Emitter:
             position: shape (d,) [m].
             rotation: angle [rad] in 2D, or a quaternion (x, y, z, w); None leaves it as it is.
         """
-        c_position = ffi.new("float[3]", vector("position", position, self._world.dimension))
-        c_rotation = ffi.NULL if rotation is None else ffi.new("float[4]", quaternion(rotation))
-        self._world._call(lib.pbmpm_emitter_move, self._id, c_position, c_rotation)
-
-    def destroy(self) -> None:
-        """Removes the emitter; its particles stay."""
-        self._world._call(lib.pbmpm_emitter_destroy, self._id)
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.Emitter {self._id.index}:{self._id.generation}>"
+        self._set_pose("move", position, rotation)
 
 
-def _fill_emitter(out: Any, dimension: int, values: dict[str, Any]) -> None:
-    """Writes the values that are not None into the C structure of an emitter."""
-    for name, value in values.items():
-        if value is None:
-            continue
-        if name == "shape":
-            out.shape = to_c(value, dimension)[0]
-        elif name == "material":
-            out.material = value._id
-        elif name == "direction":
-            assign_vector(out, name, value, dimension)
-        elif name == "enabled":
-            out.enabled = bool(value)
-        elif name == "region":
-            out.region = Region(value).value
-        elif name in ("seed", "rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget"):
-            assign(out, name, value)
-        else:
-            raise TypeError(f"an emitter has no '{name}'")
-
-
-class Drain:
+class Drain(Switchable):
     """A shape that takes out the particles inside it. Made by `World.add_drain()`."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
-
-    def _definition(self) -> Any:
-        out = sized("pbmpm_drain_def")
-        out.shape.size = ffi.sizeof("pbmpm_shape")
-        self._world._call(lib.pbmpm_drain_get, self._id, out)
-        return out
-
-    @property
-    def shape(self) -> Shape:
-        """Where it is. Assigning moves it; the counts are kept."""
-        return from_c(self._definition().shape, self._world.dimension)
-
-    @shape.setter
-    def shape(self, value: Shape) -> None:
-        definition = self._definition()
-        definition.shape = to_c(value, self._world.dimension)[0]
-        self._world._call(lib.pbmpm_drain_set, self._id, definition)
-
-    @property
-    def enabled(self) -> bool:
-        """Whether it takes anything."""
-        return bool(self._definition().enabled)
-
-    @enabled.setter
-    def enabled(self, value: bool) -> None:
-        definition = self._definition()
-        definition.enabled = bool(value)
-        self._world._call(lib.pbmpm_drain_set, self._id, definition)
+    __slots__ = ()
+    _name = "drain"
+    _setters = {"shape": _set_shape, "material": _set_material, "enabled": set_enabled}
 
     @property
     def status(self) -> DrainStatus:
         """Counts since it was created."""
-        out = sized("pbmpm_drain_status")
-        self._world._call(lib.pbmpm_drain_status_get, self._id, out)
-        status: DrainStatus = _read(DrainStatus, out)
-        return status
-
-    def destroy(self) -> None:
-        """Removes the drain."""
-        self._world._call(lib.pbmpm_drain_destroy, self._id)
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.Drain {self._id.index}:{self._id.generation}>"
+        return _read(DrainStatus, self._status())
 
 
-class WorldFlow:
+class WorldFlow(WorldPart):
     """The part of a `World` that adds and takes matter."""
 
     __slots__ = ()
-    _dimension: int
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def add_emitter(
         self,
@@ -249,8 +168,6 @@ class WorldFlow:
             enabled: whether it begins with the next step (default) or when `Emitter.enabled` is set.
         """
         definition = initialised("pbmpm_emitter_def")
-        if not isinstance(material, Material):
-            raise TypeError(f"material: a Material is needed (World.add_material), not {type(material).__name__}")
         values = {
             "shape": shape,
             "material": material,
@@ -265,7 +182,7 @@ class WorldFlow:
             "seed": seed,
             "enabled": enabled,
         }
-        _fill_emitter(definition, self._dimension, values)
+        Emitter._fill(definition, self._dimension, values)
         out = ffi.new("pbmpm_emitter_id *")
         self._call(lib.pbmpm_emitter_create, definition, out)
         return Emitter(self, out[0])  # type: ignore[arg-type]
@@ -279,10 +196,8 @@ class WorldFlow:
             enabled: whether it takes anything yet.
         """
         definition = initialised("pbmpm_drain_def")
-        definition.shape = to_c(shape, self._dimension)[0]
-        definition.enabled = bool(enabled)
-        if material is not None:
-            definition.material = material._id
+        values = {"shape": shape, "material": material, "enabled": enabled}
+        Drain._fill(definition, self._dimension, values)
         out = ffi.new("pbmpm_drain_id *")
         self._call(lib.pbmpm_drain_create, definition, out)
         return Drain(self, out[0])  # type: ignore[arg-type]
@@ -310,5 +225,4 @@ class WorldFlow:
         """What emitters, drains and bounds have done since the world was created."""
         out = sized("pbmpm_flow")
         self._call(lib.pbmpm_world_get_flow, out)
-        flow: Flow = _read(Flow, out)
-        return flow
+        return _read(Flow, out)

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import enum
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from ._convert import Vector, assign, assign_vector, initialised, plain, shortest, sized
+from ._convert import Vector, initialised, plain, shortest
 from ._ffi import ffi
 from ._library import lib
-from .shapes import Shape, from_c, to_c
-
-if TYPE_CHECKING:
-    from .world import World
+from ._member import WorldPart
+from ._switchable import Switchable, axes, number, set_enabled
+from .shapes import Shape, to_c
 
 
 class ForceKind(enum.Enum):
@@ -33,49 +32,48 @@ class Falloff(enum.Enum):
     INVERSE_SQUARE = ffi.integer_const("PBMPM_FALLOFF_INVERSE_SQUARE")  #: (1 + d / range)^-2, at any distance
 
 
-class Force:
+def _set_shape(out: Any, value: Shape, dimension: int) -> None:
+    out.shape = to_c(value, dimension)[0]
+    out.everywhere = 0
+
+
+def _set_everywhere(out: Any, value: Any, dimension: int) -> None:
+    out.everywhere = bool(value)
+
+
+def _set_kind(out: Any, value: ForceKind, dimension: int) -> None:
+    out.kind = ForceKind(value).value
+
+
+def _set_falloff(out: Any, value: Falloff, dimension: int) -> None:
+    out.falloff = Falloff(value).value
+
+
+class Force(Switchable):
     """A force in a world. Made by `World.add_force()`."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
-
-    def _definition(self) -> Any:
-        out = sized("pbmpm_force_def")
-        out.shape.size = ffi.sizeof("pbmpm_shape")
-        self._world._call(lib.pbmpm_force_get, self._id, out)
-        return out
-
-    def change(self, **values: Any) -> None:
-        """Changes what is named, with the names of `World.add_force()`; takes effect with the next step."""
-        definition = self._definition()
-        _fill(definition, self._world.dimension, values)
-        self._world._call(lib.pbmpm_force_set, self._id, definition)
+    __slots__ = ()
+    _name = "force"
+    _setters = {
+        "shape": _set_shape,
+        "everywhere": _set_everywhere,
+        "kind": _set_kind,
+        "falloff": _set_falloff,
+        "direction": axes("direction"),
+        "velocity": axes("velocity"),
+        "enabled": set_enabled,
+        **{name: number(name) for name in ("range", "strength", "spin")},
+    }
 
     @property
     def kind(self) -> ForceKind:
+        """What it does."""
         return ForceKind(self._definition().kind)
-
-    @property
-    def shape(self) -> Shape:
-        """Its shape; the rotation is a quaternion."""
-        return from_c(self._definition().shape, self._world.dimension)
 
     @property
     def strength(self) -> float:
         """Acceleration [m/s^2], or the coefficient of a drag [1/s]."""
         return shortest(self._definition().strength)
-
-    @property
-    def enabled(self) -> bool:
-        """Whether it acts. Assigning switches it on and off."""
-        return bool(self._definition().enabled)
-
-    @enabled.setter
-    def enabled(self, value: bool) -> None:
-        self.change(enabled=value)
 
     @property
     def impulse(self) -> tuple[float, ...]:
@@ -87,52 +85,11 @@ class Force:
         """Nodes of the grid that felt it in the last substep."""
         return int(self._status().nodes)
 
-    def _status(self) -> Any:
-        out = sized("pbmpm_force_status")
-        self._world._call(lib.pbmpm_force_status_get, self._id, out)
-        return out
 
-    def destroy(self) -> None:
-        """Removes the force."""
-        self._world._call(lib.pbmpm_force_destroy, self._id)
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.Force {self._id.index}:{self._id.generation}>"
-
-
-def _fill(out: Any, dimension: int, values: dict[str, Any]) -> None:
-    """Writes the values that are not None into the C structure of a force."""
-    for name, value in values.items():
-        if value is None:
-            continue
-        if name == "shape":
-            out.shape = to_c(value, dimension)[0]
-            out.everywhere = 0
-        elif name == "everywhere":
-            out.everywhere = bool(value)
-        elif name in ("direction", "velocity"):
-            assign_vector(out, name, value, dimension)
-        elif name == "kind":
-            out.kind = ForceKind(value).value
-        elif name == "falloff":
-            out.falloff = Falloff(value).value
-        elif name == "enabled":
-            out.enabled = bool(value)
-        elif name in ("range", "strength", "spin"):
-            assign(out, name, value)
-        else:
-            raise TypeError(f"a force has no '{name}'")
-
-
-class WorldForces:
+class WorldForces(WorldPart):
     """The part of a `World` that has forces."""
 
     __slots__ = ()
-    _dimension: int
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def add_force(
         self,
@@ -175,7 +132,7 @@ class WorldForces:
             "spin": spin,
             "enabled": enabled,
         }
-        _fill(definition, self._dimension, values)
+        Force._fill(definition, self._dimension, values)
         out = ffi.new("pbmpm_force_id *")
         self._call(lib.pbmpm_force_create, definition, out)
         return Force(self, out[0])  # type: ignore[arg-type]

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from ._convert import Vector, assign, assign_vector, floats, initialised, plain, pointer, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import WorldPart
 from .materials import Material
 from .shapes import Shape, to_c
 
@@ -51,7 +52,7 @@ class RayHit:
     particle: tuple[int, int]  #: identifier of the nearest particle
 
 
-class WorldQueries:
+class WorldQueries(WorldPart):
     """Questions to a `World` about the space between its particles. They see the state of now and change nothing.
 
     The filling is the sum over particles of rest volume times the weight of the solver's transfers (quadratic splines), per
@@ -59,11 +60,6 @@ class WorldQueries:
     """
 
     __slots__ = ()
-    _dimension: int
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def query_region(self, shape: Shape) -> list[RegionShare]:
         """What is inside a shape: one entry per material that has particles there, in the order of their indices."""

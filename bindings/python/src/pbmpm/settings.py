@@ -8,6 +8,7 @@ from typing import Any
 from ._convert import Vector, assign, assign_vector, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import WorldPart
 
 
 class Solver(enum.Enum):
@@ -47,15 +48,10 @@ class Stop(enum.Enum):
     TIME = ffi.integer_const("PBMPM_STOP_TIME")  #: time_budget_ms was spent
 
 
-class WorldSettings:
+class WorldSettings(WorldPart):
     """The settings of a `World` as properties. They take effect with the next step."""
 
     __slots__ = ()
-    _dimension: int
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def _settings(self) -> Any:
         settings = sized("pbmpm_settings")

@@ -6,16 +6,13 @@ from typing import Any
 
 from ._ffi import ffi
 from ._library import lib
+from ._member import WorldPart
 
 
-class WorldSnapshots:
+class WorldSnapshots(WorldPart):
     """What a `World` can do with snapshots."""
 
     __slots__ = ()
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def _snapshot_size(self) -> tuple[int, int]:
         total, each = ffi.new("uint64_t *"), ffi.new("uint32_t *")

@@ -6,7 +6,7 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -14,10 +14,8 @@ import numpy.typing as npt
 from ._convert import assign, floats, initialised, plain, pointer, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import Member, WorldPart
 from .errors import DamagedError, InvalidArgumentError, check
-
-if TYPE_CHECKING:
-    from .world import World
 
 
 @dataclass(frozen=True)
@@ -95,25 +93,19 @@ class BakedSolid:
         return f"<pbmpm.BakedSolid {self._info.dimension}D, {' x '.join(map(str, self._info.counts))} values>"
 
 
-class LoadedSolid:
-    """A baked solid in a world. Made by `World.load_solid()`; shapes of kind `Baked` refer to it."""
+class LoadedSolid(Member):
+    """A baked solid in a world. Made by `World.load_solid()`; shapes of kind `Baked` refer to it. It cannot be destroyed
+    while an obstacle has its shape (InUseError)."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
+    __slots__ = ()
+    _name = "baked"
 
     @property
     def info(self) -> SolidInfo:
         """The grid."""
         out = sized("pbmpm_baked_info")
-        self._world._call(lib.pbmpm_baked_get, self._id, out)
+        self._apply("get", out)
         return _info(out)
-
-    def destroy(self) -> None:
-        """Takes it out of the world; InUseError while an obstacle has its shape."""
-        self._world._call(lib.pbmpm_baked_destroy, self._id)
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, LoadedSolid):
@@ -125,9 +117,6 @@ class LoadedSolid:
 
     def _key(self) -> tuple[int, int]:
         return self._id.index, self._id.generation
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.LoadedSolid {self._id.index}:{self._id.generation}>"
 
 
 def bake_mesh(
@@ -278,16 +267,10 @@ def impulse_from_c(out: Any, dimension: int) -> Impulse:
     return Impulse(tuple(out.linear)[:dimension], tuple(out.angular)[2 if dimension == 2 else 0 :])
 
 
-class WorldSolids:
+class WorldSolids(WorldPart):
     """What a `World` offers of baked solids and of the impulses on its walls."""
 
     __slots__ = ()
-
-    _dimension: int
-
-    def _call(self, function: Any, *arguments: Any) -> Any:
-        """Calls a function of the C library with this world."""
-        raise NotImplementedError
 
     def load_solid(self, solid: BakedSolid) -> LoadedSolid:
         """Copies a baked solid into the world. Any number of obstacles share it, through shapes of kind `Baked`."""
