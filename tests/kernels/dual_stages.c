@@ -7,6 +7,7 @@
 
 #include "bounds.h"
 #include "check.h"
+#include "isas.h"
 #include "matrices.h"
 
 static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
@@ -67,6 +68,22 @@ void dual_close(DualStage *stage)
     for (int i = 0; i < DUAL_ARRAYS; i++) free(stage->memory[i]);
     reference_grid_free(&stage->base);
     scene_close(&stage->scene);
+}
+
+void dual_check_once(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed, CheckDual *check)
+{
+    check_subject(spec->name, isa, dimension);
+    DualStage stage = dual_open(spec, isa, dimension, seed);
+    check(&stage);
+    dual_close(&stage);
+}
+
+void dual_check_spec(const SceneSpec *spec, int seeds, CheckDual *check)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+            for (int seed = 1; seed <= seeds; seed++) dual_check_once(spec, isa, dimension, (uint32_t)seed, check);
+    check_report(spec->name);
 }
 
 /* ---- Multipliers ---- */

@@ -18,6 +18,13 @@ typedef struct DualStage {
 DualStage dual_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed);
 void dual_close(DualStage *stage);
 
+typedef void CheckDual(DualStage *stage);
+
+/* Runs a check on a scene, with `seeds` sets of particles, in 2D and 3D, for each instruction set, and reports. */
+void dual_check_spec(const SceneSpec *spec, int seeds, CheckDual *check);
+/* The same without the report, on one set. */
+void dual_check_once(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed, CheckDual *check);
+
 /* The multiplier of a particle, and Y = S + momentum (S - S_old). */
 void dual_multiplier(const DualStage *stage, uint32_t row, double S[9]);
 void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9]);

@@ -83,6 +83,32 @@ static void add_materials(World *world, const SceneSpec *spec)
     }
 }
 
+void spec_far_apart(SceneSpec *spec)
+{
+    spec->most_per_cell = 1;
+    spec->spread = 40;
+}
+
+void spec_crowded(SceneSpec *spec)
+{
+    spec->most_per_cell = 40;
+    spec->spread = 3;
+}
+
+int cells_of_a_block(int dimension) { return dimension == 3 ? K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS : K_BLOCK_AXIS * K_BLOCK_AXIS; }
+
+void spec_in_cell(SceneSpec *spec, int cell)
+{
+    static const int32_t anchor[3] = {-8, -8, -8};
+    spec->cells = 1;
+    spec->most_per_cell = 3;
+    spec->spread = 0;
+    spec->anchor = anchor;
+    spec->centre[0] = -4 + cell % K_BLOCK_AXIS;
+    spec->centre[1] = cell / K_BLOCK_AXIS % K_BLOCK_AXIS;
+    spec->centre[2] = 4 + cell / (K_BLOCK_AXIS * K_BLOCK_AXIS);
+}
+
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
 {
     pbmpm_world_def def = world_def_defaults();

@@ -41,6 +41,15 @@ typedef struct Scene {
 /* A liquid or elastic material with the defaults, in one line. */
 pbmpm_material_def scene_material(pbmpm_material_kind kind);
 
+/* Layouts that a scene's particles can have instead of its own: one by one far apart; many in few cells. */
+void spec_far_apart(SceneSpec *spec);
+void spec_crowded(SceneSpec *spec);
+
+/* A few particles in one cell of a block, and one far below, which tells where blocks begin. Each of the `cells_of_a_block()` cells touches
+ * another set of neighbours. */
+void spec_in_cell(SceneSpec *spec, int cell);
+int cells_of_a_block(int dimension);
+
 /* `seed` chooses the particles; they do not depend on the instruction set. */
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed);
 void scene_close(Scene *scene);

@@ -30,23 +30,6 @@ static SceneSpec liquid_scene(const char *name)
     return spec;
 }
 
-typedef void CheckStage(DualStage *stage);
-
-static void each_stage(const SceneSpec *spec, int seeds, CheckStage *check)
-{
-    for (int dimension = 2; dimension <= 3; dimension++)
-        EACH_ISA(isa)
-        {
-            check_subject(spec->name, isa, dimension);
-            for (int seed = 1; seed <= seeds; seed++) {
-                DualStage stage = dual_open(spec, isa, dimension, (uint32_t)seed);
-                check(&stage);
-                dual_close(&stage);
-            }
-        }
-    check_report(spec->name);
-}
-
 /* The momentum of the nodes is in the multipliers already. */
 static void push_nodes(DualStage *stage)
 {
@@ -75,23 +58,21 @@ static void check_rounds(DualStage *stage)
 static void test_mixed_materials(void)
 {
     const SceneSpec spec = liquid_scene("cells: mixed materials");
-    each_stage(&spec, 3, check_rounds);
+    dual_check_spec(&spec, 3, check_rounds);
 }
 
 static void test_single_particles_far_apart(void)
 {
     SceneSpec spec = liquid_scene("cells: single particles far apart");
-    spec.most_per_cell = 1;
-    spec.spread = 40;
-    each_stage(&spec, 1, check_rounds);
+    spec_far_apart(&spec);
+    dual_check_spec(&spec, 1, check_rounds);
 }
 
 static void test_crowded_cells(void)
 {
     SceneSpec spec = liquid_scene("cells: crowded cells");
-    spec.most_per_cell = 40;
-    spec.spread = 3;
-    each_stage(&spec, 1, check_rounds);
+    spec_crowded(&spec);
+    dual_check_spec(&spec, 1, check_rounds);
 }
 
 static void test_all_densities(void)
@@ -99,30 +80,17 @@ static void test_all_densities(void)
     SceneSpec spec = liquid_scene("cells: all densities");
     spec.ratio_min = 0.05;
     spec.gradient = 0.8;
-    each_stage(&spec, 2, check_rounds);
+    dual_check_spec(&spec, 2, check_rounds);
 }
 
-/* A few particles in one cell of a block, for all of its cells: each lies between centres of other blocks. */
+/* Each lies between centres of other blocks. */
 static void test_each_cell_of_a_block(void)
 {
-    static const int32_t anchor[3] = {-8, -8, -8};
     SceneSpec spec = liquid_scene("cells: each cell of a block");
-    spec.cells = 1;
-    spec.most_per_cell = 3;
-    spec.spread = 0;
-    spec.anchor = anchor;
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int cell = 0; cell < (dimension == 3 ? 64 : 16); cell++) {
-            spec.centre[0] = -4 + cell % 4;
-            spec.centre[1] = cell / 4 % 4;
-            spec.centre[2] = 4 + cell / 16;
-            EACH_ISA(isa)
-            {
-                check_subject(spec.name, isa, dimension);
-                DualStage stage = dual_open(&spec, isa, dimension, (uint32_t)cell + 1);
-                check_rounds(&stage);
-                dual_close(&stage);
-            }
+        for (int cell = 0; cell < cells_of_a_block(dimension); cell++) {
+            spec_in_cell(&spec, cell);
+            EACH_ISA(isa) dual_check_once(&spec, isa, dimension, (uint32_t)cell + 1, check_rounds);
         }
     check_report(spec.name);
 }

@@ -39,23 +39,6 @@ static SceneSpec mixed_scene(const char *name)
     return spec;
 }
 
-typedef void CheckStage(DualStage *stage);
-
-static void each_stage(const SceneSpec *spec, int seeds, CheckStage *check)
-{
-    for (int dimension = 2; dimension <= 3; dimension++)
-        EACH_ISA(isa)
-        {
-            check_subject(spec->name, isa, dimension);
-            for (int seed = 1; seed <= seeds; seed++) {
-                DualStage stage = dual_open(spec, isa, dimension, (uint32_t)seed);
-                check(&stage);
-                dual_close(&stage);
-            }
-        }
-    check_report(spec->name);
-}
-
 static const double momenta[] = {0.0, 0.28, 0.43, 0.9};
 
 /* ---- Kernel by kernel ---- */
@@ -77,23 +60,21 @@ static void check_rounds(DualStage *stage)
 static void test_mixed_materials(void)
 {
     const SceneSpec spec = mixed_scene("dual: mixed materials");
-    each_stage(&spec, 3, check_rounds);
+    dual_check_spec(&spec, 3, check_rounds);
 }
 
 static void test_single_particles_far_apart(void)
 {
     SceneSpec spec = mixed_scene("dual: single particles far apart");
-    spec.most_per_cell = 1;
-    spec.spread = 40;
-    each_stage(&spec, 1, check_rounds);
+    spec_far_apart(&spec);
+    dual_check_spec(&spec, 1, check_rounds);
 }
 
 static void test_crowded_cells(void)
 {
     SceneSpec spec = mixed_scene("dual: crowded cells");
-    spec.most_per_cell = 40;
-    spec.spread = 3;
-    each_stage(&spec, 1, check_rounds);
+    spec_crowded(&spec);
+    dual_check_spec(&spec, 1, check_rounds);
 }
 
 /* From crushed to torn. */
@@ -102,7 +83,7 @@ static void test_all_densities(void)
     SceneSpec spec = mixed_scene("dual: all densities");
     spec.ratio_min = 0.05;
     spec.gradient = 0.8;
-    each_stage(&spec, 2, check_rounds);
+    dual_check_spec(&spec, 2, check_rounds);
 }
 
 /* ---- ASFLIP ---- */
@@ -114,7 +95,7 @@ static void test_fine_motion(void)
         SceneSpec spec = mixed_scene("dual: fine motion");
         spec.flip = shares[i];
         spec.material[2].kinematic_viscosity = 1e-3f; /* a viscous liquid loses it on purpose */
-        each_stage(&spec, 1, check_rounds);
+        dual_check_spec(&spec, 1, check_rounds);
     }
 }
 
@@ -140,7 +121,7 @@ static void test_all_fine_motion_is_all_of_the_velocity(void)
 {
     SceneSpec spec = mixed_scene("dual: all of the velocity");
     spec.flip = 1.0f;
-    each_stage(&spec, 2, check_lost_velocity);
+    dual_check_spec(&spec, 2, check_lost_velocity);
 }
 
 /* ---- Proximal steps ---- */

@@ -36,16 +36,14 @@ static void test_mixed_materials(void)
 static void test_single_particles_far_apart(void)
 {
     SceneSpec spec = mixed_scene("single particles far apart");
-    spec.most_per_cell = 1;
-    spec.spread = 40;
+    spec_far_apart(&spec);
     stages_check_spec(&spec, 1);
 }
 
 static void test_crowded_cells(void)
 {
     SceneSpec spec = mixed_scene("crowded cells");
-    spec.most_per_cell = 40;
-    spec.spread = 3;
+    spec_crowded(&spec);
     stages_check_spec(&spec, 1);
 }
 
@@ -72,20 +70,12 @@ static void test_anywhere(void)
     }
 }
 
-/* A few particles in one cell of a block, for all of its cells: each touches another set of neighbours. */
 static void test_each_cell_of_a_block(void)
 {
-    static const int32_t anchor[3] = {-8, -8, -8};
     SceneSpec spec = mixed_scene("each cell of a block");
-    spec.cells = 1;
-    spec.most_per_cell = 3;
-    spec.spread = 0;
-    spec.anchor = anchor;
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int cell = 0; cell < (dimension == 3 ? 64 : 16); cell++) {
-            spec.centre[0] = -4 + cell % 4;
-            spec.centre[1] = cell / 4 % 4;
-            spec.centre[2] = 4 + cell / 16;
+        for (int cell = 0; cell < cells_of_a_block(dimension); cell++) {
+            spec_in_cell(&spec, cell);
             EACH_ISA(isa)
             {
                 check_subject(spec.name, isa, dimension);
