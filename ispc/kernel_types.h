@@ -31,6 +31,12 @@ typedef int32 int32_t;
 #define K_LIQUID 0
 #define K_ELASTIC 1
 
+/* What is built, see materials.cmake. All but liquids have a deformation gradient F and share the code for it. */
+#if !defined PBMPM_WITH_LIQUID || !defined PBMPM_WITH_ELASTIC || !defined PBMPM_WITH_SAND || !defined PBMPM_WITH_VISCO
+#error "the build says by PBMPM_WITH_LIQUID and so on which materials there are"
+#endif
+#define K_WITH_SOLIDS (PBMPM_WITH_ELASTIC || PBMPM_WITH_SAND || PBMPM_WITH_VISCO)
+
 #define K_FIXED_COROTATED 0
 #define K_NEO_HOOKEAN 1
 

@@ -205,6 +205,8 @@ pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash)
 
 /* ---- material.h ---- */
 
+uint32_t pbmpm_materials_built(void) { return materials_built(); }
+
 pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size)
 {
     const pbmpm_material_def defaults = material_defaults();
@@ -217,11 +219,11 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     *material = (pbmpm_material_id){0, 0};
     REQUIRE_SIZE(def);
     HOLD(world);
-    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC)
-        LET_GO(fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version"));
+    pbmpm_result result = material_kind_usable(def->kind);
+    if (result != PBMPM_OK) LET_GO(result);
     const char *problem = material_problem(def);
     if (problem) LET_GO(api_invalid(problem));
-    pbmpm_result result = materials_add(&w->materials, def, registry_next_generation(), material);
+    result = materials_add(&w->materials, def, registry_next_generation(), material);
     if (result == PBMPM_OK && def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
     if (result == PBMPM_ERROR_OUT_OF_MEMORY) {
         w->materials.generation[material->index] = 0;

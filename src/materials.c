@@ -3,6 +3,31 @@
 #include "numbers.h"
 #include "result.h"
 
+/* All kinds there are: what a build may leave out, and how it is called there. */
+static const struct {
+    const char *name;
+    bool built;
+} kinds[] = {
+    [PBMPM_LIQUID] = {"liquid", PBMPM_WITH_LIQUID},
+    [PBMPM_ELASTIC] = {"elastic", PBMPM_WITH_ELASTIC},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+uint32_t materials_built(void)
+{
+    uint32_t built = 0;
+    for (uint32_t kind = 0; kind < KINDS; kind++) built |= (uint32_t)kinds[kind].built << kind;
+    return built;
+}
+
+pbmpm_result material_kind_usable(pbmpm_material_kind kind)
+{
+    if ((uint32_t)kind >= KINDS) return fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version");
+    if (kinds[kind].built) return PBMPM_OK;
+    return fail(PBMPM_ERROR_UNSUPPORTED, "this library was built without %s materials; the CMake option PBMPM_MATERIALS says what is built",
+                kinds[kind].name);
+}
+
 pbmpm_material_def material_defaults(void)
 {
     return (pbmpm_material_def){.size = sizeof(pbmpm_material_def),
@@ -37,7 +62,7 @@ static const char *modulus_problem(const pbmpm_material_def *def)
 const char *material_problem(const pbmpm_material_def *def)
 {
     if (def->size != sizeof *def) return "material.size is unknown: fill the definition with pbmpm_material_def_init()";
-    if (def->kind != PBMPM_LIQUID && def->kind != PBMPM_ELASTIC) return "material.kind is not known to this version";
+    if ((uint32_t)def->kind >= KINDS) return "material.kind is not known to this version";
     if (!in_range(def->density, 1e-3, 1e6)) return "material.density must be in [1e-3, 1e6]";
     if (!(def->relaxation > 0.0f && def->relaxation < 2.0f)) return "material.relaxation must be in (0, 2)";
     if (!in_range(def->viscosity, 0.0, 1.0)) return "material.viscosity must be in [0, 1]";

@@ -15,7 +15,13 @@ typedef struct Materials {
 
 pbmpm_material_def material_defaults(void);
 
-/* Null if valid, else what is wrong. */
+/* Bit k: materials of kind k are in this build. */
+uint32_t materials_built(void);
+
+/* OK, or UNSUPPORTED for a kind that is unknown or that the build leaves out. */
+pbmpm_result material_kind_usable(pbmpm_material_kind kind);
+
+/* Null if valid, else what is wrong; whether the kind is usable is not asked. */
 const char *material_problem(const pbmpm_material_def *def);
 
 pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, uint32_t generation, pbmpm_material_id *id);

@@ -88,7 +88,12 @@ typedef struct pbmpm_effective {
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size);
 
-/** Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown), CAPACITY,
+/** Which kinds of materials this library was built with: bit k (1u << PBMPM_LIQUID, ...) is set for kind k. What the CMake option
+ *  PBMPM_MATERIALS leaves out has no kernels in the library, and creating it is refused as UNSUPPORTED. All kinds but liquids
+ *  share the code of the deformation gradient, which is left out when none of them is built. Any thread. */
+PBMPM_API uint32_t pbmpm_materials_built(void);
+
+/** Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown, or the kind is not built), CAPACITY,
  *  OUT_OF_MEMORY (the first elastic material makes room for F), BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material);
 

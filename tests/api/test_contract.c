@@ -65,6 +65,11 @@ static void test_instruction_sets_have_names(void)
     TEST_ASSERT_NOT_NULL(pbmpm_isa_name((pbmpm_isa)77));
 }
 
+static void test_all_materials_are_built(void)
+{
+    TEST_ASSERT_EQUAL_HEX32(1u << PBMPM_LIQUID | 1u << PBMPM_ELASTIC, pbmpm_materials_built());
+}
+
 static void *fail_on_another_thread(void *message)
 {
     pbmpm_world_id none = {0, 0};
@@ -368,6 +373,7 @@ int main(void)
     RUN_TEST(test_versions_agree_with_the_headers);
     RUN_TEST(test_every_result_has_its_name);
     RUN_TEST(test_instruction_sets_have_names);
+    RUN_TEST(test_all_materials_are_built);
     RUN_TEST(test_last_error_belongs_to_the_thread);
     RUN_TEST(test_log_callback_gets_refused_calls);
     RUN_TEST(test_shutdown_destroys_worlds_and_allows_a_new_start);

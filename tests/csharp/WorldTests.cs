@@ -16,6 +16,14 @@ static class WorldTests
     }
 
     [Test]
+    static void AllMaterialsAreBuilt()
+    {
+        foreach (MaterialKind kind in Enum.GetValues(typeof(MaterialKind)))
+            Expect.True(Library.Builds(kind), kind.ToString());
+        Expect.True(!Library.Builds((MaterialKind)(-1)), "a negative kind");
+    }
+
+    [Test]
     static void DefinitionAndSettingsComeBack()
     {
         using (var world = Scenes.Box(2, capacity: 123))

@@ -126,3 +126,7 @@ def test_one_wheel_for_all_pythons_holds_the_library() -> None:
 
 def test_the_instruction_set_has_a_name() -> None:
     assert pbmpm.isa() in ("SSE4", "AVX2", "AVX-512")
+
+
+def test_all_materials_are_built() -> None:
+    assert set(pbmpm.built_materials()) == {pbmpm.Liquid, pbmpm.Elastic}

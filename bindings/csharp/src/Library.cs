@@ -37,6 +37,13 @@ namespace Pbmpm
             return Text(Methods.pbmpm_isa_name(isa));
         }
 
+        /// <summary>Whether the library was built with materials of a kind; creating one of another kind is refused.</summary>
+        public static bool Builds(MaterialKind kind)
+        {
+            Check();
+            return (int)kind >= 0 && (int)kind < 32 && (Methods.pbmpm_materials_built() >> (int)kind & 1) != 0;
+        }
+
         /// <summary>Compares version and ABI number, and the place and size of every field, with what the library says
         /// about itself. Everything else in this namespace calls it first, so that a library that does not fit is refused
         /// instead of corrupting memory. Costs nothing after the first success.</summary>

@@ -1375,7 +1375,13 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_def_init(MaterialDef* def, UIntPtr size);
 
-        /// <summary>Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown), CAPACITY,
+        /// <summary>Which kinds of materials this library was built with: bit k (1u &lt;&lt; PBMPM_LIQUID, ...) is set for kind k. What the CMake option
+        /// PBMPM_MATERIALS leaves out has no kernels in the library, and creating it is refused as UNSUPPORTED. All kinds but liquids
+        /// share the code of the deformation gradient, which is left out when none of them is built. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern uint pbmpm_materials_built();
+
+        /// <summary>Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown, or the kind is not built), CAPACITY,
         /// OUT_OF_MEMORY (the first elastic material makes room for F), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_create(WorldId world, MaterialDef* def, MaterialId* material);

@@ -33,7 +33,7 @@ from .errors import (
 )
 from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
 from .forces import Falloff, Force, ForceKind
-from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy
+from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy, built_materials
 from .queries import PointFields, RayHit, RegionShare
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
@@ -111,6 +111,7 @@ __all__ = [
     "bake_heights",
     "bake_hull",
     "bake_mesh",
+    "built_materials",
     "isa",
     "library_path",
 ]

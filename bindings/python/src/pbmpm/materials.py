@@ -114,6 +114,12 @@ _KINDS: dict[type, int] = {
 }
 
 
+def built_materials() -> tuple[type[Parameters], ...]:
+    """The materials that the library was built with; a world refuses the others with an UnsupportedError."""
+    built = lib.pbmpm_materials_built()
+    return tuple(material for material, kind in _KINDS.items() if built >> kind & 1)
+
+
 def to_c(parameters: Parameters) -> Any:
     """The C structure of a material."""
     if type(parameters) not in _KINDS:
