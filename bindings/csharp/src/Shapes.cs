@@ -35,6 +35,14 @@ namespace Pbmpm
             return it;
         }
 
+        /// <summary>A baked solid of the same world; the position is where the origin of its mesh stands.</summary>
+        public static Shape Solid(Float3 position, BakedId solid)
+        {
+            var it = At(ShapeKind.Baked, position);
+            it.Baked = solid;
+            return it;
+        }
+
         static Shape At(ShapeKind kind, Float3 position)
         {
             var it = Default;

@@ -1,0 +1,205 @@
+using System;
+using Pbmpm;
+
+/// <summary>Emitters, drains, forces, baked solids, queries, snapshots and steps in the background.</summary>
+static class EffectTests
+{
+    static void Run(World world, int steps)
+    {
+        for (var i = 0; i < steps; i++) world.Step(Scenes.Frame);
+    }
+
+    [Test]
+    static void WhatIsEmittedDrainedAndKilledAddsUp()
+    {
+        using (var world = Scenes.Box(2))
+        {
+            var source = EmitterDef.Default;
+            source.Material = world.AddMaterial(MaterialDef.Default);
+            source.Shape = Shape.Box(new Float3(1, 1.5f, 0), new Float3(0.2f, 0.1f, 0));
+            source.Rate = 0.6f;
+            source.Budget = 60;
+            var emitter = world.AddEmitter(source);
+            var sink = DrainDef.Default;
+            sink.Shape = Shape.Plane(new Float3(0, 0.2f, 0), new Float3(0, 1, 0));
+            var drain = world.AddDrain(sink);
+            Run(world, 60);
+            var emitted = world.StatusOf(emitter);
+            var drained = world.StatusOf(drain);
+            Expect.Equal(60ul, emitted.Emitted, "particles within the budget");
+            Expect.True(emitted.RefusedBudget > 0, "more were due");
+            Expect.True(drained.Drained > 0, "the drain took some");
+            Expect.Equal((ulong)world.ParticleCount, emitted.Emitted - drained.Drained, "particles that are left");
+
+            var bounds = KillBounds.Default;
+            bounds.Enabled = 1;
+            bounds.Low = new Float3(1.9f, 1.9f, 0);
+            bounds.High = new Float3(2, 2, 0);
+            world.KillBounds = bounds;
+            Expect.Equal(1.9f, world.KillBounds.Low.X, "lower corner");
+            Run(world, 1);
+            Expect.Equal(0, world.ParticleCount, "particles outside of the bounds");
+            var flow = world.Flow;
+            Expect.Equal(flow.Emitted, flow.Drained + flow.Killed, "all that was emitted");
+
+            source = world.GetEmitter(emitter);
+            source.Enabled = 0;
+            world.SetEmitter(emitter, source);
+            world.MoveEmitter(emitter, new Float3(0.5f, 1.5f, 0));
+            world.MoveEmitter(emitter, new Float3(0.5f, 1.5f, 0), new Float4(0, 0, 0, 1));
+            sink = world.GetDrain(drain);
+            sink.Enabled = 0;
+            world.SetDrain(drain, sink);
+            Expect.Equal(0, world.GetDrain(drain).Enabled, "a drain that was switched off");
+            world.RemoveDrain(drain);
+            world.RemoveEmitter(emitter);
+            Expect.Refused(Result.ErrorInvalidId, () => world.StatusOf(drain), "a drain that was removed");
+            Expect.Refused(Result.ErrorInvalidId, () => world.GetEmitter(emitter), "an emitter that was removed");
+        }
+    }
+
+    [Test]
+    static void AForceGivesItsImpulse()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            var wind = ForceDef.Default;
+            wind.Direction = new Float3(1, 0, 0);
+            wind.Strength = 3;
+            var force = world.AddForce(wind);
+            var mass = world.Stats.Mass;
+            Run(world, 1);
+            Expect.Near(mass * 3 * Scenes.Frame, world.StatusOf(force).Impulse.X, 1e-4 * mass, "impulse");
+            Expect.Near(mass * 3 * Scenes.Frame, world.Stats.Momentum.X, 1e-4 * mass, "momentum");
+            wind = world.GetForce(force);
+            wind.Enabled = 0;
+            world.SetForce(force, wind);
+            Run(world, 1);
+            Expect.Equal(0u, world.StatusOf(force).Nodes, "nodes that feel it when it is off");
+            world.RemoveForce(force);
+            Expect.Refused(Result.ErrorInvalidId, () => world.GetForce(force), "a force that was removed");
+        }
+    }
+
+    static readonly float[] Square = { -0.3f, -0.3f, 0.3f, -0.3f, 0.3f, 0.3f, -0.3f, 0.3f };
+    static readonly uint[] Edges = { 0, 1, 1, 2, 2, 3, 3, 0 };
+
+    [Test]
+    static void BakedSolidsAreKeptLoadedAndPressedOn()
+    {
+        var solid = BakedSolid.FromMesh(2, Square, Edges);
+        Expect.Equal(2, solid.Info.Dimension, "dimension");
+        Expect.Equal(solid.Data.Length, new BakedSolid(solid.Data).Data.Length, "bytes of a copy");
+        Expect.Equal(2, BakedSolid.FromHull(2, Square).Info.Dimension, "dimension of a hull");
+        Expect.Refused(Result.ErrorInvalidArgument, () => BakedSolid.FromMesh(2, Square, new uint[] { 0, 1, 1, 2 }), "an open mesh");
+        var spoilt = (byte[])solid.Data.Clone();
+        spoilt[spoilt.Length / 2] ^= 1;
+        Expect.Refused(Result.ErrorDamaged, () => new BakedSolid(spoilt), "a damaged solid");
+
+        using (var world = Scenes.Box(2))
+        {
+            var loaded = world.Load(solid);
+            var definition = ColliderDef.Default;
+            definition.MeasuresImpulse = 1;
+            definition.Shape = Shape.Solid(new Float3(1, 0.5f, 0), loaded);
+            var collider = world.AddCollider(definition);
+            Expect.Refused(Result.ErrorInUse, () => world.Unload(loaded), "a solid that an obstacle has");
+            var fill = Scenes.Water(world);
+            fill.Shape = Shape.Box(new Float3(1, 1, 0), new Float3(0.3f, 0.2f, 0));
+            world.Fill(fill);
+            Run(world, 3);
+            Expect.True(world.ImpulseOn(collider).Linear.Y < 0, "water presses down");
+            world.RemoveCollider(collider);
+            world.Unload(loaded);
+            Expect.Refused(Result.ErrorInvalidArgument, () => world.ImpulseOnWall(0, true), "a wall that measures nothing");
+        }
+    }
+
+    [Test]
+    static void TerrainIsBakedFromHeights()
+    {
+        var count = new Uint2 { X = 3 };
+        var spacing = new Float2 { X = 0.5f };
+        var solid = BakedSolid.FromHeights(2, new[] { 0f, 0.5f, 0f }, count, spacing);
+        var grid = solid.Info;
+        Expect.Near(-1 - 2 * grid.Spacing, grid.Minimum.Y, 1e-5, "its base is two grid cells inside");
+        Expect.Throws<ArgumentException>(() => BakedSolid.FromHeights(2, new float[2], count, spacing), "too few heights");
+    }
+
+    [Test]
+    static void QueriesFindTheWater()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            var shares = new RegionShare[2];
+            Expect.Equal(1, world.QueryRegion(Shape.Box(new Float3(1, 1, 0), new Float3(1, 1, 0)), shares), "materials");
+            Expect.Near(0.16, shares[0].RestVolume, 1e-5, "area of the block");
+
+            var points = new[] { 1f, 1f, 0.2f, 0.2f };
+            float[] filling = new float[2], density = new float[2], velocity = new float[4], heights = new float[2];
+            world.QueryPoints(points, filling, density, velocity);
+            Expect.Near(1, filling[0], 0.02, "filling inside");
+            Expect.Near(1000, density[0], 20, "density inside");
+            Expect.Equal(0f, filling[1], "filling outside");
+            world.QueryHeights(points, heights);
+            Expect.Near(1.2, heights[0], 0.03, "height of the surface");
+            Expect.True(float.IsNegativeInfinity(heights[1]), "no surface where there is no water");
+            world.QueryHeights(points, heights, 0.5f, new Float3(1, 0, 0));
+            Expect.Near(1.2, heights[0], 0.03, "the surface to the right");
+
+            var ray = Ray.Default;
+            ray.Origin = new Float3(1, 2, 0);
+            var hit = world.Cast(ray);
+            Expect.Equal(1, hit.Hit, "hits");
+            Expect.Near(0.8, hit.Distance, 0.03, "distance");
+            Expect.Throws<ArgumentException>(() => world.QueryPoints(points, new float[1]), "room for too few points");
+        }
+    }
+
+    [Test]
+    static void ARestoredSnapshotGoesOnTheSame()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            Run(world, 3);
+            var buffer = new byte[world.SnapshotSize];
+            Expect.Equal((long)buffer.Length, world.SaveTo(buffer), "bytes");
+            Run(world, 5);
+            var hash = world.StateHash;
+            var positions = world.Positions;
+            world.Restore(buffer);
+            Expect.True(!positions.IsCurrent, "views have expired");
+            Run(world, 5);
+            Expect.Equal(hash, world.StateHash, "hash");
+            buffer[buffer.Length / 2] ^= 1;
+            Expect.Refused(Result.ErrorDamaged, () => world.Restore(buffer), "a damaged snapshot");
+            Expect.Equal(hash, world.StateHash, "hash after a refusal");
+            Expect.Refused(Result.ErrorCapacity, () => world.SaveTo(new byte[8]), "room for 8 bytes");
+        }
+    }
+
+    [Test]
+    static void AStepInTheBackgroundIsTheSameStep()
+    {
+        using (World world = Scenes.Pool(2), other = Scenes.Pool(2))
+        {
+            Run(other, 2);
+            world.Publish(Field.Position);
+            world.BeginStep(Scenes.Frame);
+            Expect.Near(0.8, Lowest(world.Positions), 0.051, "the state before, while it runs");
+            Expect.Refused(Result.ErrorBusy, () => world.Step(Scenes.Frame), "a step meanwhile");
+            world.EndStep();
+            world.BeginStep(Scenes.Frame);
+            while (!world.TryEndStep()) System.Threading.Thread.Yield();
+            Expect.Equal(other.StateHash, world.StateHash, "hash");
+            Expect.Refused(Result.ErrorInvalidArgument, () => world.EndStep(), "the end of no step");
+        }
+    }
+
+    static double Lowest(FloatView positions)
+    {
+        var lowest = double.PositiveInfinity;
+        for (var i = 0; i < positions.Count; i++) lowest = Math.Min(lowest, positions[i, 1]);
+        return lowest;
+    }
+}
