@@ -12,6 +12,7 @@ from typing import Any
 import click
 
 from .accuracy.command import accuracy
+from .bench.command import bench
 from .errors import InputError
 from .options import (
     EXIT_CHECK_FAILED,
@@ -33,6 +34,7 @@ def cli() -> None:
 
 
 cli.add_command(accuracy)
+cli.add_command(bench)
 cli.add_command(stability)
 cli.add_command(tune)
 

@@ -1,0 +1,1 @@
+"""Speed: what an iteration and a step cost with each solver, on matter in motion."""

@@ -1,0 +1,120 @@
+"""The bench: what it measures, and its arithmetic. No test looks at how long anything took."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from pbmpm.app.bench.measure import Costs, measure, pieces
+from pbmpm.app.bench.report import ratios_of, row_of
+from pbmpm.app.bench.subjects import ITERATIONS, MATERIALS, VARIANTS, applies, scene_of
+from pbmpm.app.scene import load_scene
+
+ROW_KEYS = {
+    "material",
+    "dims",
+    "solver",
+    "particles",
+    "iterations",
+    "ns_per_particle_iteration",
+    "ns_per_particle_iteration_min",
+    "ns_per_particle_step_fixed",
+    "ns_per_particle_step_fixed_min",
+    "million_particle_iterations_per_second",
+    "million_particle_iterations_per_second_max",
+    "million_particle_iterations_per_second_in_iterate",
+    "ms_per_step",
+    "bytes_per_particle",
+}
+
+
+@pytest.mark.parametrize("material", ["liquid", "elastic"])
+def test_scenes_are_those_of_the_samples(material: str, root: Path) -> None:
+    """So that 'pbmpm run' and 'pbmpm bench' can be compared. Only the modulus, which the paper's solver ignores, differs."""
+    sample = load_scene(root / "samples" / "scenes" / f"bench_{material}_3d.json")
+    own = scene_of(material, 3)
+    for name in ("dimension", "cell_size", "gravity", "domain", "rate_hz", "iterations"):
+        assert getattr(own, name) == getattr(sample, name), name
+    assert [fill.model_dump(exclude={"material"}) for fill in own.fills] == [
+        fill.model_dump(exclude={"material"}) for fill in sample.fills
+    ]
+    assert own.iterations == ITERATIONS
+
+
+def costs(variant: str, few: list[float], many: list[float], used: tuple[int, int] = (10, 20)) -> Costs:
+    return Costs(variant, 1000, 200.0, few=few, many=many, few_solve=[0.8 * time for time in few], used=used)
+
+
+def test_costs_of_iterations_and_of_a_step_are_told_apart() -> None:
+    """30 us of a step and 5 us per iteration; a round that was disturbed does not count."""
+    own = costs("dual", [80e-6, 80e-6, 90e-6], [130e-6, 130e-6, 990e-6])
+    assert own.marginal() == pytest.approx(5e-9)
+    assert own.fixed() == pytest.approx(30e-9)
+    assert own.marginal(min) == pytest.approx(5e-9)
+    row = row_of("liquid", 3, own)
+    assert set(row) == ROW_KEYS
+    assert row["ns_per_particle_iteration"] == pytest.approx(5.0)
+    assert row["ns_per_particle_step_fixed"] == pytest.approx(30.0)
+    assert row["million_particle_iterations_per_second"] == pytest.approx(10 * 1000 / 80e-6 / 1e6)
+
+
+def test_iterations_that_were_not_done_are_not_divided_by() -> None:
+    """The explicit solver has none, and a solver may be done early."""
+    explicit = costs("explicit", [40e-6], [], used=(1, 1))
+    assert explicit.marginal() is None
+    assert explicit.fixed() == pytest.approx(40e-9)
+    early = costs("primal", [100e-6], [150e-6], used=(10, 15))
+    assert early.marginal() == pytest.approx(10e-9)
+
+
+def test_the_ratio_is_that_of_the_same_rounds() -> None:
+    paper, dual = costs("paper", [100e-6, 200e-6], [180e-6, 360e-6]), costs("dual", [90e-6, 180e-6], [130e-6, 260e-6])
+    (ratio,) = ratios_of("liquid", 3, [paper, dual])
+    assert (ratio["solver"], ratio["iteration"]) == ("dual", pytest.approx(0.5))
+    assert ratio["step"] == pytest.approx(0.9)
+    assert ratios_of("liquid", 3, [dual]) == []
+
+
+def test_a_measurement_steps_all_solvers() -> None:
+    done: list[int] = []
+    found = measure("liquid", 2, VARIANTS, 1, 1, lambda: done.append(1))
+    assert [own.variant for own in found] == list(VARIANTS)
+    assert len(done) == pieces(1)
+    for own in found:
+        solver_iterates = own.variant != "explicit"
+        assert (len(own.few), len(own.many)) == (1, 1 if solver_iterates else 0)
+        assert own.used[0] == (ITERATIONS if solver_iterates else 1)
+        assert own.used[1] > own.used[0] or not solver_iterates
+        assert own.bytes_per_particle > 100  # positions, velocities, affine velocities, identifiers
+
+
+def test_pressures_in_cells_are_measured_with_liquids_only() -> None:
+    assert [material for material in MATERIALS if applies("dual-cells", material)] == ["liquid"]
+    assert all(applies(variant, material) for variant in VARIANTS if variant != "dual-cells" for material in MATERIALS)
+
+
+def run_bench(*arguments: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", "pbmpm.app", "bench", *arguments], capture_output=True, text=True)
+
+
+def test_the_command_says_where_the_figures_come_from() -> None:
+    small = ("--solvers", "paper,dual", "--materials", "liquid", "--dims", "2", "--rounds", "1", "--warmup-steps", "0")
+    done = run_bench(*small, "--json", "-")
+    assert done.returncode == 0, done.stderr
+    report: dict[str, Any] = json.loads(done.stdout)
+    assert [(row["solver"], set(row)) for row in report["rows"]] == [("paper", ROW_KEYS), ("dual", ROW_KEYS)]
+    assert [ratio["solver"] for ratio in report["ratios"]] == ["dual"]
+    assert {"cpu", "isa", "date"} <= set(report["machine"])
+    assert any(name.startswith("ISPC") for name in report["compilers"])
+    assert done.stderr == ""
+
+
+def test_unknown_solvers_are_refused() -> None:
+    done = run_bench("--solvers", "newton")
+    assert done.returncode == 2
+    assert "'newton' is not one of paper, dual" in done.stderr
