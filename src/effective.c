@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "dual.h"
+#include "paper.h"
 
 /* The laws of the paper's solver: its N rounds remove the share w of a strain error each, which acts like the modulus
  * rho w N dx^2 / (4 dt^2) against a shape error and like a d-th of it against a volume error. */
@@ -12,9 +13,10 @@ static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *de
     const double rounds = world->settings.iterations;
     const double young = 0.25 * (double)def->density * (double)def->relaxation * rounds * cell * cell;
     const bool liquid = def->kind == PBMPM_LIQUID;
+    const double viscosity = rounds * paper_viscous_share(world, def, substep) * cell * (double)world->def.cell_size / 8.0;
     return (pbmpm_effective){.bulk_modulus = (float)(young / world->def.dimension),
                              .young_modulus = liquid ? 0.0f : (float)young,
-                             .kinematic_viscosity = liquid ? (float)(rounds * (double)def->viscosity * cell * (double)world->def.cell_size / 8.0) : 0.0f};
+                             .kinematic_viscosity = liquid ? (float)viscosity : 0.0f};
 }
 
 static pbmpm_effective of_material(const World *world, const pbmpm_material_def *def, double substep)

@@ -67,6 +67,12 @@ static float softening(World *world, float dt)
     return (float)(ratio * ratio);
 }
 
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, double dt)
+{
+    const double dx = (double)world->def.cell_size;
+    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * dt / (world->settings.iterations * dx * dx), 1.0);
+}
+
 /* Without gravity nothing brings spray back, so crushed matter grows slowly. */
 static const float WEIGHTLESS_REBOUND = 0.3f;
 
@@ -81,6 +87,7 @@ void paper_set_materials(World *world, float dt)
         material->relaxation = def->relaxation * soft;
         if (material->kind != K_LIQUID) continue;
         material->volume_feedback = def->volume_feedback;
+        material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
         const bool weightless = head == 0.0;
         material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material->relaxation, dt, head);

@@ -139,7 +139,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
     if (result != PBMPM_OK) return result;
-    if (with_volume && record->solver != PBMPM_SOLVER_PAPER) contacts_open_volume(&contacts, world->pool);
+    if (with_volume) contacts_open_volume(&contacts, world->pool);
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */

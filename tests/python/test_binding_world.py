@@ -140,6 +140,26 @@ def test_effective_modulus_of_the_papers_solver(world: pbmpm.World) -> None:
     assert jelly.bulk_modulus == pytest.approx(young / {2: 2, 3: 3}[world.dimension], rel=1e-5)
 
 
+def test_the_papers_solver_stands_for_a_kinematic_viscosity(dimension: int) -> None:
+    """nu = N share dx^2 / (8 dt), so a nu and its share move bit for bit the same (all numbers are powers of two); a share
+    is at most 1."""
+    dt, share, nu = 2**-6, 0.25, 4 * 0.25 * 2**-6 / (8 * 2**-6)
+
+    def run(liquid: pbmpm.Liquid) -> int:
+        with pbmpm.World(dimension, 0.125, capacity=20_000, iterations=4, threads=1) as world:
+            world.fill(pbmpm.Sphere([0.0] * dimension, 0.5), world.add_material(liquid))
+            world.velocities = world.positions.copy()[:, ::-1]
+            for _ in range(5):
+                world.step(dt)
+            return world.hash()
+
+    thick = run(pbmpm.Liquid(kinematic_viscosity=nu))
+    assert thick == run(pbmpm.Liquid(viscosity=share)) != run(pbmpm.Liquid())
+    with pbmpm.World(dimension, 0.125, iterations=4) as world:
+        syrup = world.add_material(pbmpm.Liquid(viscosity=0.5, kinematic_viscosity=1e3)).effective(dt)
+    assert syrup.kinematic_viscosity == nu / share
+
+
 def test_effective_modulus_of_other_solvers_is_the_materials_own(world: pbmpm.World) -> None:
     """The wave of pressure in a liquid runs at sqrt(K / rho)."""
     world.solver = pbmpm.Solver.EXPLICIT

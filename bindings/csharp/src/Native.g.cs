@@ -417,7 +417,7 @@ namespace Pbmpm
     /// grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
     /// per substep so that they part (unless volume_feedback is 0).
     ///
-    /// The other solvers take bulk_modulus, kinematic_viscosity, elastic_model, young_modulus and poisson_ratio.
+    /// The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
     /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
@@ -457,7 +457,8 @@ namespace Pbmpm
         /// <summary>liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
         /// (default): incompressible</summary>
         public float BulkModulus;
-        /// <summary>liquid, not the paper's solver: nu [m^2/s], in [0, 1e6]; default 0</summary>
+        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+        /// `viscosity`, and together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>
         public ElasticModel ElasticModel;
@@ -491,8 +492,8 @@ namespace Pbmpm
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
         /// what N iterations can hold, whichever is less. Primal and explicit: the material's own.</summary>
         public float YoungModulus;
-        /// <summary>liquid [m^2/s]: paper's solver N viscosity dx^2 / (8 dt), else the material's own; without what
-        /// the transfers add</summary>
+        /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
+        /// N dx^2 / (8 dt); without what the transfers add</summary>
         public float KinematicViscosity;
         /// <summary>cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1.</summary>
         public float Courant;

@@ -61,8 +61,8 @@ class _Channel(Case):
         ErrorMeasure("end_error", "discretisation", "%", "the same at T = 0.2 alone"),
     )
     notes = (
-        "The paper's solver gets the share of viscosity per iteration that stands for the same kinematic viscosity, at"
-        " most 1; where that is not enough, it cannot be as viscous."
+        "The paper's solver stands for the viscosity by a share that each iteration removes, at most 1; where that is not"
+        " enough, it cannot be as viscous."
     )
 
     @property
@@ -91,12 +91,7 @@ class _Channel(Case):
         """The slab between its plates; ``force`` [m/s^2] along x, ``speed`` [m/s] of the upper plate."""
         cell, half = self.cell_size(setting), 0.5 * SLAB_GAPS * GAP
         water: dict[str, float] = stiff_enough(setting, FASTEST)
-        if setting.solver == "paper":
-            # acts as N share dx^2 / (8 dt)
-            share = VISCOSITY * 8.0 * setting.dt / (setting.substeps * setting.iterations * cell**2)
-            water["viscosity"] = min(1.0, share)
-        else:
-            water["kinematic_viscosity"] = VISCOSITY
+        water["kinematic_viscosity"] = VISCOSITY
         scene = water_scene(
             self.name.replace("-", "_"),
             cell,
