@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from pbmpm.app.effects.catalogue import effects_on
 from pbmpm.app.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
 from pbmpm.app.errors import InputError
 from pbmpm.app.scene import load_scene
@@ -137,7 +138,7 @@ def test_emitters_and_drains() -> None:
     assert [emitter.fill_limit for emitter in scene.emitters] == [1.5, 1.5]
     assert any("emitters of solids" in note for note in scene.notes)
     assert scene.drains[0].shape.half_extents == scene.emitters[0].shape.half_extents
-    assert scene.effects() == ["emitters", "drains"]
+    assert effects_on(scene) == ["liquid", "elastic", "viscosity", "volume_feedback", "emitters", "drains"]
 
 
 def test_sand_and_visco_get_stand_ins_with_notes() -> None:

@@ -238,5 +238,5 @@ def test_ea_scene_with_sand_and_an_emitter_runs_with_a_note(tmp_path: Path) -> N
     (tmp_path / "demo.json").write_text(json.dumps(data))
     report = report_of("run", tmp_path / "demo.json", "--seconds", 0.2)
     assert any("sand" in note for note in report["notes"])
-    assert report["problems"] == [] and report["effects"] == ["emitters"]
+    assert report["problems"] == [] and report["effects"] == ["liquid", "viscosity", "volume_feedback", "emitters"]
     assert report["emitted"] + report["refused"] > 0

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import pbmpm
+from pbmpm.app.effects.catalogue import effects_on
 from pbmpm.app.errors import InputError
 from pbmpm.app.picture2d import draw_2d
 from pbmpm.app.picture import look_of
@@ -184,7 +185,7 @@ POLYGON = {
 
 def test_a_scene_with_a_polygon_runs_and_is_drawn() -> None:
     scene = parse_scene(_scene(POLYGON))
-    assert scene.effects() == ["baked solids"]
+    assert effects_on(scene) == ["liquid", "volume_feedback", "baked_solids"]
     with Simulation(scene, RunSettings.of(scene)) as simulation:
         for _ in range(30):
             simulation.step()

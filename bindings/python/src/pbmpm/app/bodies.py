@@ -36,6 +36,18 @@ class Body:
         """Where it is."""
         return self._position.tolist(), self._rotation.tolist()
 
+    @property
+    def state(self) -> dict[str, Any]:
+        """A copy of all that changes: the pose, and what a body remembers of its motion."""
+        motion = {"velocity": self._velocity, "last": self._last, "momentum": self._momentum}
+        return {"pose": self.pose, **{name: vector.copy() for name, vector in motion.items()}}
+
+    @state.setter
+    def state(self, value: dict[str, Any]) -> None:
+        self._position, self._rotation = (np.array(part) for part in value["pose"])
+        self._velocity, self._last, self._momentum = (value[name].copy() for name in ("velocity", "last", "momentum"))
+        self._collider.teleport(self._position[: self._scene.dimension], self._rotation)
+
     def before_step(self, dt: float) -> None:
         """Sends the obstacle where the body will be."""
         self._position = self._position + dt * self._velocity

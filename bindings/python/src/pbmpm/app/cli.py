@@ -13,6 +13,7 @@ import click
 
 from .accuracy.command import accuracy
 from .bench.command import bench
+from .effects.command import effects
 from .errors import InputError
 from .options import (
     EXIT_CHECK_FAILED,
@@ -21,6 +22,7 @@ from .options import (
     JSON_HELP,
     TimeList,
     emit_json,
+    run_settings,
     solver_options,
 )
 from .stability.command import stability
@@ -35,6 +37,7 @@ def cli() -> None:
 
 cli.add_command(accuracy)
 cli.add_command(bench)
+cli.add_command(effects)
 cli.add_command(stability)
 cli.add_command(tune)
 
@@ -97,13 +100,15 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
     Files are written only with --output, --ply, --vtk or --pictures. Ctrl-C ends the run after the current step and
     leaves complete files.
     """
+    from .effects.catalogue import remarks
     from .runner import run_scene
     from .scene import load_scene
+    from .simulation import solved_with
 
     scene = load_scene(scene_file)
-    for note in scene.notes:
-        click.echo(f"note: {note}", err=True)
     settings, seconds = _settings(scene, options)
+    for note in [*scene.notes, *remarks(solved_with(scene, settings))]:
+        click.echo(f"note: {note}", err=True)
     if warmup_steps >= seconds * settings.rate_hz:
         raise InputError("--warmup-steps: leaves no step to measure")
     output = _output(scene, settings, seconds, options)
@@ -121,22 +126,11 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
         sys.exit(EXIT_CHECK_FAILED)
 
 
-_SETTINGS = {"rate": "rate_hz"} | {
-    name: name
-    for name in ("substeps", "iterations", "solver", "pressure", "integrator", "flip", "target_error", "time_budget_ms")
-}
-"""Options and the fields of `RunSettings` that they set."""
-
-
 def _settings(scene, options: dict[str, Any]):
     from .preset import load_preset
-    from .simulation import RunSettings
 
     changes = load_preset(options["preset_file"]).settings.changes() if options["preset_file"] else {}
-    for option, field in _SETTINGS.items():
-        if options[option] is not None:
-            changes[field] = options[option]
-    return RunSettings.of(scene, options["threads"], **changes), options["seconds"] or scene.seconds
+    return run_settings(scene, options, changes), options["seconds"] or scene.seconds
 
 
 def _output(scene, settings, seconds: float, options: dict[str, Any]):
@@ -164,12 +158,11 @@ def _summary(report: dict[str, Any]) -> str:
         f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
         f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",
     ]
-    if report["effects"]:
-        lines.append(f"effects: {', '.join(report['effects'])}")
+    lines += [f"effects: {', '.join(report['effects'])}", _account(report)]
     if "emitted" in report:
         lines.append(
-            f"emitted {report['emitted']} particles ({report['emitted_mass']:.4g} kg), refused {report['refused']};"
-            f" drained {report['drained']} ({report['drained_mass']:.4g} kg), killed {report['killed']}"
+            f"emitted {report['emitted_mass']:.4g} kg, drained {report['drained_mass']:.4g} kg, killed"
+            f" {report['killed_mass']:.4g} kg; {report['refused']} particles were not emitted for want of space, budget or room"
         )
     if rate is not None:
         machine = report["machine"]
@@ -178,3 +171,12 @@ def _summary(report: dict[str, Any]) -> str:
             f" ({machine['isa']}, {machine['threads']} threads, {machine['cpu']})"
         )
     return "\n".join(lines)
+
+
+def _account(report: dict[str, Any]) -> str:
+    account = report["account"]
+    missing = f" and {account['missing']} MISSING" if account["missing"] else ""
+    return (
+        f"particles: {account['start']} at start + {account['emitted']} emitted - {account['drained']} drained"
+        f" - {account['killed']} killed - {account['deleted']} deleted = {account['now']} now{missing}"
+    )

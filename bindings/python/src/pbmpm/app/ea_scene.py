@@ -190,7 +190,7 @@ def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> 
         materials["sand"] = {**liquid, "viscosity": 1.0}
     if "visco" in used:
         materials["visco"] = dict(elastic)
-    return materials
+    return {name: material for name, material in materials.items() if name in used}
 
 
 def _relaxation(settings: dict[str, float], name: str, notes: list[str]) -> float:

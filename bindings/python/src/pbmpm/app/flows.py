@@ -19,9 +19,10 @@ LONGER = 2.0
 class Flows:
     """The flows and forces of one world."""
 
-    def __init__(self, world: pbmpm.World, scene: Scene, materials: dict[str, pbmpm.Material]) -> None:
+    def __init__(self, world: pbmpm.World, scene: Scene, materials: dict[str, pbmpm.Material], time: float) -> None:
+        """``time`` [s] is when the world begins."""
         self._world, self._dimension = world, scene.dimension
-        self._emitters = [(_add_emitter(world, part, materials), part) for part in scene.emitters]
+        self._emitters = [(_add_emitter(world, part, materials, time), part) for part in scene.emitters]
         self._drains = []
         for drain in scene.drains:
             material = None if drain.material is None else materials[drain.material]
@@ -31,6 +32,15 @@ class Flows:
             world.kill_bounds = (scene.kill_bounds.min, scene.kill_bounds.max)
         self._timed = [*self._emitters, *self._drains, *self._forces]
         self._on: dict[int, bool] = {}
+
+    @property
+    def switched(self) -> dict[int, bool]:
+        """What of the timed parts works, as the world knows it; assigned when the world went back to a snapshot."""
+        return dict(self._on)
+
+    @switched.setter
+    def switched(self, value: dict[int, bool]) -> None:
+        self._on = dict(value)
 
     def before_step(self, time: float, dt: float) -> None:
         """Switches on and off what has its time, and sends the emitters on their way."""
@@ -67,7 +77,9 @@ def _emitter_figures(emitter: pbmpm.Emitter) -> dict[str, Any]:
     }
 
 
-def _add_emitter(world: pbmpm.World, part: EmitterPart, materials: dict[str, pbmpm.Material]) -> pbmpm.Emitter:
+def _add_emitter(
+    world: pbmpm.World, part: EmitterPart, materials: dict[str, pbmpm.Material], time: float
+) -> pbmpm.Emitter:
     emitter = world.add_emitter(
         shape_of(part.shape),
         materials[part.material],
@@ -82,7 +94,7 @@ def _add_emitter(world: pbmpm.World, part: EmitterPart, materials: dict[str, pbm
         seed=part.seed,
     )
     if part.motion is not None:
-        start = shape_of(part.shape, *pose_at(part.motion, 0.0))
+        start = shape_of(part.shape, *pose_at(part.motion, time))
         emitter.change(shape=start)
     return emitter
 

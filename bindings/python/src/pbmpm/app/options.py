@@ -6,11 +6,15 @@ import shlex
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, get_args
+from typing import TYPE_CHECKING, Any, get_args
 
 import click
 
 from .names import IntegratorName, PressureName, SolverName
+
+if TYPE_CHECKING:
+    from .scene import Scene
+    from .simulation import RunSettings
 
 EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
@@ -122,3 +126,18 @@ def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
 def choice_of(names: Any) -> click.Choice:
     """The members of a Literal as a choice."""
     return click.Choice(get_args(names))
+
+
+_SETTINGS = {"rate": "rate_hz"} | {
+    name: name
+    for name in ("substeps", "iterations", "solver", "pressure", "integrator", "flip", "target_error", "time_budget_ms")
+}
+"""Options and the fields of `RunSettings` that they set."""
+
+
+def run_settings(scene: Scene, options: dict[str, Any], changes: dict[str, Any] | None = None) -> RunSettings:
+    """What a scene asks for, but for changes and, before these, for what the options of a command say."""
+    from .simulation import RunSettings
+
+    given = {field: options[name] for name, field in _SETTINGS.items() if options.get(name) is not None}
+    return RunSettings.of(scene, options["threads"], **{**(changes or {}), **given})

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from .effects.catalogue import effects_on, remarks
 from .frame import Frame
 from .machine import machine_facts
 from .meter import Meter
@@ -19,7 +20,7 @@ from .output import Sequence
 from .picture import Look, draw_picture, look_of, save_png
 from .progress import progress_bar
 from .scene import Scene
-from .simulation import RunSettings, Simulation, versions
+from .simulation import RunSettings, Simulation, solved_with, versions
 
 _POSTFIX_EVERY_SECONDS = 0.5
 _TIME_TOLERANCE = 1e-9
@@ -163,12 +164,14 @@ def _sidecar_facts(scene: Scene, settings: RunSettings, simulation: Simulation) 
 def _report(
     scene: Scene, settings: RunSettings, simulation: Simulation, meter: Meter, interrupted: bool, problems: list[str]
 ) -> dict[str, Any]:
+    solved = solved_with(scene, settings)
     return {
         "scene": scene.name,
         "dimension": scene.dimension,
         "cell_size": scene.cell_size,
         "notes": scene.notes,
-        "effects": scene.effects(),
+        "effects": effects_on(solved),
+        "effect_remarks": remarks(solved),
         **settings.as_dict(),
         **simulation.figures(),
         **meter.figures(settings.dt),

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 
 from ..materials import Elastic, Liquid
 from .errors import InputError
-from .names import IntegratorName, PressureName, SolverName
+from .names import EffectName, IntegratorName, PressureName, SolverName
 
 FORMAT_NAME = "pbmpm-scene"
 FORMAT_VERSION = 1
@@ -370,6 +370,8 @@ class Scene(_Part):
     forces: list[ForcePart] = []
     capacity: Annotated[int, Field(ge=1, le=2**28)] | None = None
     """Particles that there is room for; default: what fills and emitters can bring."""
+    effects: list[EffectName] | None = None
+    """The effects that the scene is meant to have; without the list they follow from what is in it."""
     pictures: PicturesPart = PicturesPart()
     notes: list[str] = []
 
@@ -377,19 +379,6 @@ class Scene(_Part):
     def sources(self) -> list[FillPart | EmitterPart]:
         """All that brings particles."""
         return [*self.fills, *self.emitters]
-
-    def effects(self) -> list[str]:
-        """What is in the scene besides liquids, elastic bodies and obstacles that stand still."""
-        parts = {
-            "moving obstacles": any(collider.motion is not None for collider in self.colliders),
-            "rigid bodies": any(collider.body is not None for collider in self.colliders),
-            "baked solids": any(collider.shape.kind in ("mesh", "heights") for collider in self.colliders),
-            "emitters": self.emitters,
-            "drains": self.drains,
-            "kill bounds": self.kill_bounds is not None,
-            "forces": self.forces,
-        }
-        return [name for name, there in parts.items() if there]
 
     def picture_times(self, seconds: float) -> list[float]:
         """The scene's own times up to ``seconds``, or evenly spread ones when it names none."""
@@ -420,13 +409,15 @@ def _find_files(data: Any, folder: Path) -> None:
 
 def parse_scene(data: Any, source: str = "scene") -> Scene:
     """Checks decoded JSON and makes a Scene of it; InputError names each field that is wrong."""
+    from .effects.catalogue import missing
+
     if not isinstance(data, dict) or data.get("format") != FORMAT_NAME:
         raise InputError(f"{source}: not a scene: the field 'format' must be \"{FORMAT_NAME}\"")
     try:
         scene = Scene.model_validate(data)
     except ValidationError as error:
         raise InputError(describe_problems(error, data, source)) from None
-    problems = _cross_check(scene)
+    problems = _cross_check(scene) or missing(scene)
     if problems:
         raise InputError("\n".join(f"{source}: {problem}" for problem in problems))
     return scene

@@ -17,8 +17,9 @@ from .flows import Flows, emitted_at_most, shape_of
 from .frame import Frame
 from .motion import collider_pose
 from .names import IntegratorName, PressureName, SolverName
-from .scene import Scene
+from .scene import Scene, SolverPart
 from .solids import baked_solid
+from .state import State, put_into
 
 DELETIONS = (
     pbmpm.EventKind.DELETED_NOT_FINITE,
@@ -86,28 +87,48 @@ class RunSettings:
         }
 
 
+def solved_with(scene: Scene, settings: RunSettings) -> Scene:
+    """The scene as if it had asked for these settings of the solver itself."""
+    solver = SolverPart(**{name: getattr(settings, name) for name in SolverPart.model_fields})
+    return scene.model_copy(update={"solver": solver})
+
+
 def versions() -> dict[str, str]:
     """Versions of what makes the result."""
     return {"pbmpm": pbmpm.__version__, "numpy": np.__version__}
 
 
-class Simulation:
-    """A world filled as the scene says, with its obstacles following their motions. Use it as a context manager."""
+@dataclass(frozen=True)
+class Bookmark:
+    """A moment of a simulation to go back to."""
 
-    def __init__(self, scene: Scene, settings: RunSettings) -> None:
+    snapshot: bytearray
+    steps: int
+    switched: dict[int, bool]
+    bodies: tuple[dict[str, Any], ...]
+
+
+class Simulation:
+    """A world filled as the scene says, with its obstacles following their motions. Use it as a context manager.
+
+    With a ``start`` it begins with the matter of another simulation, in place of the scene's fills; ``room`` is then for
+    so many particles.
+    """
+
+    def __init__(self, scene: Scene, settings: RunSettings, start: State | None = None, room: int = 0) -> None:
         self.scene, self.settings = scene, settings
-        self.steps = 0
+        self.steps = start.steps if start is not None else 0
         self.events: Counter[str] = Counter()
         """Particles by kind of event, as far as the library kept the events."""
         self._events_missed = 0
-        self.world = _make_world(scene, settings)
+        self.world = _make_world(scene, settings, room)
         try:
-            self._populate()
+            self._populate(start)
         except BaseException:
             self.world.close()
             raise
         self.start_count = len(self.world)
-        self.start_mass = float(np.sum(self.world.masses, dtype=np.float64))
+        self.start_mass = self._mass()
 
     def __enter__(self) -> Simulation:
         return self
@@ -115,11 +136,21 @@ class Simulation:
     def __exit__(self, *_: Any) -> None:
         self.world.close()
 
-    def _populate(self) -> None:
+    def _populate(self, start: State | None) -> None:
         self.materials = {name: self.world.add_material(_material(part)) for name, part in self.scene.materials.items()}
         self._rows = np.zeros(max(m.index for m in self.materials.values()) + 1, dtype=np.uint8)
         for row, material in enumerate(self.materials.values()):
             self._rows[material.index] = row
+        if start is None:
+            self._fill()
+        else:
+            put_into(self.world, self.materials, start)
+        self._add_obstacles()
+        for body, state in zip(self._bodies.values(), start.bodies if start is not None else ()):
+            body.state = state
+        self._flows = Flows(self.world, self.scene, self.materials, self.time)
+
+    def _fill(self) -> None:
         for index, fill in enumerate(self.scene.fills):
             added = self.world.fill(
                 shape_of(fill.shape),
@@ -133,7 +164,12 @@ class Simulation:
                 raise InputError(
                     f"{self.scene.name}: fills[{index}]: no particle fits into this shape inside the domain"
                 )
+
+    def _add_obstacles(self) -> None:
+        self.colliders: list[pbmpm.Collider] = []
+        """In the order of the scene."""
         self._moving = []
+        measured = measures_all(self.scene)
         self._bodies: dict[int, Body] = {}
         for index, part in enumerate(self.scene.colliders):
             collider = self.world.add_collider(
@@ -141,15 +177,15 @@ class Simulation:
                 friction=pbmpm.Friction[part.friction.upper()],
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None or part.body is not None,
-                measures_impulse=part.body is not None,
+                measures_impulse=measured or part.body is not None,
             )
+            self.colliders.append(collider)
             if part.body is not None:
                 self._bodies[index] = Body(collider, part, self.scene)
             if part.motion is not None:
-                position, rotation = collider_pose(part, 0.0)
+                position, rotation = collider_pose(part, self.time)
                 collider.teleport(position[: self.scene.dimension], rotation)
                 self._moving.append((collider, part))
-        self._flows = Flows(self.world, self.scene, self.materials)
 
     def _obstacle_shape(self, part: Any) -> pbmpm.Shape:
         if part.kind not in ("mesh", "heights"):
@@ -180,10 +216,29 @@ class Simulation:
         self._flows.before_step(self.time, self.settings.dt)
         for body in self._bodies.values():
             body.before_step(self.settings.dt)
-        self.world.step(self.settings.dt)
+        self.advance(self.settings.dt)
         for body in self._bodies.values():
             body.after_step(self.settings.dt)
         self.steps += 1
+
+    def advance(self, dt: float) -> None:
+        """The step of the world alone."""
+        self.world.step(dt)
+
+    def body_states(self) -> tuple[dict[str, Any], ...]:
+        """How the rigid bodies are and move, in the order of the scene."""
+        return tuple(body.state for body in self._bodies.values())
+
+    def bookmark(self) -> Bookmark:
+        """A copy of the present moment."""
+        return Bookmark(self.world.snapshot(), self.steps, self._flows.switched, self.body_states())
+
+    def go_back(self, bookmark: Bookmark) -> None:
+        """Makes everything as it was; the counts of events stay."""
+        self.world.restore(bookmark.snapshot)
+        self.steps, self._flows.switched = bookmark.steps, bookmark.switched
+        for body, state in zip(self._bodies.values(), bookmark.bodies, strict=True):
+            body.state = state
 
     def stats(self) -> pbmpm.Stats:
         """Figures of the last step; counts its events."""
@@ -218,15 +273,42 @@ class Simulation:
         found = []
         if not self.finite():
             found.append("a position, velocity or volume ratio is not finite")
-        stats = self.world.stats
-        flow = self.world.flow
-        lost = self.start_count + flow.emitted - flow.drained - flow.killed - len(self.world)
-        if lost != stats.deleted_total:
-            found.append(f"{lost} particles are gone, but the library reports {stats.deleted_total} deletions")
+        stats, account = self.world.stats, self.account()
+        if account["missing"] != 0:
+            lost = account["missing"] + account["deleted"]
+            found.append(f"{lost} particles are gone, but the library reports {account['deleted']} deletions")
+        if not account["missing"] and not stats.deleted_total and abs(account["missing_mass"]) > self._mass_tolerance():
+            found.append(f"{account['missing_mass']:.6g} kg are gone, but no particle is")
         told = sum(self.events[kind.name.lower()] for kind in DELETIONS)
         if not told <= stats.deleted_total <= told + self._events_missed:
             found.append(f"the library deleted {stats.deleted_total} particles, but events tell of {told}")
         return found
+
+    def account(self) -> dict[str, Any]:
+        """Where all particles and their mass [kg] (2D: per metre of depth) came from and went: what was there at the start and
+        what emitters brought, less what drains, kill bounds and the library took, is there now; but for what is missing.
+        The library does not tell the mass of what it deleted: that is missing, too."""
+        flow, deleted, now = self.world.flow, self.world.stats.deleted_total, len(self.world)
+        left = self.start_mass + flow.emitted_mass - flow.drained_mass - flow.killed_mass
+        return {
+            "start": self.start_count,
+            "emitted": flow.emitted,
+            "drained": flow.drained,
+            "killed": flow.killed,
+            "deleted": deleted,
+            "now": now,
+            "missing": self.start_count + flow.emitted - flow.drained - flow.killed - deleted - now,
+            "missing_mass": left - self._mass(),
+        }
+
+    def _mass(self) -> float:
+        return float(self.world.stats.mass)
+
+    def _mass_tolerance(self) -> float:
+        """Sums in double precision of n masses that do not change are equal but for n roundings at most."""
+        flow = self.world.flow
+        count, mass = self.start_count + flow.emitted, self.start_mass + flow.emitted_mass
+        return 2 * count * float(np.finfo(np.float64).eps) * mass
 
     def figures(self) -> dict[str, Any]:
         """The part of a report that speaks of the state reached."""
@@ -238,12 +320,13 @@ class Simulation:
             "volume_error_rms": stats.volume_error_rms,
             "volume_error_max": stats.volume_error_max,
             "max_speed": stats.max_speed,
-            "mass": float(np.sum(self.world.masses, dtype=np.float64)),
+            "mass": self._mass(),
             "mass_at_start": self.start_mass,
             "momentum": list(stats.momentum),
             "kinetic_energy": stats.kinetic_energy,
             "potential_energy": stats.potential_energy,
             "deleted": stats.deleted_total,
+            "account": self.account(),
             "clamped": stats.clamped_total,
             "events": dict(self.events),
             **self._flows.figures(),
@@ -254,15 +337,21 @@ class Simulation:
         }
 
 
-def _make_world(scene: Scene, settings: RunSettings) -> pbmpm.World:
+def measures_all(scene: Scene) -> bool:
+    """Whether every obstacle and wall takes impulses, not rigid bodies alone."""
+    return "impulses" in (scene.effects or ())
+
+
+def _make_world(scene: Scene, settings: RunSettings, room: int) -> pbmpm.World:
     domain = scene.domain
     return pbmpm.World(
         scene.dimension,
         scene.cell_size,
-        capacity=scene.capacity or max(1, _capacity(scene) + emitted_at_most(scene)),
+        capacity=room or scene.capacity or max(1, _capacity(scene) + emitted_at_most(scene)),
         gravity=scene.gravity,
         domain=None if domain is None else (domain.min, domain.max),
         domain_friction=None if domain is None else domain.friction,
+        domain_measures_impulse=measures_all(scene),
         origin=scene.origin,
         max_displacement=scene.max_displacement,
         **settings.for_world(),

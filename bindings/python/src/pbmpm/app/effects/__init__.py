@@ -1,0 +1,1 @@
+"""What each effect of a scene costs, and which ones it calls for."""

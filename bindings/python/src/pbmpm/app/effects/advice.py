@@ -1,0 +1,54 @@
+"""What to do about the effects of a scene: which it calls for, which are on for nothing, and what is saved by the rest."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+SURE = 2.0
+"""A cost is told from none when it is more than so many standard errors."""
+
+
+def is_sure(row: dict[str, Any]) -> bool:
+    """Whether the cost of a row can be told from none."""
+    return abs(row["percent_of_step"]) > SURE * row["percent_error"]
+
+
+def advice_of(called_for: Sequence[str], rows: Sequence[dict[str, Any]]) -> dict[str, Any]:
+    """The recommendation from the effects that a scene calls for and the rows of effects, without that of the bare scene.
+
+    Savings count what is sure and above 0 alone: a saving that may be none is not promised. The saving of an effect that is
+    off is what it would cost; the sum takes effects for independent, which they are not quite.
+    """
+    idle = [row for row in rows if row["on"] and not row["called_for"]]
+    off = [row for row in rows if not row["on"]]
+    return {
+        "calls_for": list(called_for),
+        "leave_out": [{"effect": row["effect"], "why": row["idle"], **_saving(row)} for row in idle],
+        "leave_out_saves_percent": sum(_saving(row)["saves_percent"] for row in idle),
+        "off": [row["effect"] for row in off],
+        "off_saves_percent": sum(_saving(row)["saves_percent"] for row in off),
+        "off_saves_bytes_per_particle": sum(_saving(row)["saves_bytes_per_particle"] for row in off),
+    }
+
+
+def _saving(row: dict[str, Any]) -> dict[str, float]:
+    percent = row["percent_of_step"] if is_sure(row) else 0.0
+    return {"saves_percent": max(percent, 0.0), "saves_bytes_per_particle": max(row["bytes_per_particle"], 0.0)}
+
+
+def advice_text(advice: dict[str, Any]) -> str:
+    """The recommendation for a person."""
+    called = ", ".join(advice["calls_for"]) or "no effect"
+    lines = [f"the scene calls for: {called}"]
+    for item in advice["leave_out"]:
+        lines.append(
+            f"leave out {item['effect']}: {item['why']}; saves {item['saves_percent']:.1f} % of the step and"
+            f" {item['saves_bytes_per_particle']:.0f} bytes per particle"
+        )
+    if advice["off"]:
+        lines.append(
+            f"leaving out the {len(advice['off'])} effects that are off saves {advice['off_saves_percent']:.0f} % of a step and"
+            f" {advice['off_saves_bytes_per_particle']:.0f} bytes per particle, against having each of them"
+        )
+    return "\n".join(lines)
