@@ -20,7 +20,6 @@ PART_OF_KIND: dict[str, Any] = {
     get_args(part.model_fields["kind"].annotation)[0]: part for part in get_args(get_args(MaterialPart)[0])
 }
 """The class of a scene for each kind of material."""
-_CONVERGENT = ("dual", "primal", "explicit", "convergent")
 _DESCRIPTIONS: dict[str, str] = {
     "liquid": "matter that keeps its volume",
     "elastic": "matter that keeps its shape, with a deformation gradient per particle",
@@ -116,10 +115,6 @@ def _paper_only(scene: Scene) -> str | None:
     return None if scene.solver.solver == "paper" else f"the {scene.solver.solver} solver does not use it"
 
 
-def _not_paper(scene: Scene) -> str | None:
-    return None if scene.solver.solver in _CONVERGENT else "the paper's solver does not use it"
-
-
 def _solver_option(
     name: EffectName, description: str, field: str, plain: Any, typical: Any, works: Callable[[Scene], str | None]
 ) -> Effect:
@@ -154,8 +149,8 @@ def _for_dual(scene: Scene) -> str | None:
 
 
 def _for_flip(scene: Scene) -> str | None:
-    if (problem := _not_paper(scene)) is not None:
-        return problem
+    if scene.solver.solver == "paper":
+        return "the paper's solver does not use it"
     sources = [scene.materials[name] for name in materials_with_particles(scene)]
     thin = any(part.kind == "liquid" and part.kinematic_viscosity == 0 for part in sources)
     return None if thin else "there is no liquid without viscosity"
@@ -172,7 +167,7 @@ def matter_effects() -> list[Effect]:
     return [
         *(kind_effect(kind) for kind in PART_OF_KIND),
         _of_liquids("viscosity", "liquids lose a share of their strain rate per iteration", 0.01, _paper_only),
-        _of_liquids("kinematic_viscosity", "liquids of a physical viscosity", 1e-3, _not_paper, " m^2/s"),
+        _of_liquids("kinematic_viscosity", "liquids of a physical viscosity", 1e-3, never_idle, " m^2/s"),
         _of_liquids("volume_feedback", "liquids follow the volume that the grid sees", 0.1, never_idle),
         _solver_option(
             "pressure_in_cells", "one pressure per cell: livelier liquids", "pressure", "particles", "cells", _for_dual
