@@ -219,17 +219,11 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     *material = (pbmpm_material_id){0, 0};
     REQUIRE_SIZE(def);
     HOLD(world);
-    pbmpm_result result = material_kind_usable(def->kind);
-    if (result != PBMPM_OK) LET_GO(result);
+    const pbmpm_result usable = material_kind_usable(def->kind);
+    if (usable != PBMPM_OK) LET_GO(usable);
     const char *problem = material_problem(def);
     if (problem) LET_GO(api_invalid(problem));
-    result = materials_add(&w->materials, def, registry_next_generation(), material);
-    if (result == PBMPM_OK && def->kind == PBMPM_ELASTIC) result = particles_enable_deformation(&w->particles, &w->memory);
-    if (result == PBMPM_ERROR_OUT_OF_MEMORY) {
-        w->materials.generation[material->index] = 0;
-        *material = (pbmpm_material_id){0, 0};
-    }
-    LET_GO(result);
+    LET_GO(materials_add(&w->materials, def, registry_next_generation(), material));
 }
 
 static pbmpm_result no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
@@ -271,8 +265,7 @@ pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id mate
 {
     HOLD(world);
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
-    for (uint32_t row = 0; row < w->particles.count; row++)
-        if (w->particles.material[row] == material.index) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
+    if (w->particles.of_material[material.index] > 0) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
     if (emitters_use(&w->emitters, material)) LET_GO(fail(PBMPM_ERROR_IN_USE, "an emitter still uses this material"));
     w->materials.generation[material.index] = 0;
     LET_GO(PBMPM_OK);

@@ -52,7 +52,7 @@ static float smallest_relaxation(const World *world)
 {
     float smallest = 2.0f;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind == K_LIQUID)
+        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot))
             smallest = fminf(smallest, world->materials.kernel[slot].relaxation);
     return smallest;
 }
@@ -108,7 +108,7 @@ static double error_per_residual(const World *world)
 {
     double softest = 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind == K_LIQUID)
+        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot))
             softest = fmax(softest, (double)world->materials.kernel[slot].inverse_stiffness);
     const double root = 3.14159265358979 / (4.0 * matter_depth(world));
     return root / ((double)smallest_relaxation(world) * (root * root + softest));

@@ -74,6 +74,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
     if (checked != PBMPM_OK) return checked;
     if (def->count > p->capacity - p->count) return no_room(world, def->count); /* before the arrays are read */
     checked = check_values(world, def);
+    if (checked == PBMPM_OK && def->count) checked = world_make_room_for(world, def->material.index);
     if (checked != PBMPM_OK) return checked;
     const int d = world->def.dimension;
     const double dx = (double)world->def.cell_size, cell = world_cell_volume(world);
@@ -183,7 +184,7 @@ static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
 
 pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generation, uint32_t *added)
 {
-    const pbmpm_result checked = check_fill(world, def);
+    pbmpm_result checked = check_fill(world, def);
     if (checked != PBMPM_OK) return checked;
     Lattice lattice;
     if (!make_lattice(world, def, &lattice))
@@ -191,6 +192,8 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     const uint64_t count = walk_lattice(world, &lattice, def, 0);
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
+    checked = count ? world_make_room_for(world, def->material.index) : PBMPM_OK;
+    if (checked != PBMPM_OK) return checked;
     walk_lattice(world, &lattice, def, generation);
     world_touch(world);
     return PBMPM_OK;
@@ -239,10 +242,7 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
 
 /* ---- Changing ---- */
 
-static bool is_elastic(const World *world, uint32_t row)
-{
-    return world->materials.kernel[world->particles.material[row]].kind == K_ELASTIC;
-}
+static bool is_solid(const World *world, uint32_t row) { return material_is_solid(&world->materials, world->particles.material[row]); }
 
 static uint32_t settable_components(const World *world, pbmpm_field field)
 {
@@ -266,15 +266,15 @@ static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t 
         if (position_is_valid(world, values)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a position is not finite or outside the domain");
     case PBMPM_VOLUME_RATIO:
-        if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "the volume ratio of an elastic particle follows from F");
+        if (is_solid(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "the volume ratio of an elastic particle follows from F");
         if (in_range(*values, K_LIQUID_RATIO_MIN, K_LIQUID_RATIO_MAX)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a volume ratio must be in [0.05, 1.2]");
     case PBMPM_PRESSURE:
-        if (is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only liquid particles have a pressure");
+        if (is_solid(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only liquid particles have a pressure");
         if (in_range(*values, 0.0, 1e30)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a pressure must be in [0, 1e30]");
     case PBMPM_DEFORMATION:
-        if (!is_elastic(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
+        if (!is_solid(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
         if (all_in_range(values, components, -1e6, 1e6)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a deformation gradient is not finite or has an entry above 1e6");
     default:

@@ -467,6 +467,8 @@ pbmpm_result emitters_prepare(World *world, int part, float dt)
     for (uint32_t slot = 0; slot < emitters->used; slot++) {
         Emitter *emitter = &emitters->slot[slot];
         if (!works(emitter) || count_due(world, emitter, dt) < 1.0) continue;
+        const pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
+        if (room != PBMPM_OK) return room;
         Crowd crowd = crowd_bounds(world, emitter, part, dt);
         if (emitter->moving && crowd_nodes(&crowd) > WAY_NODES_MAX) {
             arrive(emitter);

@@ -108,10 +108,10 @@ pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, 
     return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d materials", PBMPM_MAX_MATERIALS);
 }
 
-bool materials_want_volume(const Materials *materials)
+bool materials_want_volume(const Materials *materials, const Particles *particles)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (materials->generation[slot] != 0 && materials->kernel[slot].volume_feedback > 0.0f) return true;
+        if (particles->of_material[slot] > 0 && materials->kernel[slot].volume_feedback > 0.0f) return true;
     return false;
 }
 

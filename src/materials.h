@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "kernel_types.h"
+#include "particles.h"
 #include "pbmpm/material.h"
 
 typedef struct Materials {
@@ -27,8 +28,11 @@ const char *material_problem(const pbmpm_material_def *def);
 pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, uint32_t generation, pbmpm_material_id *id);
 void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def *def);
 
-/* Whether any material asks for the volume on the grid. */
-bool materials_want_volume(const Materials *materials);
+/* Whether particles of a live material have a deformation gradient: all but liquids. */
+static inline bool material_is_solid(const Materials *materials, uint32_t slot) { return materials->kernel[slot].kind != K_LIQUID; }
+
+/* Whether there is a particle whose material asks for the volume on the grid. */
+bool materials_want_volume(const Materials *materials, const Particles *particles);
 
 /* Whether there is a liquid without a bulk modulus. */
 bool materials_want_modulus(const Materials *materials);

@@ -205,6 +205,7 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
     particles_forget(p, row);
     p->mass[row] = particle->mass;
     p->material[row] = particle->material;
+    p->of_material[particle->material]++;
     p->status[row] = K_ALIVE;
     p->id[row] = (pbmpm_particle_id){slot, generation};
     p->slot_row[slot] = row;
@@ -233,6 +234,7 @@ void particles_compact(Particles *p)
             kept++;
             continue;
         }
+        p->of_material[p->material[i]]--;
         p->slot_generation[p->id[i].index] = 0;
         p->free_slot[p->free_count++] = p->id[i].index;
     }

@@ -4,6 +4,7 @@
 
 #include "kernel_types.h"
 #include "memory.h"
+#include "pbmpm/material.h"
 #include "pbmpm/particles.h"
 #include "pool.h"
 
@@ -42,6 +43,7 @@ typedef struct Particles {
     uint32_t count;
     uint32_t capacity;
     int dimension;
+    uint32_t of_material[PBMPM_MAX_MATERIALS]; /* how many have each material */
     /* Position = (cell + fraction) * dx: a scene that is shifted by whole cells moves bit for bit the same. */
     int32_t *cell[3];
     float *fraction[3];

@@ -122,14 +122,7 @@ static float float_at(const char *array, uint64_t i)
 
 /* ---- Checking ---- */
 
-static bool holds_elastic(const World *world)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_ELASTIC) return true;
-    return false;
-}
-
-/* Every field is known, has the size it has here, and occurs once; those that this world cannot be without are there. */
+/* Every field is known, has the size it has here, and occurs once; those that no world can be without are there. */
 static bool fields_fit(const World *world, const Reading *reading)
 {
     const Particles *p = &world->particles;
@@ -142,7 +135,7 @@ static bool fields_fit(const World *world, const Reading *reading)
     static const FieldTag needed[] = {FIELD_CELL, FIELD_FRACTION, FIELD_VELOCITY, FIELD_AFFINE, FIELD_VOLUME_RATIO, FIELD_MASS, FIELD_MATERIAL, FIELD_ID};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!array_of(reading, needed[i])) return false;
-    return !holds_elastic(world) || array_of(reading, FIELD_DEFORMATION);
+    return true;
 }
 
 /* What a step relies on without looking. All else it checks itself. */
@@ -151,6 +144,7 @@ static bool values_fit(const World *world, const Reading *reading)
     const uint32_t count = reading->contents.count;
     const char *cell = array_of(reading, FIELD_CELL), *fraction = array_of(reading, FIELD_FRACTION);
     const char *material = array_of(reading, FIELD_MATERIAL), *mass = array_of(reading, FIELD_MASS);
+    const bool deforms = array_of(reading, FIELD_DEFORMATION);
     for (uint64_t i = 0; i < (uint64_t)count * (uint64_t)world->def.dimension; i++) {
         const int32_t where = (int32_t)u32_at(cell, i);
         if (where < -CELL_LIMIT - 1 || where > CELL_LIMIT + 1) return false;
@@ -159,6 +153,7 @@ static bool values_fit(const World *world, const Reading *reading)
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = u32_at(material, i);
         if (slot >= PBMPM_MAX_MATERIALS || world->materials.generation[slot] == 0) return false;
+        if (!deforms && material_is_solid(&world->materials, slot)) return false;
         if (!(float_at(mass, i) > 0.0f && float_at(mass, i) <= FLT_MAX)) return false;
     }
     return true;
@@ -237,6 +232,8 @@ static void load_particles(World *world, SnapshotIn in)
         }
         for (int c = 0; c < particles_components(p, field->class); c++, array += bytes) memcpy(*field->component[c], array, bytes);
     }
+    memset(p->of_material, 0, sizeof p->of_material);
+    for (uint32_t i = 0; i < p->count; i++) p->of_material[p->material[i]]++;
     load_identifiers(p, &reading);
     particles_changed(p);
 }

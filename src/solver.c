@@ -185,8 +185,8 @@ static const SolverKind kinds[] = {
 
 bool solver_holds_liquid(const World *world)
 {
-    for (uint32_t run = 0; run < world->grid.runs; run++)
-        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot)) return true;
     return false;
 }
 

@@ -112,7 +112,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     double clock = now_ms();
 
     /* Where the particles are: order, blocks, runs. */
-    const bool with_volume = materials_want_volume(&world->materials);
+    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
     pbmpm_result result = grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
     if (result != PBMPM_OK) return result;
     lap(&record->ms_sort, &clock);

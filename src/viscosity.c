@@ -15,7 +15,7 @@ double viscosity_share(const World *world, const pbmpm_material_def *def, double
 static bool wanted(const World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID &&
+        if (world->particles.of_material[slot] > 0 && world->materials.def[slot].kind == PBMPM_LIQUID &&
             world->materials.def[slot].kinematic_viscosity > 0.0f)
             return true;
     return false;
@@ -33,7 +33,7 @@ void viscosity_apply(World *world, const ContactFrame *contacts)
     KernelArgs *a = &world->args;
     double share = 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0) share = fmax(share, (double)world->materials.kernel[slot].viscous_share);
+        if (world->particles.of_material[slot] > 0) share = fmax(share, (double)world->materials.kernel[slot].viscous_share);
     if (share == 0.0) return;
     const int stages = (int)ceil(0.5 * (sqrt(1.0 + 8.0 * share) - 1.0));
     a->node_push = world->dual.node_push.data;

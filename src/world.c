@@ -84,6 +84,11 @@ static void set_domain(World *world)
     }
 }
 
+pbmpm_result world_make_room_for(World *world, uint32_t material)
+{
+    return material_is_solid(&world->materials, material) ? particles_enable_deformation(&world->particles, &world->memory) : PBMPM_OK;
+}
+
 pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 {
     const pbmpm_isa isa = cpu_isa();

@@ -125,6 +125,9 @@ static inline double world_cell_volume(const World *world)
     return world->def.dimension == 3 ? dx * dx * dx : dx * dx;
 }
 
+/* To be called before the first particle of a live material is added; does nothing the second time. */
+pbmpm_result world_make_room_for(World *world, uint32_t material);
+
 /* Expires all views: the particles are not what they were. */
 static inline void world_touch(World *world) { world->generation++; }
 

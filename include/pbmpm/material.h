@@ -95,7 +95,7 @@ PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t s
 PBMPM_API uint32_t pbmpm_materials_built(void);
 
 /** Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown, or the kind is not built), CAPACITY,
- *  OUT_OF_MEMORY (the first elastic material makes room for F), BUSY. */
+ *  BUSY. A material that no particle has costs nothing: neither memory nor time. */
 PBMPM_API pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material);
 
 /** Reads a material. `def->size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */

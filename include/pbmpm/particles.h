@@ -39,12 +39,14 @@ PBMPM_API pbmpm_result pbmpm_particles_def_init(pbmpm_particles_def *def, size_t
 PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 
 /** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
- *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY. */
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
+ *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F). */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
  *  one lattice cell. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
- *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
+ *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY;
+ *  OUT_OF_MEMORY (as above). */
 PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added);
 
 /** Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed. */
@@ -62,7 +64,7 @@ typedef enum pbmpm_field {
     PBMPM_VELOCITY = 1,        /**< d floats [m/s] */
     PBMPM_AFFINE_VELOCITY = 2, /**< d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood */
     PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step */
-    PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; needs an elastic material in the world */
+    PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid */
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */

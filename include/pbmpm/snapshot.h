@@ -20,7 +20,7 @@ enum {
  * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
  * number of threads. It need not be the same world: one that was made by the same calls will do, in another process too.
  *
- * Bytes per particle: 60 in 2D and 92 in 3D; 16 and 36 more in a world that has (or had) an elastic material; 4 more once
+ * Bytes per particle: 60 in 2D and 92 in 3D; 16 and 36 more in a world that has (or had) a particle that is not liquid; 4 more once
  * the dual solver was used or PRESSURE was set; 52 and 100 more once the primal solver was used with BDF2. Beside them some hundred
  * bytes for the world and for each material, collider, emitter, drain and force, and 4 per identifier that was used and is
  * free again. Little-endian; a snapshot may be stored and sent as it is. */

@@ -292,19 +292,28 @@ static void test_views_keep_to_one_order(void)
     }
 }
 
-static void test_deformation_needs_an_elastic_material(void)
+static void test_deformation_needs_an_elastic_particle(void)
 {
     const pbmpm_world_id world = tank_2d(NULL, NULL);
     pbmpm_view view = {.size = sizeof view};
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_view(world, PBMPM_DEFORMATION, &view));
-    create_material(world, PBMPM_ELASTIC);
+    const float place[2] = {1, 1};
+    pbmpm_particles_def jelly;
+    OK(pbmpm_particles_def_init(&jelly, sizeof jelly));
+    jelly.material = create_material(world, PBMPM_ELASTIC);
+    OK(pbmpm_particles_add(world, &jelly, NULL)); /* none */
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_view(world, PBMPM_DEFORMATION, &view));
+    jelly.count = 1;
+    jelly.positions = place;
+    OK(pbmpm_particles_add(world, &jelly, NULL));
     OK(pbmpm_world_step(world, 0.01f));
     view = view_of(world, PBMPM_DEFORMATION);
     TEST_ASSERT_EQUAL_UINT32(world_count(world), view.count);
     TEST_ASSERT_EQUAL_UINT32(4, view.components);
     static const float identity[4] = {1, 0, 0, 1};
+    const pbmpm_view material = view_of(world, PBMPM_MATERIAL);
     for (uint32_t i = 0; i < view.count; i++)
-        for (uint32_t c = 0; c < 4; c++)
+        for (uint32_t c = 0; c < 4 && view_uint(&material, i, 0) != jelly.material.index; c++)
             TEST_ASSERT_TRUE(view_float(&view, i, c) == identity[c]);
 }
 
@@ -470,7 +479,7 @@ int main(void)
     RUN_TEST(test_remove_by_identifier);
     RUN_TEST(test_remove_in_a_shape);
     RUN_TEST(test_views_keep_to_one_order);
-    RUN_TEST(test_deformation_needs_an_elastic_material);
+    RUN_TEST(test_deformation_needs_an_elastic_particle);
     RUN_TEST(test_every_change_expires_views);
     RUN_TEST(test_settable_fields_in_2d);
     RUN_TEST(test_settable_fields_in_3d);

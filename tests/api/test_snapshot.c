@@ -284,13 +284,11 @@ static void check_bytes_per_particle(int32_t dimension, pbmpm_material_kind kind
     const pbmpm_material_id material = create_material(world, kind);
     uint64_t bytes[2];
     uint32_t each[2];
-    if (with_pressure) {
-        pbmpm_settings settings = default_settings();
-        settings.solver = PBMPM_SOLVER_DUAL;
-        OK(pbmpm_world_set_settings(world, &settings));
-        fill_shape(world, material, box_shape(5, 5, 5, 0.1f, 0.1f, 0.1f), (const float[3]){0, 0, 0});
-        OK(pbmpm_world_step(world, 0.01f));
-    }
+    pbmpm_settings settings = default_settings();
+    if (with_pressure) settings.solver = PBMPM_SOLVER_DUAL;
+    OK(pbmpm_world_set_settings(world, &settings));
+    fill_shape(world, material, box_shape(5, 5, 5, 0.1f, 0.1f, 0.1f), (const float[3]){0, 0, 0});
+    OK(pbmpm_world_step(world, 0.01f));
     OK(pbmpm_snapshot_size(world, &bytes[0], &each[0]));
     const uint32_t added = fill_shape(world, material, box_shape(0, 0, 0, 0.5f, 0.5f, 0.5f), (const float[3]){0, 0, 0});
     OK(pbmpm_snapshot_size(world, &bytes[1], &each[1]));

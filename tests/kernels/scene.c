@@ -163,7 +163,7 @@ static void find_extent(Scene *scene)
 void scene_bind(Scene *scene, bool check_strain)
 {
     World *world = scene->world;
-    const bool with_volume = materials_want_volume(&world->materials);
+    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
     world->strain_unchecked = check_strain;

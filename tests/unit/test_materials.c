@@ -114,24 +114,27 @@ static void test_kernels_are_told_what_a_kind_has(void)
     TEST_ASSERT_EQUAL_FLOAT(500.0f, kernel->condition_max);
 }
 
-/* Volumes on the grid are wanted by live liquids with feedback, by nobody else. */
+/* Volumes on the grid are wanted by particles of liquids with feedback, by nobody else. */
 static void test_who_wants_volume(void)
 {
     pbmpm_material_def def = material_defaults();
     pbmpm_material_id id;
+    Particles particles = {0};
     materials = (Materials){0};
-    TEST_ASSERT_FALSE(materials_want_volume(&materials));
+    TEST_ASSERT_FALSE(materials_want_volume(&materials, &particles));
     def.kind = PBMPM_ELASTIC;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&materials, &def, 1, &id));
+    particles.of_material[id.index] = 1;
     def.kind = PBMPM_LIQUID;
     def.volume_feedback = 0.0f;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&materials, &def, 2, &id));
-    TEST_ASSERT_FALSE(materials_want_volume(&materials));
+    particles.of_material[id.index] = 1;
+    TEST_ASSERT_FALSE(materials_want_volume(&materials, &particles));
     def.volume_feedback = 0.01f;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&materials, &def, 3, &id));
-    TEST_ASSERT_TRUE(materials_want_volume(&materials));
-    materials.generation[id.index] = 0;
-    TEST_ASSERT_FALSE(materials_want_volume(&materials));
+    TEST_ASSERT_FALSE(materials_want_volume(&materials, &particles)); /* no particle has it */
+    particles.of_material[id.index] = 1;
+    TEST_ASSERT_TRUE(materials_want_volume(&materials, &particles));
 }
 
 int main(void)

@@ -199,7 +199,7 @@ namespace Pbmpm
         AffineVelocity = 2,
         /// <summary>1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step</summary>
         VolumeRatio = 3,
-        /// <summary>d*d floats, row-major F; identity for liquids; needs an elastic material in the world</summary>
+        /// <summary>d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid</summary>
         Deformation = 4,
         /// <summary>1 uint32: index of the material's identifier</summary>
         Material = 5,
@@ -1383,7 +1383,7 @@ namespace Pbmpm.Native
         public static extern uint pbmpm_materials_built();
 
         /// <summary>Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown, or the kind is not built), CAPACITY,
-        /// OUT_OF_MEMORY (the first elastic material makes room for F), BUSY.</summary>
+        /// BUSY. A material that no particle has costs nothing: neither memory nor time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_create(WorldId world, MaterialDef* def, MaterialId* material);
 
@@ -1511,13 +1511,15 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_fill_def_init(FillDef* def, UIntPtr size);
 
         /// <summary>Adds particles. All of them or none. `ids`: null or room for def-&gt;count identifiers.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY.</summary>
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
+        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
         /// one lattice cell. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
-        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
+        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY;
+        /// OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
 

@@ -25,7 +25,7 @@ class Field(enum.Enum):
     VELOCITY = ffi.integer_const("PBMPM_VELOCITY")  #: (n, d) [m/s]
     AFFINE_VELOCITY = ffi.integer_const("PBMPM_AFFINE_VELOCITY")  #: (n, d, d) [1/s]
     VOLUME_RATIO = ffi.integer_const("PBMPM_VOLUME_RATIO")  #: (n,) J, or det F as of the last step
-    DEFORMATION = ffi.integer_const("PBMPM_DEFORMATION")  #: (n, d, d) F; needs an elastic material in the world
+    DEFORMATION = ffi.integer_const("PBMPM_DEFORMATION")  #: (n, d, d) F; once there was a particle that is not liquid
     MATERIAL = ffi.integer_const("PBMPM_MATERIAL")  #: (n,) Material.index
     PARTICLE = ffi.integer_const("PBMPM_PARTICLE")  #: (n, 2) identifiers: index, generation
     MASS = ffi.integer_const("PBMPM_MASS")  #: (n,) [kg] (2D: per metre of depth)

@@ -390,7 +390,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
 
     @property
     def deformations(self) -> View:
-        """Deformation gradients F, shape (n, d, d); needs an elastic material in the world."""
+        """Deformation gradients F, shape (n, d, d); only once the world had a particle that is not liquid."""
         return self.view(Field.DEFORMATION)
 
     @property
