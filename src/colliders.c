@@ -367,24 +367,31 @@ static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t blo
     }
 }
 
+typedef struct OpenJob {
+    const ContactFrame *frame;
+    bool resting_only;
+} OpenJob;
+
 static void open_blocks(void *context, int32_t begin, int32_t end)
 {
-    const ContactFrame *frame = context;
+    const OpenJob *job = context;
+    const ContactFrame *frame = job->frame;
     const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension);
     for (int32_t block = begin; block < end; block++) {
         double centre[3];
         contacts_block_centre(frame, block, centre);
         for (int i = 0; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
+            if (job->resting_only && o->moves) continue;
             if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + SUPPORT) open_block(frame, o, block);
         }
     }
 }
 
-void contacts_open_volume(const ContactFrame *frame, Pool *pool)
+void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only)
 {
-    ContactFrame copy = *frame;
-    if (frame->colliders->obstacle_count) pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &copy);
+    OpenJob job = {frame, resting_only};
+    if (frame->colliders->obstacle_count) pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &job);
 }
 
 /* ---- Obeying contacts ---- */

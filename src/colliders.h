@@ -102,7 +102,7 @@ void contacts_block_centre(const ContactFrame *frame, int32_t block, double cent
 
 /* Divides the rest volume of each node by the share of its cell that obstacles leave open, so that it is 1 where matter at rest
  * fills what is open. */
-void contacts_open_volume(const ContactFrame *frame, Pool *pool);
+void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only);
 
 /* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. Books what that takes. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);

@@ -139,7 +139,8 @@ static pbmpm_result substep(World *world, float dt, int part)
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
     if (result != PBMPM_OK) return result;
-    if (with_volume) contacts_open_volume(&contacts, world->pool);
+    /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part. */
+    if (with_volume) contacts_open_volume(&contacts, world->pool, record->solver == PBMPM_SOLVER_PAPER);
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */

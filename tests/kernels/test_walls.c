@@ -121,7 +121,7 @@ static void predict(Scene *scene)
     float_mode_leave(mode);
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, 0, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&contacts, &world->memory, world->pool));
-    contacts_open_volume(&contacts, world->pool);
+    contacts_open_volume(&contacts, world->pool, true);
 }
 
 /* Every particle feels a density of 1, up to `bound`; the largest difference is returned. */

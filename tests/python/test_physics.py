@@ -313,6 +313,22 @@ def drop_axes(cells: int, rate: int, seconds: float, feedback: float) -> tuple[f
     return math.sqrt(end[0, 0] / start[0, 0]), math.sqrt(end[1, 1] / start[1, 1])
 
 
+def test_the_layer_at_the_floor_is_no_denser_than_the_rest() -> None:
+    """The grid holds less at a wall, whose other side is empty. After a dam break feedback that does not know of walls leaves
+    the floor's layer at 1.22 times its volume instead of 1.11; the law's own compression there is 1.09."""
+    width, height, rate = 32, 24, 120
+    with pbmpm.World(2, CELL, capacity=5000, domain=((0, 0), (width * CELL, 64 * CELL)), iterations=5, threads=1) as world:
+        world.gravity = (0, -9.81)
+        half = (0.25 * width * CELL, 0.5 * height * CELL)
+        world.fill(pbmpm.Box(half, half), world.add_material(pbmpm.Liquid()), jitter=0)
+        layers = []
+        for step in range(6 * rate):
+            world.step(1 / rate)
+            if step >= 4 * rate and step % 12 == 0:
+                layers.append(float((world.positions.array()[:, 1] < CELL).sum()) / (4 * width))
+    assert float(np.mean(layers)) < 1.15
+
+
 def exact_drop_axis(seconds: float) -> float:
     """The shrinking half axis a: dA/dt = A^2 (a^4 - 1) / (a^4 + 1), da/dt = -a A, a(0) = A(0) = 1; the other is 1/a."""
     a, rate, steps = 1.0, 1.0, 20_000
