@@ -51,8 +51,9 @@ def state_of(simulation: Simulation) -> State:
     """A copy of what has become of a scene."""
     world = simulation.world
     names = np.array(list(simulation.scene.materials))[simulation.frame().materials]
-    densities = {name: part.density for name, part in simulation.scene.materials.items()}
-    deforms = any(part.kind != "liquid" for part in simulation.scene.materials.values())
+    parts = simulation.scene.materials
+    densities = np.array([parts[name].density for name in names], dtype=np.float32)
+    deforms = any(parts[name].kind != "liquid" for name in np.unique(names))
     return State(
         simulation.steps,
         simulation.time,
@@ -61,7 +62,7 @@ def state_of(simulation: Simulation) -> State:
         world.affine_velocities.copy(),
         world.volume_ratios.copy(),
         world.deformations.copy() if deforms else None,
-        world.masses.copy() / np.array([densities[name] for name in names], dtype=np.float32),
+        world.masses.copy() / densities,
         names,
         simulation.body_states(),
     )
