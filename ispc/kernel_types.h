@@ -22,6 +22,7 @@ typedef int32 int32_t;
 #define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
 #define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass */
 #define K_MAX_GANG 16   /* particle arrays are padded by this many elements: no mass, at rest volume */
+#define K_DRIFT_WIDTH 5 /* floats per block that sleeps: mass, mass times displacement (x, y, z), largest square of a displacement */
 #define K_TILE_PAD 8    /* floats behind each tile that a full-width add may touch */
 
 /* A run is a stretch of sorted particles of one material in one cell: uniform stencil, uniform parameters. */
@@ -115,6 +116,7 @@ struct KernelArgs {
     K_PTR(uint32_t) lost;     /* out, per particle block: particles whose status is not K_ALIVE */
 
     K_PTR(float) travel;      /* out, per particle block: largest displacement of a particle */
+    K_PTR(float) drift;       /* out, per particle block that sleeps: K_DRIFT_WIDTH floats, see drift_blocks(); null without sleeping */
 
     /* The dual solver; null for the others. */
     K_PTR(float) pressure;      /* liquid: the multiplier; between substeps the pressure [Pa] */

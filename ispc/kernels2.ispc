@@ -20,6 +20,9 @@ export void update_nodes2(uniform struct KernelArgs *uniform args, uniform int b
 export void integrate2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     integrate_blocks(*args, begin, end);
 }
+export void drift2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    drift_blocks(*args, begin, end);
+}
 export void dual_begin2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     dual_begin_blocks(*args, begin, end);
 }

@@ -164,6 +164,7 @@ pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings
     HOLD(world);
     const char *problem = settings_problem(settings, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
+    if (settings_change_motion(&w->settings, settings)) sleep_wake_all(w);
     w->settings = *settings;
     LET_GO(PBMPM_OK);
 }
@@ -258,6 +259,7 @@ pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material
     if (old->kind != def->kind || old->density != def->density)
         LET_GO(api_invalid("the kind and the density of a material cannot be changed"));
     materials_set(&w->materials, material.index, def);
+    sleep_wake_all(w);
     LET_GO(PBMPM_OK);
 }
 
@@ -285,6 +287,12 @@ pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size)
     INIT(def, size, defaults);
 }
 
+static void wake_near_collider(World *w, const Collider *collider)
+{
+    const Solid solid = solid_among(&collider->def.shape, w->def.dimension, &w->baked);
+    sleep_wake_near(w, &solid, SLEEP_FELT);
+}
+
 pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider)
 {
     REQUIRE(collider);
@@ -294,7 +302,9 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     const char *problem = collider_problem(def, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
     const DistanceGrid *grid = def->shape.kind == PBMPM_BAKED ? baked_find(&w->baked, def->shape.baked) : NULL;
-    LET_GO(colliders_add(&w->colliders, &w->memory, def, grid, registry_next_generation(), collider));
+    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, def, grid, registry_next_generation(), collider);
+    if (result == PBMPM_OK) wake_near_collider(w, colliders_find(&w->colliders, *collider));
+    LET_GO(result);
 }
 
 static pbmpm_result no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
@@ -304,6 +314,7 @@ pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id coll
     HOLD(world);
     Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
+    wake_near_collider(w, found);
     found->generation = 0;
     LET_GO(PBMPM_OK);
 }
@@ -328,7 +339,9 @@ static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const f
     if (rotation) memcpy(shape.rotation, rotation, sizeof shape.rotation);
     const char *problem = shape_problem_among(&shape, w->def.dimension, &w->baked);
     if (problem) return api_invalid(problem);
+    if (at_once) wake_near_collider(w, found);
     collider_place(found, position, rotation, at_once);
+    if (at_once) wake_near_collider(w, found);
     return PBMPM_OK;
 }
 

@@ -1,4 +1,5 @@
 /* The exported functions of emitter.h, drain.h and force.h. */
+#include <math.h>
 #include <string.h>
 
 #include "api_call.h"
@@ -6,6 +7,7 @@
 #include "forces.h"
 #include "registry.h"
 #include "sinks.h"
+#include "sleep.h"
 
 /* ---- emitter.h ---- */
 
@@ -115,7 +117,9 @@ pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def
     HOLD(world);
     const pbmpm_result checked = check_drain(w, def);
     if (checked != PBMPM_OK) LET_GO(checked);
-    LET_GO(sinks_add(&w->sinks, &w->memory, def, w->def.dimension, registry_next_generation(), drain));
+    const pbmpm_result result = sinks_add(&w->sinks, &w->memory, def, w->def.dimension, registry_next_generation(), drain);
+    if (result == PBMPM_OK) sleep_wake_near(w, &sinks_find(&w->sinks, *drain)->solid, SLEEP_FELT);
+    LET_GO(result);
 }
 
 static pbmpm_result no_drain(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such drain in this world"); }
@@ -146,7 +150,10 @@ pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const p
     Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
     const pbmpm_result checked = check_drain(w, def);
-    if (checked == PBMPM_OK) drain_set(found, def, w->def.dimension);
+    if (checked == PBMPM_OK) {
+        drain_set(found, def, w->def.dimension);
+        sleep_wake_near(w, &found->solid, SLEEP_FELT);
+    }
     LET_GO(checked);
 }
 
@@ -173,6 +180,7 @@ pbmpm_result pbmpm_world_set_kill_bounds(pbmpm_world_id world, const pbmpm_kill_
     const char *problem = kill_bounds_problem(bounds, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
     w->sinks.bounds = *bounds;
+    sleep_wake_all(w);
     LET_GO(PBMPM_OK);
 }
 
@@ -200,6 +208,17 @@ pbmpm_result pbmpm_force_def_init(pbmpm_force_def *def, size_t size)
     INIT(def, size, defaults);
 }
 
+/* What a force acts on; it may act everywhere. */
+static void wake_in_reach(World *w, const Force *force)
+{
+    const double reach = force_reach(force);
+    if (!force->def.enabled) return;
+    if (reach == INFINITY)
+        sleep_wake_all(w);
+    else
+        sleep_wake_near(w, &force->solid, reach / (double)w->def.cell_size + SLEEP_FELT);
+}
+
 pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, pbmpm_force_id *force)
 {
     REQUIRE(force);
@@ -208,7 +227,9 @@ pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def
     HOLD(world);
     const char *problem = force_problem(def, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
-    LET_GO(forces_add(&w->forces, &w->memory, def, w->def.dimension, registry_next_generation(), force));
+    const pbmpm_result result = forces_add(&w->forces, &w->memory, def, w->def.dimension, registry_next_generation(), force);
+    if (result == PBMPM_OK) wake_in_reach(w, forces_find(&w->forces, *force));
+    LET_GO(result);
 }
 
 static pbmpm_result no_force(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such force in this world"); }
@@ -218,6 +239,7 @@ pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force)
     HOLD(world);
     Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
+    wake_in_reach(w, found);
     found->generation = 0;
     LET_GO(PBMPM_OK);
 }
@@ -240,7 +262,10 @@ pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const p
     if (!found) LET_GO(no_force());
     const char *problem = force_problem(def, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
+    if (memcmp(&found->def, def, sizeof *def) == 0) LET_GO(PBMPM_OK); /* nothing changes, nothing wakes */
+    wake_in_reach(w, found);
     force_set(found, def, w->def.dimension);
+    wake_in_reach(w, found);
     LET_GO(PBMPM_OK);
 }
 

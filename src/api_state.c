@@ -4,6 +4,7 @@
 #include "api_call.h"
 #include "background.h"
 #include "query.h"
+#include "sleep.h"
 #include "snapshot.h"
 
 /* ---- snapshot.h ---- */
@@ -60,6 +61,23 @@ pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
 {
     HOLD_STEPPING(world);
     LET_GO(background_end(w, wait != 0));
+}
+
+/* ---- sleep.h ---- */
+
+pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)
+{
+    if (shape) REQUIRE_SIZE(shape);
+    HOLD(world);
+    const char *problem = shape ? shape_problem_among(shape, w->def.dimension, &w->baked) : NULL;
+    if (problem) LET_GO(api_invalid(problem));
+    if (!shape) {
+        sleep_wake_all(w);
+        LET_GO(PBMPM_OK);
+    }
+    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
+    sleep_wake_near(w, &solid, SLEEP_FELT);
+    LET_GO(PBMPM_OK);
 }
 
 /* ---- query.h ---- */

@@ -7,10 +7,13 @@
 #include "numbers.h"
 #include "result.h"
 
+/* Colliders, walls, and what holds nodes. */
+enum { OBSTACLES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1 };
+
 pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 {
     *colliders = (Colliders){.slot = memory_take(memory, PBMPM_MAX_COLLIDERS * sizeof(Collider)),
-                             .obstacle = memory_take(memory, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle))};
+                             .obstacle = memory_take(memory, OBSTACLES * sizeof(Obstacle))};
     if (colliders->slot && colliders->obstacle) return PBMPM_OK;
     colliders_free(colliders, memory);
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for colliders");
@@ -19,7 +22,7 @@ pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 void colliders_free(Colliders *colliders, Memory *memory)
 {
     memory_give(memory, colliders->slot, PBMPM_MAX_COLLIDERS * sizeof(Collider));
-    memory_give(memory, colliders->obstacle, (PBMPM_MAX_COLLIDERS + DOMAIN_WALLS) * sizeof(Obstacle));
+    memory_give(memory, colliders->obstacle, OBSTACLES * sizeof(Obstacle));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
     impulses_free(&colliders->impulses, memory);
@@ -104,7 +107,15 @@ static Solid solid_at(const Collider *collider, const pbmpm_shape *shape, int di
     return solid;
 }
 
-static Obstacle obstacle_of(const Collider *collider, int dimension, int part, int parts)
+bool collider_moves(const Collider *collider)
+{
+    const pbmpm_shape *shape = &collider->def.shape;
+    return collider->generation != 0 && collider->moving &&
+           (memcmp(shape->position, collider->target_position, sizeof shape->position) != 0 ||
+            memcmp(shape->rotation, collider->target_rotation, sizeof shape->rotation) != 0);
+}
+
+Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts)
 {
     const pbmpm_collider_def *def = &collider->def;
     Obstacle o = {.moves = collider->moving, .friction = def->friction, .coefficient = def->friction_coefficient, .measures = def->measures_impulse};
@@ -140,7 +151,7 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         if (colliders->slot[slot].generation == 0) continue;
         Obstacle *o = &colliders->obstacle[count++];
-        *o = obstacle_of(&colliders->slot[slot], dimension, part, parts);
+        *o = collider_obstacle(&colliders->slot[slot], dimension, part, parts);
         o->place = (uint16_t)slot;
         colliders->measures = colliders->measures || o->measures;
     }
@@ -285,6 +296,21 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
     return count;
 }
 
+/* Nodes that are held stick to an obstacle that does not move. */
+static uint32_t contacts_of_held(const ContactFrame *frame, int32_t block, Contact *out)
+{
+    const Grid *grid = frame->grid;
+    const float *node = (const float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
+    uint32_t count = 0;
+    for (int i = 0; i < grid->block_cells; i++) {
+        if (!(frame->held[block] >> i & 1) || node[i * K_NODE_WIDTH + 3] == 0.0f) continue;
+        if (out)
+            out[count] = (Contact){.node = (uint16_t)i, .obstacle = (uint16_t)frame->colliders->obstacle_count, .friction = PBMPM_FRICTION_STICK};
+        count++;
+    }
+    return count;
+}
+
 static void find_in_blocks(void *context, int32_t begin, int32_t end)
 {
     const FindJob *job = context;
@@ -304,6 +330,10 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
             Contact *out = listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
             contacts += contacts_with(frame, o, block, reach, out);
         }
+        if (frame->held && frame->held[block]) {
+            const bool listed = job->write && colliders->contact.data;
+            contacts += contacts_of_held(frame, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL);
+        }
         if (!job->write) contact_begin[block + 1] = contacts;
     }
 }
@@ -313,7 +343,8 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     Colliders *colliders = frame->colliders;
     const int32_t blocks = frame->grid->node_blocks;
     colliders->contacts = 0;
-    if (colliders->obstacle_count == 0) return PBMPM_OK;
+    if (colliders->obstacle_count == 0 && !frame->held) return PBMPM_OK;
+    colliders->obstacle[colliders->obstacle_count] = (Obstacle){0};
     const size_t ends = (size_t)blocks + 1;
     if (!array_reserve(memory, &colliders->contact_begin, ends, sizeof(uint32_t)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the contacts of %d blocks", blocks);

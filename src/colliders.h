@@ -44,7 +44,7 @@ typedef struct Colliders {
     Collider *slot; /* PBMPM_MAX_COLLIDERS */
     uint32_t used;  /* slots [used, PBMPM_MAX_COLLIDERS) were never taken */
     Obstacle *obstacle;
-    int obstacle_count;
+    int obstacle_count; /* behind them stands one that is nowhere, for nodes that are held */
 
     Array contact;       /* Contact */
     Array contact_begin; /* uint32_t per node block, and the end */
@@ -65,6 +65,12 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
+
+/* Whether the next step takes it to another pose. */
+bool collider_moves(const Collider *collider);
+
+/* A live collider during part `part` of `parts` of a step. */
+Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts);
 
 /* The obstacles of part `part` of `parts` of a step. */
 typedef struct Domain {
@@ -93,6 +99,7 @@ typedef struct ContactFrame {
     double cell_size;
     float max_displacement; /* cells */
     bool mirrored;          /* walls of the domain have images behind them, see mirror.h, and no contacts with those nodes */
+    const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
@@ -122,6 +129,9 @@ pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory);
 
 /* Last resort: puts particles of the particle blocks [begin, end) that ended inside an obstacle back to its surface. */
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);
+
+/* In place of that, for a block whose particles did not move. */
+void contacts_pass_over(const ContactFrame *frame, int32_t block);
 
 /* After all blocks: finishes the blocks that had no room to book in, and adds what was booked to the impulses. */
 void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt);

@@ -207,15 +207,27 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     uint32_t row;
     for (uint32_t i = 0; i < count; i++)
         if (!particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
+    for (uint32_t i = 0; i < count && world->sleep.on; i++) {
+        particles_row(p, ids[i], &row);
+        sleep_wake_row(world, row);
+    }
+    if (world->sleep.on) sleep_settle(world); /* rows that sleep stay where they are */
     for (uint32_t i = 0; i < count; i++) {
         particles_row(p, ids[i], &row);
         p->status[row] = K_REMOVED;
     }
     if (count) {
-        particles_compact(p);
+        particles_compact(p, world->sleep.rows);
         world_touch(world);
     }
     return PBMPM_OK;
+}
+
+static bool is_inside(const World *world, const Solid *solid, uint32_t row)
+{
+    double point[3] = {0}, normal[3];
+    for (int a = 0; a < world->def.dimension; a++) point[a] = particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size;
+    return solid_distance(solid, point, normal) <= 0.0;
 }
 
 pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed)
@@ -225,16 +237,17 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
     const Solid solid = solid_among(shape, world->def.dimension, &world->baked);
     Particles *p = &world->particles;
     uint32_t count = 0;
-    for (uint32_t row = 0; row < p->count; row++) {
-        double point[3] = {0}, normal[3];
-        for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
-        if (solid_distance(&solid, point, normal) > 0.0) continue;
+    for (uint32_t row = 0; row < p->count && world->sleep.on; row++)
+        if (is_inside(world, &solid, row)) sleep_wake_row(world, row);
+    if (world->sleep.on) sleep_settle(world);
+    for (uint32_t row = world->sleep.rows; row < p->count; row++) {
+        if (!is_inside(world, &solid, row)) continue;
         p->status[row] = K_REMOVED;
         count++;
     }
     if (removed) *removed = count;
     if (count) {
-        particles_compact(p);
+        particles_compact(p, world->sleep.rows);
         world_touch(world);
     }
     return PBMPM_OK;
@@ -325,6 +338,7 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
     for (uint32_t i = 0; i < count; i++) {
         row = i;
         if (ids) particles_row(p, ids[i], &row);
+        sleep_wake_row(world, row);
         write_value(world, field, row, values + (size_t)i * components);
     }
     world->strain_unchecked |= field == PBMPM_DEFORMATION;

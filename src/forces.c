@@ -121,8 +121,7 @@ static double share_at(const Force *force, const double point[3])
     }
 }
 
-/* Beyond this distance from its shape a force is not felt [m]. */
-static double reach_of(const Force *force)
+double force_reach(const Force *force)
 {
     return force->def.everywhere || force->def.falloff == PBMPM_FALLOFF_INVERSE_SQUARE ? INFINITY : (double)force->def.range;
 }
@@ -270,7 +269,7 @@ static Reaching reaching_block(const ForceJob *job, const double corner[3])
 {
     Reaching reaching = {.count = 0};
     for (uint32_t i = 0; i < job->on; i++) {
-        const double reach = reach_of(job->force[i]);
+        const double reach = force_reach(job->force[i]);
         if (reach < INFINITY && block_distance(job->world, job->force[i], corner) > reach) continue;
         reaching.place[reaching.count] = (int)i;
         reaching.force[reaching.count++] = job->force[i];

@@ -32,6 +32,8 @@ pbmpm_force_def force_defaults(void);
 const char *force_problem(const pbmpm_force_def *def, int dimension);
 pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *def, int dimension, uint32_t generation, pbmpm_force_id *id);
 Force *forces_find(const Forces *forces, pbmpm_force_id id); /* null if not live */
+/* Beyond this distance from its shape a force is not felt [m]; may be INFINITY. */
+double force_reach(const Force *force);
 void force_set(Force *force, const pbmpm_force_def *def, int dimension);
 
 /* A new step: nothing has been done yet. */

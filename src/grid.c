@@ -4,16 +4,7 @@
 
 #include "result.h"
 
-enum { BLOCK_GRAIN = 4, AXIS_BITS = 21, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
-
-/* A block in order of discovery. */
-typedef struct FoundBlock {
-    int32_t coordinate[3];
-    uint32_t particles;
-    uint32_t sides; /* bit 2a: a particle in the lowest cell of axis a; bit 2a+1: in the highest */
-    int32_t index;  /* its final place */
-    uint64_t morton;
-} FoundBlock;
+enum { BLOCK_GRAIN = 4, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
 
 pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capacity)
 {
@@ -45,28 +36,13 @@ void grid_free(Grid *grid, Memory *memory)
 
 /* ---- Finding blocks: a hash table from block coordinates to the order of discovery. ---- */
 
-/* Block coordinates start at -1, the neighbours of the first block. */
-static uint64_t pack(const int32_t c[3])
-{
-    return ((uint64_t)(uint32_t)(c[0] + 1) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(c[1] + 1) << AXIS_BITS) |
-           (uint64_t)(uint32_t)(c[2] + 1);
-}
-
-static size_t hash_slot(const Grid *grid, uint64_t key)
-{
-    const size_t slots = grid->table.bytes / sizeof(uint32_t); /* a power of two, see reserve_found() */
-    uint64_t mixed = key * 0x9e3779b97f4a7c15u; /* carries go up only, so fold the high half down and mix again */
-    mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
-    return (size_t)(mixed >> 32) & (slots - 1);
-}
-
 /* The slot of a block, or the free slot where it belongs. */
 static uint32_t *find_slot(const Grid *grid, const int32_t c[3])
 {
-    const size_t mask = grid->table.bytes / sizeof(uint32_t) - 1;
+    const size_t mask = grid->table.bytes / sizeof(uint32_t) - 1; /* a power of two, see reserve_found() */
     uint32_t *table = grid->table.data;
     const FoundBlock *found = grid->found.data;
-    for (size_t slot = hash_slot(grid, pack(c));; slot = (slot + 1) & mask) {
+    for (size_t slot = (size_t)grid_hash(c) & mask;; slot = (slot + 1) & mask) {
         if (table[slot] == 0) return &table[slot];
         const int32_t *other = found[table[slot] - 1].coordinate;
         if (other[0] == c[0] && other[1] == c[1] && other[2] == c[2]) return &table[slot];
@@ -123,24 +99,29 @@ typedef struct Seen {
     int32_t block;
 } Seen;
 
-static void drop_anchor(Grid *grid, const Particles *p)
+static void drop_anchor(const Particles *p, int32_t anchor[3])
 {
     for (int a = 0; a < p->dimension; a++) {
         int32_t lowest = INT32_MAX;
         for (uint32_t i = 0; i < p->count; i++) lowest = p->cell[a][i] < lowest ? p->cell[a][i] : lowest;
-        grid->anchor[a] = lowest;
+        anchor[a] = lowest;
     }
 }
 
-static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
+bool grid_begin(Grid *grid, Memory *memory, const int32_t anchor[3])
 {
-    drop_anchor(grid, p);
+    for (int a = 0; a < grid->dimension; a++) grid->anchor[a] = anchor[a];
     if (!reserve_found(grid, memory)) return false;
     memset(grid->table.data, 0, grid->table.bytes);
     grid->found_count = 0;
+    return true;
+}
+
+bool grid_add_rows(Grid *grid, Memory *memory, const Particles *p, uint32_t begin, uint32_t end)
+{
     Seen seen[8];
     for (int k = 0; k < 8; k++) seen[k] = (Seen){.coordinate = {-1, -1, -1}}; /* no particle's block */
-    for (uint32_t i = 0; i < p->count; i++) {
+    for (uint32_t i = begin; i < end; i++) {
         int32_t cell[3] = {0}, c[3] = {0};
         for (int a = 0; a < p->dimension; a++) {
             cell[a] = p->cell[a][i] - grid->anchor[a];
@@ -159,8 +140,13 @@ static bool find_particle_blocks(Grid *grid, Memory *memory, const Particles *p)
     return true;
 }
 
-/* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
-static void neighbour_offset(int n, int dimension, int32_t offset[3])
+FoundBlock *grid_found(const Grid *grid, const int32_t place[3])
+{
+    const uint32_t slot = *find_slot(grid, place);
+    return slot ? (FoundBlock *)grid->found.data + (slot - 1) : NULL;
+}
+
+void grid_neighbour_offset(int n, int dimension, int32_t offset[3])
 {
     offset[0] = n % 3 - 1;
     offset[1] = n / 3 % 3 - 1;
@@ -183,7 +169,7 @@ static bool find_touched_blocks(Grid *grid, Memory *memory)
         for (int n = 0; n < grid->neighbours; n++) {
             const FoundBlock *block = (FoundBlock *)grid->found.data + b;
             int32_t c[3];
-            neighbour_offset(n, grid->dimension, c);
+            grid_neighbour_offset(n, grid->dimension, c);
             if (!touches(block->sides, c)) continue;
             for (int a = 0; a < 3; a++) c[a] += block->coordinate[a];
             if (find_or_add(grid, memory, c) < 0) return false;
@@ -207,7 +193,8 @@ static uint64_t spread_bits(uint32_t value)
 static bool comes_before(const FoundBlock *a, const FoundBlock *b)
 {
     const bool full_a = a->particles > 0, full_b = b->particles > 0;
-    return full_a != full_b ? full_a : a->morton < b->morton;
+    if (full_a != full_b) return full_a;
+    return a->rank != b->rank ? a->rank < b->rank : a->morton < b->morton;
 }
 
 /* Bottom-up merge sort of the indices of the found blocks; returns the sorted half of grid->sorted. */
@@ -268,9 +255,9 @@ static void place_blocks(Grid *grid)
     const uint32_t *sorted = sort_blocks(grid);
     FoundBlock *found = grid->found.data;
     int32_t *coordinate = grid->coordinate.data;
-    uint32_t *begin = grid->block_begin.data, particles = 0;
+    uint32_t *begin = grid->block_begin.data, particles = grid->first_row;
     grid->node_blocks = (int32_t)grid->found_count;
-    grid->particle_blocks = 0;
+    grid->particle_blocks = grid->still_blocks = 0;
     for (uint32_t i = 0; i < grid->found_count; i++) {
         FoundBlock *block = &found[sorted[i]];
         block->index = (int32_t)i;
@@ -279,6 +266,7 @@ static void place_blocks(Grid *grid)
         begin[i] = particles;
         particles += block->particles;
         grid->particle_blocks++;
+        grid->still_blocks += block->rank != GRID_MOVING;
     }
     begin[grid->particle_blocks] = particles;
 }
@@ -291,7 +279,7 @@ static void link_neighbours(void *context, int32_t begin, int32_t end)
         const int32_t *own = (int32_t *)grid->coordinate.data + 3 * b;
         for (int n = 0; n < grid->neighbours; n++) {
             int32_t c[3];
-            neighbour_offset(n, grid->dimension, c);
+            grid_neighbour_offset(n, grid->dimension, c);
             for (int a = 0; a < 3; a++) c[a] += own[a];
             const uint32_t slot = *find_slot(grid, c);
             ((int32_t *)grid->neighbour.data)[b * grid->neighbours + n] = slot ? found[slot - 1].index : -1;
@@ -305,12 +293,12 @@ static void order_by_block(Grid *grid, uint32_t count)
 {
     const FoundBlock *found = grid->found.data;
     uint32_t *begin = grid->block_begin.data;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = grid->first_row; i < count; i++) {
         const int32_t block = found[grid->block_of[i]].index;
         grid->order[begin[block]++] = i;
     }
     for (int32_t b = grid->particle_blocks; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
-    begin[0] = 0;
+    begin[0] = grid->first_row;
 }
 
 /* What particles are sorted by inside a block. */
@@ -404,18 +392,29 @@ static void build_runs(Grid *grid, Particles *p, Pool *pool)
     grid->run_begin[grid->runs] = p->count;
 }
 
-pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
+pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, uint32_t first)
 {
-    if (!find_particle_blocks(grid, memory, p) || !find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
+    if (!find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
         grid_clear(grid);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
     }
     SortJob job = {grid, p};
+    grid->first_row = first;
     place_blocks(grid);
     order_by_block(grid, p->count);
     pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, sort_inside_blocks, &job);
-    particles_reorder(p, grid->order, pool);
+    particles_reorder(p, grid->order, first, pool);
     build_runs(grid, p, pool);
     pool_for(pool, grid->node_blocks, BLOCK_GRAIN, link_neighbours, grid);
     return PBMPM_OK;
+}
+
+pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
+{
+    int32_t anchor[3];
+    drop_anchor(p, anchor);
+    if (grid_begin(grid, memory, anchor) && grid_add_rows(grid, memory, p, 0, p->count))
+        return grid_finish(grid, memory, p, pool, with_volume, 0);
+    grid_clear(grid);
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
 }

@@ -7,6 +7,19 @@
 #include "particles.h"
 #include "pool.h"
 
+/* How the blocks with particles are ordered: first those that sleep, see sleep.h. Without sleeping all move. */
+typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } GridRank;
+
+/* A block in order of discovery. */
+typedef struct FoundBlock {
+    int32_t coordinate[3];
+    uint32_t particles;
+    uint32_t sides; /* bit 2a: a particle in the lowest cell of axis a; bit 2a+1: in the highest */
+    int32_t index;  /* its final place */
+    uint64_t morton;
+    GridRank rank;
+} FoundBlock;
+
 typedef struct Grid {
     int dimension;
     int neighbours;     /* 3^d */
@@ -21,6 +34,8 @@ typedef struct Grid {
     /* Blocks [0, particle_blocks) hold particles, the rest up to node_blocks are only touched. Each kind is in Morton order. */
     int32_t particle_blocks;
     int32_t node_blocks;
+    int32_t still_blocks; /* of the particle blocks the first ones, which take part, but whose particles sleep */
+    uint32_t first_row;   /* particles before this one are not in the grid: they sleep */
     Array coordinate;    /* int32_t[3] per node block: its position in blocks from the anchor */
     Array neighbour;     /* int32_t per node block and neighbour: block index or -1 */
     Array block_begin;   /* uint32_t per particle block, and the end: first particle */
@@ -50,12 +65,40 @@ void grid_free(Grid *grid, Memory *memory);
 /* No blocks, no runs: there are no particles. */
 static inline void grid_clear(Grid *grid)
 {
-    grid->particle_blocks = grid->node_blocks = 0;
+    grid->particle_blocks = grid->node_blocks = grid->still_blocks = 0;
     grid->runs = 0;
 }
 
 /* Sorts the particles by block, cell and material and lists the blocks they touch. `with_volume`: also room for rest
  * volumes. On failure (no memory) the particles are as before and the grid is empty. */
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
+
+/* ---- The same in parts, for who decides between them which particles belong in the grid, and how blocks rank ---- */
+
+/* Forgets all blocks; those to come are counted from `anchor`. False: no memory. */
+bool grid_begin(Grid *grid, Memory *memory, const int32_t anchor[3]);
+
+/* Finds the blocks of the particles in the rows [begin, end). False: no memory. */
+bool grid_add_rows(Grid *grid, Memory *memory, const Particles *particles, uint32_t begin, uint32_t end);
+
+/* The block in order of discovery at a place that is counted from the anchor; null if it was not found. */
+FoundBlock *grid_found(const Grid *grid, const int32_t place[3]);
+
+/* The rest: sorts the rows from `first` on, all of which were added. */
+pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume, uint32_t first);
+
+/* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
+void grid_neighbour_offset(int n, int dimension, int32_t offset[3]);
+
+/* A number that is different for nearly all places of blocks. */
+static inline uint64_t grid_hash(const int32_t place[3])
+{
+    enum { AXIS_BITS = 21 };
+    const uint64_t key = ((uint64_t)(uint32_t)(place[0] + 1) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(place[1] + 1) << AXIS_BITS) |
+                         (uint64_t)(uint32_t)(place[2] + 1);
+    uint64_t mixed = key * 0x9e3779b97f4a7c15u; /* carries go up only, so fold the high half down and mix again */
+    mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
+    return mixed >> 32;
+}
 
 #endif

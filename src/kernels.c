@@ -20,6 +20,7 @@
     DO(force_nodes, suffix)                                                                                             \
     DO(viscous, suffix)                                                                                                 \
     DO(viscous_nodes, suffix)                                                                                          \
+    DO(drift, suffix)                                                                                                   \
     DO(integrate, suffix)
 
 #define DECLARE_ONE(name, suffix) Kernel name##suffix;

@@ -60,6 +60,17 @@ bool array_reserve(Memory *memory, Array *array, size_t count, size_t size)
     return true;
 }
 
+bool array_grow(Memory *memory, Array *array, size_t count, size_t size, size_t kept)
+{
+    Array grown = {0};
+    if (count * size <= array->bytes) return true;
+    if (!array_reserve(memory, &grown, count, size)) return false;
+    if (kept) memcpy(grown.data, array->data, kept);
+    array_free(memory, array);
+    *array = grown;
+    return true;
+}
+
 void array_free(Memory *memory, Array *array)
 {
     memory_give(memory, array->data, array->bytes);

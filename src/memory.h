@@ -27,6 +27,8 @@ typedef struct Array {
 
 /* Makes room for `count` elements of `size` bytes, with some to spare; the contents are lost when it grows. */
 bool array_reserve(Memory *memory, Array *array, size_t count, size_t size);
+/* The same, but the first `kept` bytes stay. */
+bool array_grow(Memory *memory, Array *array, size_t count, size_t size, size_t kept);
 void array_free(Memory *memory, Array *array);
 
 #endif

@@ -215,21 +215,21 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
 }
 
 /* Moves the kept elements of one array to the front. */
-static void compact_array(const Particles *p, void *array, size_t size)
+static void compact_array(const Particles *p, uint32_t first, void *array, size_t size)
 {
     char *data = array;
-    size_t kept = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
+    size_t kept = first;
+    for (uint32_t i = first; i < p->count; i++) {
         if (p->status[i] != K_ALIVE) continue;
         if (kept != i) memcpy(data + kept * size, data + i * size, size);
         kept++;
     }
 }
 
-void particles_compact(Particles *p)
+void particles_compact(Particles *p, uint32_t first)
 {
-    uint32_t kept = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
+    uint32_t kept = first;
+    for (uint32_t i = first; i < p->count; i++) {
         if (p->status[i] == K_ALIVE) {
             kept++;
             continue;
@@ -242,9 +242,9 @@ void particles_compact(Particles *p)
         const Field *field = &p->field[i];
         if (field->base == (char *)p->status) continue;
         for (int c = 0; c < particles_components(p, field->class); c++)
-            compact_array(p, *field->component[c], particles_element_size(field->class));
+            compact_array(p, first, *field->component[c], particles_element_size(field->class));
     }
-    memset(p->status, 0, (size_t)p->count * sizeof *p->status);
+    memset(p->status + first, 0, (size_t)(p->count - first) * sizeof *p->status);
     p->count = kept;
     p->rows_valid = false;
     particles_changed(p);
@@ -254,6 +254,7 @@ typedef struct Reorder {
     const Particles *particles;
     const uint32_t *order;
     const Field *field;
+    int32_t first;
 } Reorder;
 
 static void reorder_4(const uint32_t *restrict order, const uint32_t *restrict from, uint32_t *restrict to, int32_t begin, int32_t end)
@@ -271,6 +272,8 @@ static void reorder_field(void *context, int32_t begin, int32_t end)
     const Reorder *job = context;
     const Particles *p = job->particles;
     const int class = job->field->class;
+    begin += job->first;
+    end += job->first;
     if (class == CLASS_ID) {
         reorder_8(job->order, (const uint64_t *)(void *)p->id, (uint64_t *)(void *)p->spare[class], begin, end);
         return;
@@ -297,18 +300,50 @@ static void pad(const Particles *p)
     }
 }
 
-void particles_reorder(Particles *p, const uint32_t *order, Pool *pool)
+/* From the spare back to where it came from. */
+static void copy_back(const Particles *p, const Field *field, uint32_t first)
+{
+    const size_t size = particles_element_size(field->class);
+    for (int c = 0; c < particles_components(p, field->class); c++) {
+        const char *sorted = p->spare[field->class] + (size_t)c * p->array_bytes; /* identifiers have one component */
+        memcpy((char *)*field->component[c] + first * size, sorted + first * size, (p->count - first) * size);
+    }
+}
+
+void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Pool *pool)
 {
     for (int i = 0; i < p->field_count; i++) {
         Field *field = &p->field[i];
-        Reorder job = {p, order, field};
-        pool_for(pool, (int32_t)p->count, ROW_GRAIN, reorder_field, &job);
+        Reorder job = {p, order, field, (int32_t)first};
+        pool_for(pool, (int32_t)(p->count - first), ROW_GRAIN, reorder_field, &job);
+        if (first > 0) {
+            copy_back(p, field, first);
+            continue;
+        }
         char *sorted = p->spare[field->class];
         p->spare[field->class] = field->base;
         field->base = sorted;
         bind_field(p, field);
     }
     pad(p);
+    p->rows_valid = false;
+    particles_changed(p);
+}
+
+void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count)
+{
+    for (int i = 0; i < p->field_count; i++) {
+        const Field *field = &p->field[i];
+        const size_t words = particles_element_size(field->class) / sizeof(uint32_t);
+        for (int c = 0; c < particles_components(p, field->class); c++) {
+            uint32_t *data = *field->component[c], *left = data + a * words, *right = data + b * words;
+            for (size_t w = 0; w < count * words; w++) {
+                const uint32_t kept = left[w];
+                left[w] = right[w];
+                right[w] = kept;
+            }
+        }
+    }
     p->rows_valid = false;
     particles_changed(p);
 }

@@ -116,11 +116,14 @@ typedef struct NewParticle {
 /* There is room, the values are valid. Returns its identifier. */
 pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, uint32_t generation);
 
-/* Removes the particles whose status is not K_ALIVE; the others keep their order. */
-void particles_compact(Particles *p);
+/* Removes the particles from row `first` on whose status is not K_ALIVE; the others keep their order. */
+void particles_compact(Particles *p, uint32_t first);
 
-/* Brings all fields into the order new[i] = old[order[i]]. */
-void particles_reorder(Particles *p, const uint32_t *order, Pool *pool);
+/* Brings all fields into the order new[i] = old[order[i]], for the rows from `first` on. */
+void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Pool *pool);
+
+/* Exchanges `count` rows from `a` on with those from `b` on; the two do not overlap. */
+void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count);
 
 /* The row of a live particle, or false. */
 bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row);

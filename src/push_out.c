@@ -87,6 +87,14 @@ void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt
     }
 }
 
+void contacts_pass_over(const ContactFrame *frame, int32_t block)
+{
+    if (!frame->colliders->measures) return;
+    PushNotes *notes = (PushNotes *)frame->colliders->impulses.notes.data + block;
+    notes->count = 0;
+    notes->resume = -1;
+}
+
 pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory)
 {
     Colliders *colliders = frame->colliders;

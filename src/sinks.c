@@ -165,11 +165,13 @@ uint32_t sinks_mark(World *world, uint32_t substep)
     for (uint32_t slot = 0; slot < sinks->used; slot++) {
         Drain *drain = &sinks->slot[slot];
         if (drain->generation == 0 || !drain->def.enabled) continue;
-        for (int32_t block = 0; block < world->grid.particle_blocks; block++) count += drain_block(world, drain, block);
+        for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+            if (!sleep_is_still(world, block)) count += drain_block(world, drain, block);
     }
     if (!sinks->bounds.enabled) return count;
     pbmpm_event event = {.kind = PBMPM_EVENT_KILLED, .substep = substep, .step = world->step_count};
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) count += kill_in_block(world, block, &event);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+        if (!sleep_is_still(world, block)) count += kill_in_block(world, block, &event);
     world->flow.killed += event.count;
     if (event.count) events_add(&world->events, &event);
     return count;

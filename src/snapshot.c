@@ -287,7 +287,7 @@ static const SnapshotSection colliders_section = {5, save_colliders, check_colli
 /* Particles come last: their check makes memory ready, when all else is known to fit. */
 static const SnapshotSection *const sections[] = {&made_section,      &materials_section, &settings_section, &counters_section,
                                                   &colliders_section, &emitters_section,  &drains_section,   &forces_section,
-                                                  &flow_section,      &particles_section};
+                                                  &flow_section,      &sleep_section,     &particles_section};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }
@@ -394,6 +394,7 @@ pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes
     for (int i = 0; i < SECTIONS && result == PBMPM_OK; i++) result = sections[i]->check(world, found[i]);
     if (result != PBMPM_OK) return result;
     for (int i = 0; i < SECTIONS; i++) sections[i]->load(world, found[i]);
+    sleep_check_rows(world);
     world->record = (StepRecord){0};
     events_clear(&world->events);
     grid_clear(&world->grid);

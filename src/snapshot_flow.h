@@ -5,6 +5,7 @@
 
 #include "snapshot.h"
 
+extern const SnapshotSection sleep_section; /* snapshot_sleep.c */
 extern const SnapshotSection emitters_section;
 extern const SnapshotSection drains_section;
 extern const SnapshotSection forces_section;

@@ -128,6 +128,12 @@ void solver_over_particles(World *world, Kernel *kernel)
     pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, run_kernel, &job);
 }
 
+void solver_over_still(World *world, Kernel *kernel)
+{
+    KernelJob job = {kernel, &world->args, NULL};
+    pool_for(world->pool, world->grid.still_blocks, BLOCK_GRAIN, run_kernel, &job);
+}
+
 static void obey_contacts(void *context, int32_t begin, int32_t end) { contacts_apply(context, begin, end); }
 
 void solver_obey(World *world, const ContactFrame *contacts)
@@ -216,4 +222,22 @@ void solver_solve(World *world, const ContactFrame *contacts)
     kinds[record->solver].solve(world, contacts);
 }
 
-void solver_integrate(World *world) { solver_over_particles(world, world->kernels->integrate); }
+/* Stretches of blocks that move. */
+static void integrate_moving(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    for (int32_t block = begin, next; block < end; block = next) {
+        next = block + 1;
+        if (sleep_is_still(world, block)) continue;
+        while (next < end && !sleep_is_still(world, next)) next++;
+        world->kernels->integrate(&world->args, block, next);
+    }
+}
+
+void solver_integrate(World *world)
+{
+    if (world->grid.still_blocks > 0)
+        pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, integrate_moving, world);
+    else
+        solver_over_particles(world, world->kernels->integrate);
+}

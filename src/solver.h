@@ -24,6 +24,9 @@ void solver_integrate(World *world);
 /* Runs a kernel over all particle blocks. */
 void solver_over_particles(World *world, Kernel *kernel);
 
+/* The same over those whose particles sleep. */
+void solver_over_still(World *world, Kernel *kernel);
+
 /* Makes the nodes obey the contacts and mirrors. */
 void solver_obey(World *world, const ContactFrame *contacts);
 

@@ -69,6 +69,7 @@ static void collect_events(World *world, uint32_t substep, uint32_t drained)
     pbmpm_event slowed = {0};
     world->record.travel = 0.0f;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        if (sleep_is_still(world, block)) continue;
         total_moved += moved[block];
         world->record.travel = travel[block] > world->record.travel ? travel[block] : world->record.travel;
         total_lost += lost[block];
@@ -85,7 +86,8 @@ static void collect_events(World *world, uint32_t substep, uint32_t drained)
     world->clamped_total += total_clamped;
     world->deleted_total += total_lost;
     if (total_lost + drained) {
-        particles_compact(&world->particles);
+        if (world->sleep.on) sleep_settle(world);
+        particles_compact(&world->particles, world->sleep.rows);
         world_touch(world);
     }
     if (total_lost)
@@ -103,7 +105,20 @@ typedef struct PushJob {
 static void push_out(void *context, int32_t begin, int32_t end)
 {
     const PushJob *job = context;
-    contacts_push_out(job->frame, &job->world->particles, job->dt, begin, end);
+    for (int32_t block = begin; block < end; block++) {
+        if (sleep_is_still(job->world, block))
+            contacts_pass_over(job->frame, block);
+        else
+            contacts_push_out(job->frame, &job->world->particles, job->dt, block, block + 1);
+    }
+}
+
+/* Without particles only the obstacles move. */
+static pbmpm_result empty_substep(World *world, int part)
+{
+    grid_clear(&world->grid);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    return PBMPM_OK;
 }
 
 static pbmpm_result substep(World *world, float dt, int part)
@@ -113,14 +128,18 @@ static pbmpm_result substep(World *world, float dt, int part)
 
     /* Where the particles are: order, blocks, runs. */
     const bool with_volume = materials_want_volume(&world->materials, &world->particles);
-    pbmpm_result result = grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
+    pbmpm_result result = world->sleep.on ? sleep_build(world, dt, with_volume)
+                                          : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
     if (result != PBMPM_OK) return result;
+    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
     lap(&record->ms_sort, &clock);
 
     /* Where they would go if nothing held them. */
     result = solver_prepare(world);
     if (result != PBMPM_OK) return result;
     solver_bind(world, dt, with_volume);
+    if (world->sleep.on) result = sleep_prepare(world);
+    if (result != PBMPM_OK) return result;
     solver_predict(world);
     result = forces_apply(world, dt);
     if (result != PBMPM_OK) return result;
@@ -130,7 +149,8 @@ static pbmpm_result substep(World *world, float dt, int part)
     const double cell_size = (double)world->def.cell_size;
     const bool mirrored = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
     const Domain domain = mirrored ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
-    const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored};
+    const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
+                                   world->sleep.holds ? world->sleep.held.data : NULL};
     mirrors_clear(&world->mirrors);
     if (mirrored && (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size) ||
                      !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures)))
@@ -145,6 +165,7 @@ static pbmpm_result substep(World *world, float dt, int part)
 
     /* Where their materials let them go. */
     solver_solve(world, &contacts);
+    if (world->sleep.on) sleep_judge(world, dt);
     lap(&record->ms_iterate, &clock);
 
     /* Go. */
@@ -160,14 +181,6 @@ static pbmpm_result substep(World *world, float dt, int part)
     return PBMPM_OK;
 }
 
-/* Without particles only the obstacles move. */
-static pbmpm_result empty_substep(World *world, int part)
-{
-    grid_clear(&world->grid);
-    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
-    return PBMPM_OK;
-}
-
 pbmpm_result world_step(World *world, float dt)
 {
     const double begin = now_ms();
@@ -178,9 +191,11 @@ pbmpm_result world_step(World *world, float dt)
     impulses_clear(&world->colliders.impulses);
     forces_begin_step(&world->forces);
     world_touch(world);
-    pool_set_serial(world->pool, world->particles.count < SERIAL_BELOW);
+    sleep_begin_step(world, (double)part_dt);
+    pool_set_serial(world->pool, world->particles.count - world->sleep.rows < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
         world->record.deadline_ms = begin + (double)world->settings.time_budget_ms * (part + 1) / parts;
+        if (world->sleep.on) sleep_begin_substep(world, part);
         pbmpm_result result = emitters_prepare(world, part, part_dt);
         if (result == PBMPM_OK) result = world->particles.count ? substep(world, part_dt, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
@@ -190,6 +205,8 @@ pbmpm_result world_step(World *world, float dt)
     }
     colliders_end_step(&world->colliders);
     emitters_end_step(&world->emitters);
+    world->record.blocks_woken = world->sleep.woken_blocks;
+    world->sleep.woken_blocks = 0;
     world->step_count++;
     world->record.ms_total = now_ms() - begin;
     return PBMPM_OK;

@@ -1,6 +1,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "world.h"
 
+#include <string.h>
 #include <unistd.h>
 
 #include "background.h"
@@ -22,7 +23,8 @@ pbmpm_world_def world_def_defaults(void)
 
 pbmpm_settings settings_defaults(void)
 {
-    return (pbmpm_settings){.size = sizeof(pbmpm_settings), .substeps = 1, .iterations = 5, .max_displacement = 32.0f};
+    return (pbmpm_settings){.size = sizeof(pbmpm_settings), .substeps = 1, .iterations = 5, .max_displacement = 32.0f,
+                            .sleep_speed = 0.05f, .sleep_time = 0.5f};
 }
 
 static const char *domain_problem(const pbmpm_world_def *def)
@@ -71,7 +73,21 @@ const char *settings_problem(const pbmpm_settings *settings, int dimension)
     if (!in_range(settings->flip, 0.0, 1.0)) return "settings.flip must be in [0, 1]";
     if (!in_range(settings->target_error, 0.0, 1.0)) return "settings.target_error must be in [0, 1]";
     if (!in_range(settings->time_budget_ms, 0.0, 1e6)) return "settings.time_budget_ms must be in [0, 1e6]";
+    if (settings->sleeping != 0 && settings->sleeping != 1) return "settings.sleeping must be 0 or 1";
+    if (!in_range(settings->sleep_speed, 0.0, 1e9)) return "settings.sleep_speed must be in [0, 1e9]";
+    if (!in_range(settings->sleep_time, 0.0, 1e6)) return "settings.sleep_time must be in [0, 1e6]";
     return NULL;
+}
+
+bool settings_change_motion(const pbmpm_settings *before, const pbmpm_settings *after)
+{
+    pbmpm_settings same = *after;
+    same.target_error = before->target_error;
+    same.time_budget_ms = before->time_budget_ms;
+    same.sleeping = before->sleeping;
+    same.sleep_speed = before->sleep_speed;
+    same.sleep_time = before->sleep_time;
+    return memcmp(before, &same, sizeof same) != 0;
 }
 
 static void set_domain(World *world)
@@ -138,6 +154,7 @@ void world_destroy(World *world)
     guess_free(world);
     mirrors_free(&world->mirrors, &world->memory);
     primal_free(world);
+    sleep_free(&world->sleep, &world->memory);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

@@ -21,6 +21,7 @@
 #include "pool.h"
 #include "pyramid.h"
 #include "sinks.h"
+#include "sleep.h"
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
@@ -32,6 +33,7 @@ typedef struct StepRecord {
     uint32_t iterations_used, energy_checks_failed;
     double residual, predicted_error; /* [cells] */
     double deadline_ms;               /* of this substep, see now_ms(); with a time budget */
+    uint32_t blocks_woken;            /* of the step */
     float moved;  /* share of particles that left their cell in the last substep */
     float travel; /* the largest displacement in it [cells] */
 } StepRecord;
@@ -90,6 +92,7 @@ typedef struct World {
     GuessState guess;
     Mirrors mirrors;
     PrimalState primal;
+    Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see solver.c */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
@@ -110,6 +113,9 @@ pbmpm_settings settings_defaults(void);
 /* Null if valid, else what is wrong. */
 const char *world_def_problem(const pbmpm_world_def *def);
 const char *settings_problem(const pbmpm_settings *settings, int dimension);
+
+/* Whether matter at rest under one may move under the other. */
+bool settings_change_motion(const pbmpm_settings *before, const pbmpm_settings *after);
 
 /* The definition is valid. */
 pbmpm_result world_create(const pbmpm_world_def *def, World **world);

@@ -20,6 +20,7 @@
 #include "particles.h"
 #include "query.h"
 #include "shape.h"
+#include "sleep.h"
 #include "solid.h"
 #include "snapshot.h"
 #include "stats.h"

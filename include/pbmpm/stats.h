@@ -49,6 +49,10 @@ typedef struct pbmpm_stats {
                                        from the residual; 0 where residual is */
     uint32_t energy_checks_failed; /**< primal: bodies of the last substep whose unfinished solution would have gained energy
                                         and was replaced */
+    uint32_t particles_asleep;     /**< particles that the last substep did not move because they sleep */
+    uint32_t blocks_asleep;        /**< blocks that took no part in it; particle_blocks counts those that did */
+    uint32_t blocks_drowsy;        /**< of particle_blocks, those that took part without being moved: next to blocks that are awake */
+    uint32_t blocks_woken;         /**< blocks that woke in the last step, and by calls before it */
 } pbmpm_stats;
 
 /** Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over

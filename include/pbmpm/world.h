@@ -94,6 +94,11 @@ typedef struct pbmpm_settings {
     float time_budget_ms;   /**< dual and primal: no iteration is begun once this much wall time [ms] of the step is spent; each
                                  substep gets an equal part; in [0, 1e6], 0 (default): off. Results then depend on the machine's
                                  speed: not deterministic. */
+    int32_t sleeping;       /**< 1: blocks of matter at rest fall asleep: they take no part in a step until something wakes them, see sleep.h;
+                                 0 (default): off, costs nothing */
+    float sleep_speed;      /**< sleeping: root mean square speed of a block's particles below which it is at rest [m/s], in
+                                 [0, 1e9]; default 0.05 */
+    float sleep_time;       /**< sleeping: how long a block and its neighbours must be at rest [s], in [0, 1e6]; default 0.5 */
 } pbmpm_settings;
 
 /** Writes the defaults. `size` is the caller's sizeof(*def).

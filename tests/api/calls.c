@@ -205,6 +205,11 @@ static pbmpm_result call_particles_find(const target *ids)
     return pbmpm_particles_find(ids->world, &ids->particle, 1, &row);
 }
 
+static pbmpm_result call_wake(const target *ids)
+{
+    return pbmpm_world_wake(ids->world, NULL);
+}
+
 static pbmpm_result call_query_shape(const target *ids)
 {
     pbmpm_shape shape;
@@ -425,6 +430,7 @@ const world_call world_calls[] = {
     {"pbmpm_world_get_settings", call_get_settings, 0},
     {"pbmpm_world_set_settings", call_set_settings, 0},
     {"pbmpm_world_step", call_step, 0},
+    {"pbmpm_world_wake", call_wake, 0},
     {"pbmpm_world_generation", call_generation, 0},
     {"pbmpm_world_hash", call_hash, 0},
     {"pbmpm_world_get_stats", call_get_stats, 0},

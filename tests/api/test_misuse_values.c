@@ -127,6 +127,9 @@ static void test_settings(void)
         {FIELD(pbmpm_settings, flip), FLOAT32, 0, 1, false, false},
         {FIELD(pbmpm_settings, target_error), FLOAT32, 0, 1, false, false},
         {FIELD(pbmpm_settings, time_budget_ms), FLOAT32, 0, 1e6, false, false},
+        {FIELD(pbmpm_settings, sleeping), INT32, 0, 1, false, false},
+        {FIELD(pbmpm_settings, sleep_speed), FLOAT32, 0, 1e9, false, false},
+        {FIELD(pbmpm_settings, sleep_time), FLOAT32, 0, 1e6, false, false},
     };
     const pbmpm_settings settings = default_settings();
     CHECK_RULES(rules, settings, use_settings);

@@ -23,7 +23,7 @@ static void obey_contact(const Contact *contact, float u[3])
     Contact copy = *contact;
     Colliders colliders = {.contact = {&copy, sizeof copy}, .contact_begin = {begin, sizeof begin}, .contacts = 1};
     Grid grid = {.dimension = 3, .block_cells = 64, .node_blocks = 1, .node = {nodes, sizeof nodes}};
-    const ContactFrame frame = {&colliders, &grid, CELL_SIZE, LIMIT, false};
+    const ContactFrame frame = {&colliders, &grid, CELL_SIZE, LIMIT, false, NULL};
     for (int i = 0; i < 64 * K_NODE_WIDTH; i++) nodes[i] = (float)i;
     memcpy(nodes + contact->node * K_NODE_WIDTH, u, 3 * sizeof *u);
     contacts_apply(&frame, 0, 1);
@@ -161,7 +161,7 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
                 particles_append(&s->particles, &particle, s->particles.count + 1);
             }
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
-    s->frame = (ContactFrame){&s->colliders, &s->grid, CELL_SIZE, LIMIT, false};
+    s->frame = (ContactFrame){&s->colliders, &s->grid, CELL_SIZE, LIMIT, false, NULL};
 }
 
 static void setting_close(Setting *s)

@@ -248,7 +248,7 @@ static void test_building_again(void)
     sorted_open(&s, 3, 2);
     for (int c = 0; c < CLOUDS; c++) {
         for (uint32_t i = 0; i < s.particles.count; i++) s.particles.status[i] = K_REMOVED;
-        particles_compact(&s.particles);
+        particles_compact(&s.particles, 0);
         add_cloud(&s, &random, &clouds[c]);
         sorted_build(&s, false);
         check_grid(&s);

@@ -105,7 +105,7 @@ static void test_new_particles_start_undeformed_at_rest(void)
             add_numbered(i);
             particles.status[i] = K_REMOVED;
         }
-        particles_compact(&particles);
+        particles_compact(&particles, 0);
         const NewParticle particle = {{1.25, 2.5, 3}, {4, 5, 6}, 7, 1};
         const pbmpm_particle_id id = particles_append(&particles, &particle, 5000);
         TEST_ASSERT_EQUAL_UINT32(1, particles.count);
@@ -150,7 +150,7 @@ static void test_removing_keeps_the_others_in_order(void)
     for (uint32_t i = 0; i < CAPACITY; i++) ids[i] = add_numbered(i);
     for (uint32_t i = 0; i < CAPACITY; i++)
         if (i % 3 != 1) particles.status[i] = 1 + (int32_t)(i % 4);
-    particles_compact(&particles);
+    particles_compact(&particles, 0);
     TEST_ASSERT_EQUAL_UINT32((CAPACITY + 1) / 3, particles.count);
     for (uint32_t i = 0; i < CAPACITY; i++) {
         uint32_t row;
@@ -198,7 +198,7 @@ static void test_reordering_moves_all_fields(void)
         open_particles(dimension, dimension == 3);
         for (uint32_t i = 0; i < CAPACITY; i++) add_numbered(i);
         shuffle(&random, order, CAPACITY);
-        particles_reorder(&particles, order, pool);
+        particles_reorder(&particles, order, 0, pool);
         for (uint32_t i = 0; i < CAPACITY; i++) expect_numbered(i, order[i]);
         close_particles();
     }
@@ -227,9 +227,9 @@ static void test_identifiers_through_a_long_life(void)
             particles.status[row] = K_REMOVED;
             alive[i] = false;
         }
-        particles_compact(&particles);
+        particles_compact(&particles, 0);
         shuffle(&random, order, particles.count);
-        particles_reorder(&particles, order, pool);
+        particles_reorder(&particles, order, 0, pool);
         uint32_t living = 0, row;
         for (uint32_t i = 0; i < born; i++) {
             living += alive[i];

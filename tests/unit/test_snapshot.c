@@ -42,7 +42,7 @@ static void open_world(int dimension)
         particles_append(&world->particles, &particle, registry_next_generation());
     }
     world->particles.status[7] = world->particles.status[30] = K_REMOVED;
-    particles_compact(&world->particles);
+    particles_compact(&world->particles, 0);
     bytes = snapshot_size(world);
     snapshot = malloc(bytes);
     forged = malloc(bytes);

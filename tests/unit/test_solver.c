@@ -219,11 +219,11 @@ static void test_pressures_follow_their_particles(void)
     p->pressure[3] = 77.0f; /* what an earlier particle left */
     particles_append(p, &(NewParticle){.mass = 1.0f}, 4);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, p->pressure[3]);
-    particles_reorder(p, order, world->pool);
+    particles_reorder(p, order, 0, world->pool);
     const float turned[] = {3.0f, 1.0f, 0.0f, 2.0f};
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(turned, p->pressure, 4);
     p->status[1] = K_REMOVED;
-    particles_compact(p);
+    particles_compact(p, 0);
     const float kept[] = {3.0f, 0.0f, 2.0f};
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(kept, p->pressure, 3);
     for (uint32_t i = 0; i < 12; i++) /* spare arrays do not overlap with each other or with what particles have */

@@ -643,6 +643,14 @@ namespace Pbmpm
         /// substep gets an equal part; in [0, 1e6], 0 (default): off. Results then depend on the machine's
         /// speed: not deterministic.</summary>
         public float TimeBudgetMs;
+        /// <summary>1: blocks of matter at rest fall asleep: they take no part in a step until something wakes them, see sleep.h;
+        /// 0 (default): off, costs nothing</summary>
+        public int Sleeping;
+        /// <summary>sleeping: root mean square speed of a block's particles below which it is at rest [m/s], in
+        /// [0, 1e9]; default 0.05</summary>
+        public float SleepSpeed;
+        /// <summary>sleeping: how long a block and its neighbours must be at rest [s], in [0, 1e6]; default 0.5</summary>
+        public float SleepTime;
 
         /// <summary>The library's defaults.</summary>
         public static Settings Default
@@ -1136,6 +1144,14 @@ namespace Pbmpm
         /// <summary>primal: bodies of the last substep whose unfinished solution would have gained energy
         /// and was replaced</summary>
         public uint EnergyChecksFailed;
+        /// <summary>particles that the last substep did not move because they sleep</summary>
+        public uint ParticlesAsleep;
+        /// <summary>blocks that took no part in it; particle_blocks counts those that did</summary>
+        public uint BlocksAsleep;
+        /// <summary>of particle_blocks, those that took part without being moved: next to blocks that are awake</summary>
+        public uint BlocksDrowsy;
+        /// <summary>blocks that woke in the last step, and by calls before it</summary>
+        public uint BlocksWoken;
     }
 
     /// <summary>Something that happened which the caller did not ask for.</summary>
@@ -1750,6 +1766,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_ray(WorldId world, Ray* ray, RayHit* hit);
 
+        /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
+        /// sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
+        /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_wake(WorldId world, Shape* shape);
+
         /// <summary>How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2026,6 +2048,9 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_settings", "flip", &it, &it.Flip, &it.Flip + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "target_error", &it, &it.TargetError, &it.TargetError + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "time_budget_ms", &it, &it.TimeBudgetMs, &it.TimeBudgetMs + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "sleeping", &it, &it.Sleeping, &it.Sleeping + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "sleep_speed", &it, &it.SleepSpeed, &it.SleepSpeed + 1, false));
+            fields.Add(new MirrorField("pbmpm_settings", "sleep_time", &it, &it.SleepTime, &it.SleepTime + 1, false));
             fields.Add(new MirrorField("pbmpm_settings", "", &it, &it, &it + 1, true));
         }
 
@@ -2290,6 +2315,10 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_stats", "residual", &it, &it.Residual, &it.Residual + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "predicted_error", &it, &it.PredictedError, &it.PredictedError + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "energy_checks_failed", &it, &it.EnergyChecksFailed, &it.EnergyChecksFailed + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "particles_asleep", &it, &it.ParticlesAsleep, &it.ParticlesAsleep + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "blocks_asleep", &it, &it.BlocksAsleep, &it.BlocksAsleep + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "blocks_drowsy", &it, &it.BlocksDrowsy, &it.BlocksDrowsy + 1, false));
+            fields.Add(new MirrorField("pbmpm_stats", "blocks_woken", &it, &it.BlocksWoken, &it.BlocksWoken + 1, false));
             fields.Add(new MirrorField("pbmpm_stats", "", &it, &it, &it + 1, true));
         }
 

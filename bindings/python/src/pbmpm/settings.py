@@ -8,6 +8,7 @@ from typing import Any
 from ._convert import Vector, assign, assign_vector, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from .shapes import Shape, to_c
 from ._member import WorldPart
 
 
@@ -157,3 +158,36 @@ class WorldSettings(WorldPart):
     @time_budget_ms.setter
     def time_budget_ms(self, value: float) -> None:
         self._change_settings(time_budget_ms=value)
+
+    # Sleeping
+
+    @property
+    def sleeping(self) -> bool:
+        """Whether blocks of matter at rest fall asleep: they take no part in a step until something wakes them."""
+        return bool(self._settings().sleeping)
+
+    @sleeping.setter
+    def sleeping(self, value: bool) -> None:
+        self._change_settings(sleeping=bool(value))
+
+    @property
+    def sleep_speed(self) -> float:
+        """Root mean square speed [m/s] of a block's particles below which it is at rest."""
+        return shortest(self._settings().sleep_speed)
+
+    @sleep_speed.setter
+    def sleep_speed(self, value: float) -> None:
+        self._change_settings(sleep_speed=value)
+
+    @property
+    def sleep_time(self) -> float:
+        """How long [s] a block and its neighbours must be at rest to fall asleep."""
+        return shortest(self._settings().sleep_time)
+
+    @sleep_time.setter
+    def sleep_time(self, value: float) -> None:
+        self._change_settings(sleep_time=value)
+
+    def wake(self, shape: Shape | None = None) -> None:
+        """Wakes what is within two cells of a shape, or everything. Matter that is touched wakes by itself."""
+        self._call(lib.pbmpm_world_wake, ffi.NULL if shape is None else to_c(shape, self._dimension))

@@ -52,6 +52,10 @@ class Stats:
     residual: float  #: its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver
     predicted_error: float  #: root mean square distance from the converged displacements [cells], as predicted from it
     energy_checks_failed: int  #: primal: bodies whose unfinished solution would have gained energy and was replaced
+    particles_asleep: int  #: particles that the last substep did not move because they sleep
+    blocks_asleep: int  #: blocks that took no part in it; particle_blocks counts those that did
+    blocks_drowsy: int  #: of particle_blocks, those that took part without being moved: next to blocks that are awake
+    blocks_woken: int  #: blocks that woke in the last step, and by calls before it
 
 
 class EventKind(enum.Enum):

@@ -52,8 +52,8 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         origin: what positions are relative to [m]; for the caller's own conversion.
         memory_budget: bytes that the world may hold at once; 0: no limit.
         threads: threads that share the work, counting the caller; 0: one per core. Results do not depend on it.
-        substeps, iterations, max_displacement, solver, pressure, integrator, flip, target_error, time_budget_ms: see the
-            properties.
+        substeps, iterations, max_displacement, solver, pressure, integrator, flip, target_error, time_budget_ms, sleeping,
+            sleep_speed, sleep_time: see the properties.
 
     Arguments left at None take the C library's defaults.
     """
@@ -80,6 +80,9 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         flip: float | None = None,
         target_error: float | None = None,
         time_budget_ms: float | None = None,
+        sleeping: bool | None = None,
+        sleep_speed: float | None = None,
+        sleep_time: float | None = None,
     ) -> None:
         self._handle: WorldHandle | None = None
         definition = initialised("pbmpm_world_def")
@@ -116,6 +119,9 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             flip=flip,
             target_error=target_error,
             time_budget_ms=time_budget_ms,
+            sleeping=sleeping,
+            sleep_speed=sleep_speed,
+            sleep_time=sleep_time,
         )
 
     # Life

@@ -1,0 +1,39 @@
+/* pbmpm: sleeping. Blocks of matter at rest take no part in a step until something wakes them.
+ *
+ * pbmpm_settings.sleeping switches it on. A block is 4^d cells. It falls asleep when the root mean square speed of its particles, and that of
+ * each of its neighbours, has been below sleep_speed for sleep_time. Its particles then stay where they are, with a velocity of 0, and cost nothing;
+ * views, queries, snapshots and statistics show them as ever. Blocks next to one that is awake are drowsy: they take part in the solution with
+ * their mass and stress, but are not moved. Beyond them matter that sleeps holds like a wall.
+ *
+ * A block wakes when
+ *   - a particle faster than sleep_speed comes into it, or more slow ones than a sixteenth of its own; or particles are added to it;
+ *   - it is drowsy, and the solution would move its particles with a root mean square speed above sleep_speed, or would have given them
+ *     together a velocity above sleep_speed in the last tenth of a second;
+ *   - a collider that moves, turns, is teleported, created or destroyed is or was within two cells of it;
+ *   - a force, a drain or the reach of one that is created, set or destroyed touches it; a call sets or removes particles in it;
+ *   - all of them: a change of settings other than the sleep_*, target_error and time_budget_ms, of a material or of the kill bounds;
+ *     substeps whose length differs by more than a tenth from those that matter came to rest in;
+ *   - pbmpm_world_wake() says so.
+ * Nothing else changes a block that sleeps, to the last bit. Blocks that touch a collider or a wall that measures impulses stay awake.
+ *
+ * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum, and matter that sleeps bears accelerations
+ * up to sleep_speed per tenth of a second without moving. Results depend neither on the number of threads nor on when others look.
+ * A snapshot holds who sleeps; one of a world without sleeping wakes all. */
+#ifndef PBMPM_SLEEP_H
+#define PBMPM_SLEEP_H
+
+#include "shape.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
+ *  sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
+ *  `shape->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world. */
+PBMPM_API pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
