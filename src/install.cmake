@@ -5,7 +5,9 @@ include(CMakePackageConfigHelpers)
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
 install(TARGETS pbmpm EXPORT pbmpm LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
-install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-config.cmake DESTINATION "${package_dir}")
+install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-targets.cmake DESTINATION "${package_dir}")
+configure_package_config_file(pbmpm-config.cmake.in pbmpm-config.cmake INSTALL_DESTINATION "${package_dir}")
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config.cmake" DESTINATION "${package_dir}")
 
 # Before 1.0 a new minor version may change the interface.
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" COMPATIBILITY SameMinorVersion)
@@ -13,5 +15,6 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" DESTINATI
 
 # The paths in the .pc file are relative to itself, so an installed tree may be moved.
 file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+list(JOIN PBMPM_MATERIALS_BUILT " " pc_materials)
 configure_file(pbmpm.pc.in pbmpm.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

@@ -7,6 +7,8 @@ library=$(find "$prefix" -name libpbmpm.so)
 PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig; export PKG_CONFIG_PATH
 found=$(pkg-config --modversion pbmpm)
 [ "$found" = "$version" ] || { echo "pkg-config says version $found, not $version"; exit 1; }
+materials=$(pkg-config --variable=materials pbmpm)
+[ "$materials" = "liquid elastic sand visco" ] || { echo "pkg-config says materials $materials"; exit 1; }
 program=$prefix/minimal-by-pkg-config
 eval "set -- $(pkg-config --cflags --libs pbmpm)" # pkg-config quotes blanks for the shell
 "$compiler" "$source" -o "$program" "$@"
