@@ -207,6 +207,20 @@ def test_an_effect_is_switched_off_alone(name: str) -> None:
         assert simulation.finite()
 
 
+@pytest.mark.parametrize(("name", "index"), [("moving_obstacles", 1), ("rigid_bodies", 2)])
+def test_what_moved_stands_still_where_it_is(name: str, index: int) -> None:
+    scene = parse_scene(crowded())
+    state = run_to(scene, 12)
+    less, _ = effect_of(name).off(scene, state)
+    assert len(less.colliders) == len(scene.colliders)
+    with Simulation(scene, RunSettings.of(scene, 1), state, 2 * len(state)) as simulation:
+        expected = simulation.colliders[index].shape
+    part = less.colliders[index]
+    assert part.motion is None and part.body is None
+    assert part.shape.position == pytest.approx(expected.position, abs=1e-6)
+    assert part.shape.position != pytest.approx(scene.colliders[index].shape.position, abs=1e-3)
+
+
 @pytest.mark.parametrize("data", [WATER, water_3d()], ids=["2D", "3D"])
 @pytest.mark.parametrize("solver", ["paper", "dual", "primal"])
 def test_every_effect_can_be_tried(data: dict[str, Any], solver: str) -> None:

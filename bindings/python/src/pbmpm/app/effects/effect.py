@@ -32,8 +32,6 @@ class Effect:
     idle: Callable[[Scene], str | None]
     off: Switch
     on: Switch
-    declared_is_on: bool = False
-    """Whether the list `effects` of a scene switches it on by itself."""
 
 
 def scene_with(scene: Scene, **changes: object) -> Scene:

@@ -205,6 +205,5 @@ def surrounding_effects() -> list[Effect]:
             _impulses_idle,
             _impulses_off,
             _impulses_on,
-            declared_is_on=True,
         ),
     ]
