@@ -103,7 +103,7 @@ class Plan:
 
 def names() -> list[str]:
     """All effects that can be measured."""
-    return [effect.name for effect in (*EFFECTS, *HOST_EFFECTS)]
+    return [*(effect.name for effect in EFFECTS), *(effect.name for effect in HOST_EFFECTS)]
 
 
 def measure(scene: Scene, settings: RunSettings, plan: Plan) -> Measurement:

@@ -50,6 +50,9 @@ class Probe(Simulation):
             self.world.close()
             raise
 
+    def __enter__(self) -> Probe:
+        return self
+
     def advance(self, dt: float) -> None:
         begin = time.process_time()
         self._advance(dt)
