@@ -180,6 +180,34 @@ def test_declared_impulses_are_measured() -> None:
         assert ("impulses" in effects_on(scene)) is (effects is not None)
 
 
+@pytest.mark.parametrize(
+    ("change", "settings"),
+    [
+        ({}, (False, 0.05, 0.5)),
+        ({"effects": ["liquid", "sleeping"]}, (True, 0.05, 0.5)),
+        ({"sleeping": {"speed": 0.25, "time": 1}}, (True, 0.25, 1.0)),
+    ],
+)
+def test_a_scene_can_sleep(change: dict[str, Any], settings: tuple[bool, float, float]) -> None:
+    scene = parse_scene(WATER | change)
+    assert effects_on(scene) == (["liquid", "sleeping"] if settings[0] else ["liquid"])
+    with Simulation(scene, RunSettings.of(scene, 1)) as simulation:
+        world = simulation.world
+        assert (world.sleeping, world.sleep_speed, world.sleep_time) == settings
+    off, _ = effect_of("sleeping").off(scene, run_to(scene, 1))
+    assert effects_on(off) == ["liquid"]
+
+
+def test_a_probe_of_a_scene_that_sleeps_begins_with_what_is_at_rest_asleep() -> None:
+    data = copy.deepcopy(WATER) | {"sleeping": {"speed": 1.0}}
+    data["fills"][0]["shape"] = {"kind": "box", "position": [1, 0.3], "half_extents": [1, 0.3]}
+    scene = parse_scene(data)
+    state = run_to(scene, 1)
+    with Probe(scene, RunSettings.of(scene, 1), state, len(state)) as probe:
+        assert probe.world.stats.particles_asleep == len(state)
+        assert probe.world.sleep_time == 0.5
+
+
 # Switching
 
 

@@ -32,5 +32,6 @@ EffectName = Literal[
     "baked_solids",
     "rigid_bodies",
     "impulses",
+    "sleeping",
 ]
 """Effects that a scene can have; what they are says `pbmpm.app.effects.catalogue`."""

@@ -334,6 +334,15 @@ class SolverPart(_Part):
     time_budget_ms: Milliseconds = 0.0
 
 
+class SleepingPart(_Part):
+    """Matter at rest takes no part in steps. None: the library's defaults, those of ``pbmpm_settings``."""
+
+    speed: Annotated[float, Field(ge=1e-9, le=1e9)] | None = None
+    """[m/s]"""
+    time: Annotated[float, Field(ge=0, le=1e6)] | None = None
+    """[s]"""
+
+
 class PicturesPart(_Part):
     """When to take pictures and how they look."""
 
@@ -368,6 +377,8 @@ class Scene(_Part):
     drains: list[DrainPart] = []
     kill_bounds: KillBoundsPart | None = None
     forces: list[ForcePart] = []
+    sleeping: SleepingPart | None = None
+    """Without it matter never sleeps, unless ``effects`` has it."""
     capacity: Annotated[int, Field(ge=1, le=2**28)] | None = None
     """Particles that there is room for; default: what fills and emitters can bring."""
     effects: list[EffectName] | None = None

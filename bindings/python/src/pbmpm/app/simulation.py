@@ -355,7 +355,15 @@ def _make_world(scene: Scene, settings: RunSettings, room: int) -> pbmpm.World:
         origin=scene.origin,
         max_displacement=scene.max_displacement,
         **settings.for_world(),
+        **_sleep(scene),
     )
+
+
+def _sleep(scene: Scene) -> dict[str, Any]:
+    """The settings of sleeping as `pbmpm.World` takes them."""
+    if scene.sleeping is not None:
+        return {"sleeping": True, "sleep_speed": scene.sleeping.speed, "sleep_time": scene.sleeping.time}
+    return {"sleeping": "sleeping" in (scene.effects or ())}
 
 
 def _capacity(scene: Scene) -> int:

@@ -39,6 +39,16 @@ def scene_with(scene: Scene, **changes: object) -> Scene:
     return scene.model_copy(update=changes)
 
 
+def declared(scene: Scene, name: EffectName) -> bool:
+    """Whether the scene's list of effects has it."""
+    return name in (scene.effects or ())
+
+
+def undeclared(scene: Scene, name: EffectName) -> Scene:
+    """The scene without an effect in its list."""
+    return scene if scene.effects is None else scene_with(scene, effects=[word for word in scene.effects if word != name])
+
+
 def never_idle(_: Scene) -> None:
     """For effects that always do something where they are."""
     return None

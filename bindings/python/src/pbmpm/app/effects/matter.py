@@ -9,9 +9,9 @@ from typing import Any, get_args
 import numpy as np
 
 from ..names import EffectName
-from ..scene import MaterialPart, Scene
+from ..scene import MaterialPart, Scene, SleepingPart
 from ..state import State
-from .effect import Effect, NotHere, never_idle, scene_with
+from .effect import Effect, NotHere, declared, never_idle, scene_with, undeclared
 
 SHARE = 0.1
 """Of the particles that become a material which a scene does not have, to see what it would cost."""
@@ -161,6 +161,20 @@ def _for_primal(scene: Scene) -> str | None:
     return None if primal else "only the primal solver uses it"
 
 
+def _sleeping_found(scene: Scene) -> str | None:
+    if scene.sleeping is not None:
+        return "sleeping"
+    return "effects" if declared(scene, "sleeping") else None
+
+
+def _sleeping_off(scene: Scene, state: State) -> tuple[Scene, State]:
+    return scene_with(undeclared(scene, "sleeping"), sleeping=None), state
+
+
+def _sleeping_on(scene: Scene, state: State) -> tuple[Scene, State]:
+    return scene_with(scene, sleeping=SleepingPart()), state
+
+
 def matter_effects() -> list[Effect]:
     """In the order of reports."""
     return [
@@ -173,4 +187,13 @@ def matter_effects() -> list[Effect]:
         ),
         _solver_option("flip", "liquids keep motion finer than the grid", "flip", 0.0, 0.9, _for_flip),
         _solver_option("bdf2", "second order in time", "integrator", "euler", "bdf2", _for_primal),
+        Effect(
+            "sleeping",
+            "matter at rest takes no part in steps",
+            "all that is at rest sleeps already",
+            _sleeping_found,
+            never_idle,
+            _sleeping_off,
+            _sleeping_on,
+        ),
     ]

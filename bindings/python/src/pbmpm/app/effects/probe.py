@@ -41,10 +41,13 @@ class Probe(Simulation):
         super().__init__(scene, settings, state, room)
         try:
             self._advance = host.prepare(self.world, state) if host is not None else self.world.step
+            time_to_sleep = self.world.sleep_time
+            self.world.sleep_time = 0.0  # what is at rest sleeps at once, as it would if it had not been put here
             self.step()
             self.memory_bytes = self.world.stats.memory_bytes + (host.host_bytes(self.world) if host is not None else 0)
             for _ in range(WARM_UP_STEPS - 1):
                 self.step()
+            self.world.sleep_time = time_to_sleep
             self._start = self.bookmark()
         except BaseException:
             self.world.close()

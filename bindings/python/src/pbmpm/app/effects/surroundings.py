@@ -12,7 +12,7 @@ from ..motion import Pose, collider_pose
 from ..names import EffectName
 from ..scene import BodyPart, BoxPart, ColliderPart, KeyframePart, MeshPart, MotionPart, Scene, SpherePart
 from ..state import State
-from .effect import Effect, NotHere, scene_with
+from .effect import Effect, NotHere, declared, scene_with, undeclared
 
 SIZE = 2.0
 """Half the size of an obstacle that a scene does not have [cells]."""
@@ -137,11 +137,11 @@ def _stands_still(part: ColliderPart, _: Scene) -> bool:
 
 def _measuring(scene: Scene) -> str | None:
     """Bodies take impulses anyway; this is about all the rest."""
-    return "effects" if "impulses" in (scene.effects or []) else None
+    return "effects" if declared(scene, "impulses") else None
 
 
 def _impulses_off(scene: Scene, state: State) -> tuple[Scene, State]:
-    return scene_with(scene, effects=[name for name in scene.effects or [] if name != "impulses"]), state
+    return undeclared(scene, "impulses"), state
 
 
 def _impulses_on(scene: Scene, state: State) -> tuple[Scene, State]:
