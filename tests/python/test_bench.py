@@ -10,6 +10,8 @@ from typing import Any
 
 import pytest
 
+from pbmpm.app.bench import lake
+from pbmpm.app.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
 from pbmpm.app.bench.measure import Costs, measure, pieces
 from pbmpm.app.bench.report import ratios_of, row_of
 from pbmpm.app.bench.subjects import ITERATIONS, MATERIALS, VARIANTS, applies, scene_of
@@ -118,3 +120,35 @@ def test_unknown_solvers_are_refused() -> None:
     done = run_bench("--solvers", "newton")
     assert done.returncode == 2
     assert "'newton' is not one of paper, dual" in done.stderr
+
+
+@pytest.mark.parametrize("name", [*PARTS, BOTH])
+def test_lakes_are_those_of_the_samples(name: str, root: Path) -> None:
+    sample = load_scene(root / "samples" / "scenes" / f"bench_{name}_3d.json")
+    own = lake_scene(name).model_dump(exclude={"name", "description"})
+    assert own == sample.model_dump(exclude={"name", "description"})
+
+
+def test_lake_and_jelly_are_both_and_nothing_else(monkeypatch: pytest.MonkeyPatch) -> None:
+    """2,048 particles of jelly in the hole of the lake; the lake has 200,000."""
+    monkeypatch.setattr(lake, "WARMUP_STEPS", 1)
+    ticks: list[None] = []
+    costs = measure_lake("paper", 1, lambda: ticks.append(None))
+    particles = {own.scene: own.particles for own in costs}
+    assert particles == {"lake": 205952, "jelly": 2048, BOTH: 208000}
+    assert all(len(own.seconds) == 1 and own.seconds[0] > 0 for own in costs)
+    assert len(ticks) == lake_pieces(1)
+
+
+def test_what_a_jelly_costs_over_its_share() -> None:
+    """100 + 2 by themselves, 107.1 together: 5 % more; disturbed rounds do not count."""
+    costs = [
+        LakeCosts("lake", 1000, [0.100, 0.250]),
+        LakeCosts("jelly", 10, [0.009, 0.002]),
+        LakeCosts(BOTH, 1010, [0.1071, 0.2]),
+    ]
+    assert over_parts(costs) == pytest.approx(5.0)
+    row = lake_row("dual", costs)
+    assert row["jelly"] == {"particles": 10, "ms_per_step_min": pytest.approx(2.0)}
+    assert lake_text([row]).startswith("dual: lake of 1000 particles 100.00 ms, jelly of 10 particles 2.00 ms,")
+    assert "together +5.0 % over the sum" in lake_text([row])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from typing import Any
 
 import click
@@ -17,8 +18,9 @@ from .subjects import MATERIALS, VARIANTS
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--rounds", type=click.IntRange(1, 1000), default=5, show_default=True, help="Times that each solver has its turn.")
 @click.option("--warmup-steps", type=click.IntRange(0, 10000), default=60, show_default=True, help="Motion before the measurement.")
+@click.option("--lake", is_flag=True, help="Measure instead what a jelly in a lake costs over both by themselves.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
-def bench(json_target: str | None, rounds: int, warmup_steps: int, **options: Any) -> None:
+def bench(json_target: str | None, rounds: int, warmup_steps: int, lake: bool, **options: Any) -> None:
     """Measure what an iteration and a step cost, per particle, with each solver.
 
     Dam breaks and falling blocks, 40,000 to 200,000 particles, on one thread that stays on one core. The solvers step from the
@@ -29,10 +31,17 @@ def bench(json_target: str | None, rounds: int, warmup_steps: int, **options: An
     from ..machine import machine_facts
     from ..progress import progress_bar
     from ..simulation import versions
+    from .lake import LAKE_VARIANTS, lake_text
     from .measure import measure, pieces, pin
     from .report import ratios_of, row_of, text_of
 
     variants = options["solvers"] or VARIANTS
+    if lake:
+        report = _lake_report(options["solvers"] or LAKE_VARIANTS, rounds)
+        emit_json(report, json_target)
+        if json_target != "-":
+            click.echo(lake_text(report["rows"]))
+        return
     subjects = [(name, int(dims)) for dims in options["dims"] or ("3", "2") for name in options["materials"] or MATERIALS]
     core, rows, ratios = pin(), [], []
     with progress_bar(len(subjects) * pieces(rounds), "round", "bench") as bar:
@@ -53,6 +62,21 @@ def bench(json_target: str | None, rounds: int, warmup_steps: int, **options: An
     emit_json(report, json_target)
     if json_target != "-":
         click.echo(text_of(report))
+
+
+def _lake_report(variants: Sequence[str], rounds: int) -> dict[str, Any]:
+    import pbmpm
+
+    from ..machine import machine_facts
+    from ..progress import progress_bar
+    from ..simulation import versions
+    from .lake import lake_pieces, lake_row, measure_lake
+    from .measure import pin
+
+    core = pin()
+    with progress_bar(len(variants) * lake_pieces(rounds), "round", "bench --lake") as bar:
+        rows = [lake_row(variant, measure_lake(variant, rounds, bar.update)) for variant in variants]
+    return {"rows": rows, "rounds": rounds, "core": core, "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1)}
 
 
 def _compilers() -> list[str]:

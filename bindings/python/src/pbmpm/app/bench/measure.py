@@ -86,7 +86,7 @@ def pieces(rounds: int) -> int:
     return rounds + 3
 
 
-def _choose(world: pbmpm.World, variant: str, iterations: int) -> None:
+def choose_variant(world: pbmpm.World, variant: str, iterations: int) -> None:
     """Sets the solver; what the variant does not name is the library's default."""
     options = parse_variant(variant)
     world.iterations = iterations
@@ -99,7 +99,7 @@ def _choose(world: pbmpm.World, variant: str, iterations: int) -> None:
 def _memory(scene: Scene, variant: str) -> tuple[int, float]:
     """Particles, and bytes of a world per particle that knows no other solver, after its first step."""
     with Simulation(scene, RunSettings.of(scene, 1)) as simulation:
-        _choose(simulation.world, variant, 1)
+        choose_variant(simulation.world, variant, 1)
         simulation.step()
         return len(simulation.world), simulation.world.stats.memory_bytes / len(simulation.world)
 
@@ -111,7 +111,7 @@ def _time_variant(world: pbmpm.World, state: Any, costs: Costs, rate_hz: float, 
         if solver == "explicit" and times is costs.many:
             break  # it has none
         world.restore(state)
-        _choose(world, costs.variant, iterations)
+        choose_variant(world, costs.variant, iterations)
         begin = time.thread_time()
         world.step(1.0 / rate_hz)
         seconds = time.thread_time() - begin
