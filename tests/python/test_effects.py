@@ -385,6 +385,8 @@ def test_rows_and_their_sum(measured: Any) -> None:
     total = sum(row["ns_per_particle_step"] for row in on) + report["interplay_ns_per_particle_step"]
     assert total == pytest.approx(report["scene_ns_per_particle_step"])
     assert rows[BARE]["ns_per_particle_step"] > 0
+    control = abs(report["control_percent_of_step"])
+    assert all(row["percent_error"] >= control for row in rows.values())
 
 
 def test_memory_of_effects(measured: Any) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
@@ -41,7 +41,7 @@ class Cost:
     percent: float
     """Of the step of the scene as it is."""
     percent_error: float
-    """Standard error of it."""
+    """Standard error of it, with what the scene seems to cost over itself."""
     bytes_per_particle: float
     facts: dict[str, Any] = field(default_factory=dict)
 
@@ -71,6 +71,8 @@ class Measurement:
     pinned: bool
     nanoseconds: float
     """Of the scene as it is, per particle and step."""
+    control_percent: float
+    """What it seems to cost over itself in another world: luck with the places that memory has."""
     bytes_per_particle: float
     costs: list[Cost] = field(default_factory=list)
     left_out: dict[str, str] = field(default_factory=dict)
@@ -163,6 +165,9 @@ class _Bench:
     def __init__(self, whole: Probe, state: State, steps: int, rounds: int) -> None:
         self.whole, self.state, self.steps, self.rounds = whole, state, steps, rounds
         self._room = whole.world.capacity
+        self.control = 0.0
+        with self.probe(whole.scene, state) as other:
+            self.control = self.against(other)[0].ratio - 1.0
 
     def probe(self, scene: Scene, state: State, host: Any = None) -> Probe:
         settings = RunSettings.of(
@@ -173,8 +178,9 @@ class _Bench:
         return Probe(scene, settings, state, self._room, host)
 
     def against(self, other: Probe) -> tuple[Comparison, float]:
-        """The other over the whole, and how many more bytes per particle it has."""
+        """The other over the whole, and how many more bytes per particle it has. The error knows the control."""
         comparison = compare(self.whole.turn, other.turn, self.steps, self.rounds)
+        comparison = replace(comparison, error=math.hypot(comparison.error, self.control))
         return comparison, (other.memory_bytes - self.whole.memory_bytes) / len(self.state)
 
     def per_particle(self, seconds: float) -> float:
@@ -250,6 +256,7 @@ def _begin(bench: _Bench, found: Sequence[Presence], pinned: bool) -> Measuremen
         bench.rounds,
         pinned,
         nanoseconds,
+        100 * bench.control,
         whole_bytes,
         [cost],
     )

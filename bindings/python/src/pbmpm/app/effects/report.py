@@ -30,6 +30,7 @@ def report_of(measured: Measurement) -> dict[str, Any]:
         "rows": rows,
         "scene_ns_per_particle_step": measured.nanoseconds,
         "scene_bytes_per_particle": measured.bytes_per_particle,
+        "control_percent_of_step": measured.control_percent,
         "interplay_ns_per_particle_step": measured.interplay,
         "interplay_percent_of_step": 100 * measured.interplay / measured.nanoseconds,
         "left_out": measured.left_out,
@@ -54,7 +55,8 @@ def text_of(report: dict[str, Any]) -> str:
         f" particle ({machine['isa']}, {machine['threads']} thread(s), {machine['cpu']}, {machine['date'][:10]})",
         "",
         table(report["rows"]),
-        f"interplay of the effects that are on: {report['interplay_percent_of_step']:+.1f} %",
+        f"interplay of the effects that are on: {report['interplay_percent_of_step']:+.1f} %; the scene over itself:"
+        f" {report['control_percent_of_step']:+.1f} %",
         *(f"not measured: {name}: {why}" for name, why in report["left_out"].items()),
         "",
         *report["remarks"],
