@@ -13,8 +13,9 @@ import pytest
 from PIL import Image
 
 from pbmpm.app.accuracy.case import Case, ErrorMeasure, Measurement, Setting, parse_variant, settings_of
+from pbmpm.app.accuracy.explore import Explorer, next_iterations, next_rate
 from pbmpm.app.accuracy.registry import all_cases, find_cases
-from pbmpm.app.accuracy.sweep import Choice, Sweep
+from pbmpm.app.accuracy.sweep import TIMINGS, Choice, Sweep
 from pbmpm.app.accuracy.table import legend, table
 from pbmpm.app.errors import InputError
 
@@ -67,6 +68,7 @@ def test_json_and_chart(tmp_path: Path) -> None:
         (("no-such-case",), "there is no case 'no-such-case' (there are: dam-break"),
         (("column", "--solvers", "paper,newton"), "'newton' is not a solver"),
         (("column", "--solvers", "dual-flip1.5"), "'flip1.5'"),
+        (("column", "--solvers", "dual-sound20"), "'sound20'"),
         (("column", "--rates", "0"), "above 0"),
     ],
 )
@@ -92,7 +94,7 @@ def test_find_cases_keeps_the_order_asked_for() -> None:
         find_cases(["x"])
 
 
-@pytest.mark.parametrize("variant", ["paper", "dual-cells", "dual-cells-flip0.9", "primal-bdf2", "explicit"])
+@pytest.mark.parametrize("variant", ["paper", "dual-cells", "dual-cells-flip0.9", "primal-bdf2", "explicit", "explicit-flip0.9-sound20"])
 def test_variants_are_written_as_they_are_read(variant: str) -> None:
     assert Setting(rate_hz=60.0, iterations=5, cells=16, **parse_variant(variant)).variant == variant
 
@@ -158,3 +160,83 @@ def test_a_choice_fills_in_what_the_sweep_has() -> None:
         ("dual-cells", 60.0, 7),
         ("dual-cells", 120.0, 7),
     ]
+
+
+class Priced(Stub):
+    """Errors and costs by a law: the error falls with the rate and the iterations, the cost is their product."""
+
+    sharpness = {"paper": 2.0, "dual": 0.1, "explicit": 10.0}
+    measured: list[Setting] = []
+
+    def sweep(self, quick: bool) -> list[Setting]:
+        coarse = settings_of(("paper", "dual", "dual-cells"), (30.0, 480.0), (2, 20), (8,))
+        return coarse + [Setting("explicit", 480.0, 1, 8, sound=10.0)] + settings_of(("dual",), (60.0,), (2,), (16,))
+
+    def measure(self, setting: Setting) -> Measurement:
+        self.measured.append(setting)
+        error = self.sharpness[setting.solver] / setting.rate_hz + 0.1 / setting.iterations**2 / setting.rate_hz**0.5
+        cost = setting.rate_hz * (setting.iterations + 3) * (1.5 if setting.pressure == "cells" else 1.0)
+        # Timings are noisy: each one of the same setting is 1 ms shorter than the one before.
+        cost -= self.measured.count(setting)
+        stable = setting.solver != "explicit" or setting.rate_hz > 30.0 * setting.sound
+        return Measurement({"error": error}, cost, 1.0, 0.0, stable, [] if stable else ["it blew up"])
+
+
+def test_search_finds_the_front_between_the_settings_of_the_sweep() -> None:
+    """At an error of 1 % the law's cheapest dual setting is 90 Hz x 3: 0.0011 + 0.1 / 9 / sqrt(90) = 0.0023; with 2 iterations
+    or at 15 Hz more is lost. The sweep alone has 30 and 480 Hz x 2 and 20."""
+    Priced.measured.clear()
+    case = Priced()
+    report = Sweep().search(case, 5.0)
+    assert {setting for setting in case.sweep(False)} <= set(report.settings)
+    stable = [row for row in report.rows if row["stable"] and row["cells"] == 8]
+    for solver in ("paper", "dual"):
+        own = [row for row in stable if row["solver"] == solver]
+        front = [row for row in own if not any(beats(other, row) for other in own)]
+        inside = [row for row in front if 0.005 <= row["error"] <= 0.05]
+        assert len(inside) >= 4
+        # Nothing next to the front beats it.
+        for row in inside:
+            for rate, count in ((next_rate(row["rate_hz"], False), row["iterations"]), (row["rate_hz"], next_iterations(row["iterations"], False))):
+                other = [item for item in own if (item["rate_hz"], item["iterations"], item["variant"]) == (rate, count, row["variant"])]
+                assert other or rate < case.slowest_hz
+    moduli = {setting.sound for setting in report.settings if setting.solver == "explicit"}
+    assert {5.0, 10.0, 20.0} <= moduli
+    assert any(not row["stable"] for row in report.rows)
+
+
+def beats(one: dict[str, Any], other: dict[str, Any]) -> bool:
+    return one["ms_per_simulated_second"] < other["ms_per_simulated_second"] and one["error"] <= other["error"]
+
+
+def test_settings_on_a_front_are_timed_again_and_the_cheapest_counts() -> None:
+    Priced.measured.clear()
+    report = Sweep().search(Priced(), 5.0)
+    again = [setting for setting in report.settings if Priced.measured.count(setting) == TIMINGS]
+    assert again and all(Priced.measured.count(setting) in (1, TIMINGS) for setting in report.settings)
+    row = report.rows[report.settings.index(again[0])]
+    scale = 1.5 if again[0].pressure == "cells" else 1.0
+    assert row["ms_per_simulated_second"] == again[0].rate_hz * (again[0].iterations + 3) * scale - TIMINGS
+
+
+def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A clock on which a setting takes a second per 1000 of its work: 480 Hz x 20 takes 11 s, more than a quarter of 40."""
+    clock = [0.0]
+    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: clock[0])
+    rows: list[Setting] = []
+
+    def measure(setting: Setting) -> dict[str, Any]:
+        clock[0] += setting.work / 1000.0
+        rows.append(setting)
+        return {"solver": setting.solver, "stable": True, "error": 1.0, "ms_per_simulated_second": 1.0, "rate_hz": 1.0, "iterations": 1, "cell_m": 1.0}
+
+    explorer = Explorer(Priced(), measure, 40.0)
+    explorer.run()
+    assert {(left.setting.rate_hz, left.setting.iterations) for left in explorer.left_out.values()} >= {(480.0, 20)}
+    assert all(setting.work <= 10000.0 for setting in rows)
+    assert "would take 11 s" in next(left.text() for left in explorer.left_out.values() if left.setting.rate_hz == 480.0)
+
+
+def test_ladders() -> None:
+    assert [next_rate(60.0, True), next_rate(90.0, True), next_rate(60.0, False), next_rate(100.0, False)] == [90.0, 120.0, 45.0, 90.0]
+    assert [next_iterations(5, True), next_iterations(5, False), next_iterations(6, False), next_iterations(1, False)] == [7, 3, 5, 1]

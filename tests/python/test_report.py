@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import struct
 from pathlib import Path
@@ -16,7 +17,7 @@ from pbmpm.app.report.build import compilers
 from pbmpm.app.report.chart import accuracy_figure
 from pbmpm.app.report.pareto import Point, cost_of, front_of
 from pbmpm.app.report.rows import cases_of, verdicts_of
-from pbmpm.app.report.verdict import judge, round_levels
+from pbmpm.app.report.verdict import GOOD, LEVELS, judge, round_levels
 from pbmpm.app.report.words import error_text, verdict_table
 
 
@@ -54,70 +55,96 @@ def test_cost_outside_the_front() -> None:
 
 def test_verdict_of_a_solver_four_times_cheaper() -> None:
     dual = line("dual", 1.0, [0.5, 0.1, 0.02, 0.001])
-    points = [*dual, *line("paper", 4.0, [0.6, 0.05]), *line("explicit", 20.0, [0.3, 0.1])]
+    points = [*dual, *line("paper", 4.0, [0.6, 0.001]), *line("explicit", 20.0, [0.3, 0.001])]
     verdict = judge(points, ["dual", "paper", "explicit"])
     paper, explicit = verdict.comparisons
-    assert paper.level == 0.05
-    assert paper.ratio == pytest.approx(4.0)
-    assert explicit.ratio == pytest.approx(20.0)
+    assert (verdict.highest, verdict.lowest) == pytest.approx((GOOD, GOOD / 10))
+    assert paper.ratios == pytest.approx([4.0] * LEVELS)
+    assert explicit.median == pytest.approx(20.0)
     assert verdict.best_error == 0.001
-    assert verdict.alone_on_front and verdict.passed
+    assert verdict.alone_on_front and verdict.passed and verdict.always
 
 
 def test_verdict_of_a_solver_that_is_not_cheap_enough() -> None:
-    points = [*line("primal", 1.0, [0.5, 0.01]), *line("paper", 2.0, [0.5, 0.01]), *line("explicit", 20.0, [0.5, 0.01])]
+    points = [
+        *line("primal", 1.0, [0.5, 0.001]),
+        *line("paper", 2.0, [0.5, 0.001]),
+        *line("explicit", 20.0, [0.5, 0.001]),
+    ]
     verdict = judge(points, ["primal", "paper", "explicit"])
-    assert verdict.comparisons[0].ratio == pytest.approx(2.0)
+    assert verdict.comparisons[0].median == pytest.approx(2.0)
     assert not verdict.comparisons[0].reached
     assert verdict.comparisons[1].reached
     assert verdict.alone_on_front and not verdict.passed
 
 
 def test_verdict_names_others_on_the_front() -> None:
-    points = [*line("dual", 1.0, [0.1, 0.01]), Point("paper", "cheap", 0.5, 0.9)]
+    points = [*line("dual", 1.0, [0.04, 0.01]), Point("paper", "cheap", 0.5, 0.05)]
     verdict = judge(points, ["dual", "paper", "explicit"])
     assert verdict.solvers_on_front == ("paper", "dual")
     assert not verdict.passed
 
 
+def test_cheap_answers_that_are_not_good_do_not_count() -> None:
+    """The paper's cheapest is on the front, but worse than what is called good."""
+    points = [*line("dual", 1.0, [0.5, 0.01]), Point("paper", "cheap", 0.5, 0.051), *line("paper", 9.0, [0.04, 0.01])]
+    verdict = judge([*points, *line("explicit", 99.0, [0.5, 0.01])], ["dual", "paper", "explicit"])
+    assert verdict.front[0].solver == "paper"
+    assert verdict.solvers_on_front == ("dual",) and verdict.passed
+
+
+def test_errors_far_below_good_do_not_count() -> None:
+    """The paper's solver meets the truth by luck, far below the decade that is looked at."""
+    points = [*line("dual", 1.0, [0.5, 0.001]), *line("paper", 9.0, [0.5, 0.001]), Point("paper", "luck", 9500.0, 1e-7)]
+    paper = judge(points, ["dual", "paper"]).comparisons[0]
+    assert min(paper.ratios) > 3.0 and paper.always
+
+
 def test_verdict_when_the_other_goes_further() -> None:
-    """The accelerated stop at 0.1; the paper's reaches 0.01. They are compared at 0.1."""
-    verdict = judge([*line("dual", 1.0, [0.5, 0.1]), *line("paper", 1.0, [0.5, 0.01])], ["dual", "paper"])
+    """The accelerated stop at 0.02; the paper's reaches 0.001. They are compared from 0.05 to 0.02."""
+    verdict = judge([*line("dual", 1.0, [0.5, 0.02]), *line("paper", 1.0, [0.5, 0.001])], ["dual", "paper"])
     paper, explicit = verdict.comparisons
-    assert (paper.level, paper.best_error) == (0.1, 0.01)
-    assert paper.ratio == pytest.approx(1.0)
+    assert (verdict.highest, verdict.lowest, paper.best_error) == pytest.approx((0.05, 0.02, 0.001))
+    assert paper.ratios == pytest.approx([1.0] * LEVELS)
     assert not explicit.measured and not explicit.reached
+    assert verdict.solvers_on_front == ("dual", "paper")
 
 
-def test_verdict_at_the_error_that_is_called_good() -> None:
-    """At 0.1 the paper's costs twice as much, at its best, 0.01, eight times as much; 0.005 it never reaches."""
+def test_verdict_where_good_is_not_reached() -> None:
+    """They are still compared, at the best that the accelerated reach, but that is no success."""
+    points = [*line("dual", 1.0, [0.5, 0.1]), *line("paper", 30.0, [0.5, 0.1]), *line("explicit", 30.0, [0.5, 0.1])]
+    verdict = judge(points, ["dual", "paper", "explicit"])
+    assert [item.ratios for item in verdict.comparisons] == [pytest.approx((30.0,))] * 2
+    assert not verdict.good_reached and not verdict.passed
+
+
+def test_verdict_over_the_errors_below_the_one_that_is_called_good() -> None:
+    """The paper's costs 2 times as much at 0.1 and 8 times at 0.01: the median is that of the middle, 4 times."""
     points = [*line("dual", 1.0, [0.1, 0.01, 0.005]), Point("paper", "a", 20, 0.1), Point("paper", "b", 800, 0.01)]
-    at_good = judge(points, ["dual", "paper"], good=0.1).comparisons[0]
-    assert at_good.level == 0.1 and at_good.ratio == pytest.approx(2.0) and not at_good.reached
-    beyond = judge(points, ["dual", "paper"], good=0.005).comparisons[0]
-    assert beyond.ratio is None and beyond.other_cost is None and beyond.reached
-    unreachable = judge(points, ["dual", "paper"], good=0.001).comparisons[0]
-    assert unreachable.level == 0.01 and unreachable.ratio == pytest.approx(8.0)
+    paper = judge(points, ["dual", "paper"], good=0.1).comparisons[0]
+    assert paper.ratios[0] == pytest.approx(2.0) and paper.ratios[-1] == pytest.approx(8.0)
+    assert paper.median == pytest.approx(4.0)
+    assert paper.reached and not paper.always
+
+
+def test_errors_that_the_other_does_not_reach_are_infinitely_dear() -> None:
+    """The paper's ends a third of the way down the decade."""
+    points = [*line("dual", 1.0, [0.1, 0.01]), *line("paper", 1.0, [0.1, 0.05])]
+    paper = judge(points, ["dual", "paper"], good=0.1).comparisons[0]
+    assert paper.ratios[0] == pytest.approx(1.0) and paper.median == math.inf
+    assert paper.reached and not paper.always
 
 
 def test_verdict_where_the_other_is_never_stable() -> None:
-    verdict = judge(line("dual", 1.0, [0.5, 0.1]), ["dual", "paper", "explicit"])
-    assert all(comparison.best_error is None and comparison.reached for comparison in verdict.comparisons)
+    verdict = judge(line("dual", 1.0, [0.5, 0.01]), ["dual", "paper", "explicit"])
+    assert all(comparison.best_error is None and comparison.always for comparison in verdict.comparisons)
     assert verdict.levels[0].costs["paper"] is None
 
 
 def test_verdict_without_a_stable_accelerated_setting() -> None:
-    verdict = judge(line("paper", 1.0, [0.5, 0.1]), ["dual", "paper"])
-    assert verdict.best_error is None
+    verdict = judge(line("paper", 1.0, [0.5, 0.01]), ["dual", "paper"])
+    assert verdict.best_error is None and verdict.comparisons[0].median is None
     assert not verdict.passed
-
-
-def test_lowest_ratio_is_that_of_the_worst_error() -> None:
-    """The paper's costs 8 times as much at 0.01 and 2 times at 0.1, where its front begins."""
-    points = [*line("dual", 1.0, [0.1, 0.01]), Point("paper", "a", 20, 0.1), Point("paper", "b", 800, 0.01)]
-    paper = judge(points, ["dual", "paper"]).comparisons[0]
-    assert paper.lowest_ratio == pytest.approx(2.0)
-    assert paper.highest_ratio == pytest.approx(8.0)
 
 
 def test_levels_are_round_and_few() -> None:
@@ -175,13 +202,35 @@ def report() -> dict[str, Any]:
 
 def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
     good, poor = verdicts_of(cases_of(report))
-    # The dual costs 4 at 0.05; the others 16 and 80.
-    assert [comparison.ratio for comparison in good[1].comparisons] == pytest.approx([4.0, 20.0])
+    # The dual costs 4 at 0.05 and 8 at its best; the others 4 and 20 times as much.
+    assert [comparison.median for comparison in good[1].comparisons] == pytest.approx([4.0, 20.0])
     assert good[1].passed and not poor[1].passed
     text = verdict_table([good, poor])
-    assert re.search(r"^good .*4x at 5 %.*20x at 5 %.*reached$", text, re.M)
-    assert re.search(r"^poor .*0.1x at 5 %.*below 3x.*not measured.*paper on the front too", text, re.M)
-    assert "1 of 2 cases" in text
+    assert re.search(r"^good .*5 % to 2.5 % +4x \(4x to 4x\) +20x \(20x to 20x\) +dual +reached$", text, re.M)
+    assert re.search(r"^poor .*0.1x .*below 3x.*not measured.*paper on the front too", text, re.M)
+    assert "1 of 2 cases" in text and "1 of them at every error" in text
+
+
+def test_only_the_own_grid_of_a_case_is_judged(report: dict[str, Any]) -> None:
+    """On a coarser grid the paper's solver is cheaper than all; that says nothing about the solvers."""
+    report["cases"][0]["own_cells"] = 32
+    for item in report["rows"]:
+        item["cells"] = 32
+    report["rows"].append({**row("good", "paper", 0.1, 0.02), "cells": 8})
+    assert cases_of(report)[0].verdict().passed
+    report["rows"][-1]["cells"] = 32
+    assert not cases_of(report)[0].verdict().passed
+
+
+def test_claims_have_no_verdict_and_the_page_says_so(report: dict[str, Any], tmp_path: Path) -> None:
+    report["cases"][1]["searched"] = False
+    report["cases"][0]["left_out"] = ["explicit, 99 Hz: would take 70 s to measure"]
+    assert [case.name for case, _ in verdicts_of(cases_of(report))] == ["good"]
+    page = tmp_path / "page.html"
+    save_accuracy_page(report, "pbmpm accuracy", "", page)
+    text = page.read_text(encoding="utf-8")
+    assert "without a verdict: poor" in text and text.count("Verdict: ") == 1
+    assert "would take 70 s to measure" in text
 
 
 def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, Any]) -> None:

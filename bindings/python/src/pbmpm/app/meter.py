@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections import Counter
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +13,12 @@ import pbmpm
 
 PHASES = ("sort", "scatter", "contacts", "iterate", "integrate")
 """The phases of a step that the library times, in their order."""
+
+
+def stepping_clock(threads: int) -> Callable[[], float]:
+    """The clock [s] that tells what steps cost: the processor time of the calling thread where it does all the work, so
+    that other programs matter little; wall time where several threads share it."""
+    return time.thread_time if threads == 1 else time.perf_counter
 
 
 class Meter:

@@ -7,9 +7,11 @@ import sys
 from tqdm import tqdm
 
 
-def progress_bar(total: float, unit: str, label: str) -> tqdm:
-    """A tqdm bar with rate and time left; silent when stderr is not a terminal."""
+def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
+    """A tqdm bar with rate and time left, as far as the total is known; silent when stderr is not a terminal."""
     layout = "{desc}: {percentage:3.0f}% |{bar}| {n:.3g}/{total:.3g} {unit} [{rate_fmt}, {remaining} left{postfix}]"
+    if total is None:
+        layout = "{desc}: {n:.3g} {unit} [{elapsed}{postfix}]"
     return tqdm(
         total=total,
         unit=unit,

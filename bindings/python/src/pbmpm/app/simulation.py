@@ -57,11 +57,12 @@ class RunSettings:
 
     def text(self) -> str:
         """For captions."""
+        return f"{self.solver_text()}, {self.pace_text()}"
+
+    def pace_text(self) -> str:
+        """Rate, substeps and iterations for people."""
         parts = f" x {self.substeps} substeps" if self.substeps > 1 else ""
-        return (
-            f"{self.solver_text()}, {self.rate_hz:g} Hz{parts} x {self.iterations}"
-            f" iteration{'s' if self.iterations > 1 else ''}"
-        )
+        return f"{self.rate_hz:g} Hz{parts} x {self.iterations} iteration{'s' if self.iterations > 1 else ''}"
 
     def solver_text(self) -> str:
         """The solver with its options where they differ from the defaults."""

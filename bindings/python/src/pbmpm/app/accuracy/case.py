@@ -24,6 +24,9 @@ from .measures import Curve
 
 ErrorKind = Literal["model", "discretisation", "solver"]
 
+COURANT_SHARES = (0.8, 1.1, 1.7)
+"""Rates of the explicit solver over that at which its fastest wave travels a cell per step."""
+
 
 @dataclass(frozen=True)
 class Setting:
@@ -36,6 +39,8 @@ class Setting:
     integrator: IntegratorName = "euler"
     pressure: PressureName = "particles"
     flip: float = 0.0
+    sound: float = 0.0
+    """Explicit solver, liquids: speed of sound over the fastest flow, which sets the bulk modulus; 0: as the case has it."""
     substeps: int = 1
     threads: int = 1
 
@@ -47,7 +52,7 @@ class Setting:
     @property
     def variant(self) -> str:
         """The solver with its options, as ``--solvers`` takes it: "dual-cells-flip0.9"."""
-        return self.run_settings().solver_text()
+        return self.run_settings().solver_text() + (f"-sound{self.sound:g}" if self.sound else "")
 
     @property
     def work(self) -> float:
@@ -69,7 +74,7 @@ class Setting:
 
     def text(self) -> str:
         """For people."""
-        return f"{self.run_settings().text()}, {self.cells} cells"
+        return f"{self.variant}, {self.run_settings().pace_text()}, {self.cells} cells"
 
     def options(self) -> str:
         """The options of ``pbmpm accuracy CASE`` that measure this setting alone."""
@@ -87,14 +92,17 @@ def parse_variant(text: str) -> dict[str, Any]:
     fields: dict[str, Any] = {"solver": solver}
     for option in options:
         flip = re.fullmatch(r"flip(\d*\.?\d+)", option)
+        sound = re.fullmatch(r"sound(\d*\.?\d+)", option)
         if option in get_args(PressureName):
             fields["pressure"] = option
         elif option in get_args(IntegratorName):
             fields["integrator"] = option
         elif flip and float(flip[1]) <= 1:
             fields["flip"] = float(flip[1])
+        elif sound and solver == "explicit" and float(sound[1]) > 0:
+            fields["sound"] = float(sound[1])
         else:
-            raise InputError(f"'{option}' in '{text}' is not an option (there are: cells, bdf2, flip0.9)")
+            raise InputError(f"'{option}' in '{text}' is not an option (there are: cells, bdf2, flip0.9; explicit: sound20)")
     return fields
 
 
@@ -183,6 +191,13 @@ class Case(ABC):
     """Tolerances, timing, and what was left out."""
     panels: tuple[CurvePanel, ...] = ()
     converged_iterations = 100
+    slowest_hz = 15.0
+    """No search below: what moves in steps that the eye counts is no animation, even where a state at rest would allow it."""
+    patience = 1.0
+    """Times the time for the search that dear cases get."""
+    searched = True
+    """Whether the full sweep goes on to search around the fronts. Claims, predictions and invariances have no front: nobody
+    looks for the cheapest way to a claim."""
 
     @abstractmethod
     def sweep(self, quick: bool) -> list[Setting]:
@@ -210,6 +225,11 @@ class Case(ABC):
     def distance(self, observed: tuple[float, ...], other: tuple[float, ...]) -> float:
         """How far two observations are apart, in the unit of the headline: root mean square by default."""
         return float(np.sqrt(np.mean((np.asarray(observed) - np.asarray(other)) ** 2)))
+
+    @property
+    def own_cells(self) -> int:
+        """The grid on which solvers are compared; others only show what the grid adds."""
+        return self.sweep(False)[0].cells
 
     @property
     def headline(self) -> ErrorMeasure:

@@ -37,53 +37,98 @@ class VariantList(click.ParamType):
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per substep.")
 @click.option("--cells", type=NumberList(int, 1024), help="Cells over the length of the case.")
 @click.option("--substeps", type=click.IntRange(1, 256), default=1, show_default=True, help="Substeps per step.")
+@click.option(
+    "--seconds",
+    type=click.FloatRange(1.0),
+    default=30.0,
+    show_default=True,
+    help="Processor time per case for the search around the fronts. Not with --quick or with chosen settings.",
+)
 @click.option("--quick", is_flag=True, help="Few settings, for a first look.")
 @click.option(
     "--converged/--no-converged",
     default=None,
-    help="Also solve each grid and rate with many iterations, to tell the solver's error.  [default: not with --quick]",
+    help="Also solve each grid and rate with many iterations (search: those on the fronts), to tell the solver's error."
+    "  [default: not with --quick]",
+)
+@click.option(
+    "--from",
+    "saved",
+    multiple=True,
+    type=click.Path(path_type=Path, dir_okay=False, exists=True),
+    help="Show what --json wrote instead of measuring; can be given more than once.",
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
 @click.option("--chart", type=click.Path(path_type=Path, file_okay=False), help="Folder for a PNG per case.")
 @click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write charts, verdicts and tables as a page.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def accuracy(
-    names: tuple[str, ...], only_list: bool, json_target: str | None, chart: Path | None, html: Path | None, **options: Any
+    names: tuple[str, ...],
+    only_list: bool,
+    json_target: str | None,
+    chart: Path | None,
+    html: Path | None,
+    saved: tuple[Path, ...],
+    **options: Any,
 ) -> None:
     """Compare CASEs with experiments and theory: error against milliseconds, over rates, iterations, solvers and cells.
 
-    Without CASE: all of them. What is not given is as each case has it. Exit code 1 when a setting is not stable; it stays
-    in all tables and charts, marked. At the end the verdict: how many times cheaper the dual and primal solvers are than the
+    Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers; what
+    is not given is as each case has it. Exit code 1 when a setting is not stable; it stays in all tables and charts,
+    marked. Costs are processor time with one thread, else wall time. At the end the verdict: how many times cheaper the dual and primal solvers are than the
     paper's and the explicit one at equal error.
     """
-    from ..report.rows import cases_of, verdicts_of
-    from ..report.words import verdict_table
     from .chart import save_chart
     from .registry import find_cases
-    from .sweep import Choice, Sweep, report_of
-    from .table import legend, table
+    from .saved import merged
+    from .sweep import report_of
 
     cases = find_cases(names)
     if only_list:
         for case in cases:
             click.echo(f"{case.name:20} {case.dimension}D {case.kind:8} {case.title}")
         return
+    if saved:
+        if chart is not None:
+            raise InputError("--chart needs the curves, which --json does not keep: measure, or use --html")
+        whole = merged(saved, [case.name for case in cases])
+    else:
+        reports = _measured(cases, options, json_target != "-")
+        whole = report_of(reports, options["threads"])
+        for report in reports if chart is not None else []:
+            save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
+    _show(whole, names, json_target, html)
+
+
+def _measured(cases: list[Any], options: dict[str, Any], aloud: bool) -> list[Any]:
+    """Runs the cases; ``aloud``: prints each one's table as soon as it is there."""
+    from .sweep import Choice, Sweep
+    from .table import legend, table
+
     wanted = options.pop("converged")
     converged = not options["quick"] if wanted is None else wanted
+    seconds = options.pop("seconds")
     choice = Choice(variants=options.pop("solvers"), **options)
     sweep, reports = Sweep(converged), []
     for case in cases:
-        settings = choice.settings(case)
-        if not settings:
-            raise InputError(f"{case.name}: no setting is left to measure")
-        report = sweep.run(case, settings)
+        if case.searched and choice.open:
+            report = sweep.search(case, seconds * case.patience)
+        else:
+            settings = choice.settings(case)
+            if not settings:
+                raise InputError(f"{case.name}: no setting is left to measure")
+            report = sweep.run(case, settings)
         reports.append(report)
-        if json_target != "-":
+        if aloud:
             click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
-    whole = report_of(reports, options["threads"])
-    if chart is not None:
-        for report in reports:
-            save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
+    return reports
+
+
+def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None, html: Path | None) -> None:
+    """Rows, page and verdicts; ends the program with an exit code of its own when a setting is not stable."""
+    from ..report.rows import cases_of, verdicts_of
+    from ..report.words import verdict_table
+
     emit_json(whole, json_target)
     if html is not None:
         from ..report.accuracy_page import save_accuracy_page

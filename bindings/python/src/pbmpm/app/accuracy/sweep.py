@@ -12,7 +12,11 @@ from ..machine import machine_facts
 from ..progress import progress_bar
 from ..simulation import versions
 from .case import Case, Measurement, Setting, settings_of
+from .explore import Explorer
 from .stability import DEFINITION
+
+TIMINGS = 3
+"""Measurements of the settings on a front."""
 
 
 @dataclass(frozen=True)
@@ -27,11 +31,20 @@ class Choice:
     substeps: int = 1
     threads: int = 1
 
+    @property
+    def open(self) -> bool:
+        """Whether everything is left to the case."""
+        return not self.quick and self._plain
+
+    @property
+    def _plain(self) -> bool:
+        asked = (self.variants, self.rates, self.iterations, self.cells)
+        return all(values is None for values in asked) and (self.substeps, self.threads) == (1, 1)
+
     def settings(self, case: Case) -> list[Setting]:
         """The case's own sweep, or all combinations of what was asked for with what the sweep holds for the rest."""
         own = case.sweep(self.quick)
-        asked = (self.variants, self.rates, self.iterations, self.cells)
-        if all(values is None for values in asked) and (self.substeps, self.threads) == (1, 1):
+        if self._plain:
             return own
         implicit = [setting for setting in own if setting.solver != "explicit"]
         made = []
@@ -61,6 +74,8 @@ class CaseReport:
     settings: list[Setting]
     measurements: list[Measurement]
     rows: list[dict[str, Any]]
+    left_out: list[str] = field(default_factory=list)
+    """Settings that would have taken too long."""
 
     def facts(self) -> dict[str, Any]:
         """What a report says about the case, once."""
@@ -75,6 +90,9 @@ class CaseReport:
             "length_name": case.length_name,
             "notes": case.notes,
             "errors": [vars(measure) for measure in case.error_kinds],
+            "searched": case.searched,
+            "own_cells": case.own_cells,
+            "left_out": self.left_out,
         }
 
 
@@ -96,6 +114,40 @@ class Sweep:
                 rows.append(row_of(case, setting, measurement, self._reference(case, setting)))
                 bar.update(setting.work)
         return CaseReport(case, settings, measurements, rows)
+
+    def search(self, case: Case, seconds: float) -> CaseReport:
+        """The case's own sweep and what lies around the fronts of its solvers, for about ``seconds`` of processor time.
+
+        Settings on the fronts are measured TIMINGS times in all, and the cheapest counts: other programs only ever add to
+        a cost. They alone get their distance from the converged solution.
+        """
+        measurements: dict[Setting, Measurement] = {}
+        with progress_bar(None, "settings", case.name) as bar:
+
+            def measure(setting: Setting) -> dict[str, Any]:
+                bar.set_postfix_str(setting.text())
+                measurements[setting] = case.measure(setting)
+                bar.update(1)
+                return row_of(case, setting, measurements[setting], None)
+
+            explorer = Explorer(case, measure, seconds)
+            explorer.run()
+            for setting in explorer.worthwhile():
+                bar.set_postfix_str(f"again: {setting.text()}")
+                found = measurements[setting]
+                costs = [found.ms_per_simulated_second]
+                costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
+                found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
+                reference = self._reference(case, setting) if explorer.affordable(case.converged(setting)) else None
+                explorer.rows[setting] = row_of(case, setting, found, reference)
+        settings = sorted(explorer.rows, key=lambda item: (item.variant, item.cells, item.rate_hz, item.iterations))
+        return CaseReport(
+            case,
+            settings,
+            [measurements[setting] for setting in settings],
+            [explorer.rows[setting] for setting in settings],
+            [left.text() for left in explorer.left_out.values()],
+        )
 
     def _reference(self, case: Case, setting: Setting) -> Measurement | None:
         target = case.converged(setting) if self.with_converged else None

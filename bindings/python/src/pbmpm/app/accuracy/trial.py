@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from ..meter import Meter
+from ..meter import Meter, stepping_clock
 from ..scene import Scene
 from ..simulation import Simulation
 from .case import Measurement, Setting
@@ -38,6 +37,7 @@ class Trial:
     ) -> None:
         self.setting = setting
         self.meter, self.judge = Meter(), judge or StabilityJudge()
+        self._clock = stepping_clock(setting.threads)
         self.steps = max(1, math.ceil(seconds * setting.rate_hz - 1e-9))
         with Simulation(scene, setting.run_settings()) as simulation:
             if prepare is not None:
@@ -54,18 +54,17 @@ class Trial:
                     observe(simulation)
 
     def _step(self, simulation: Simulation) -> None:
-        start, cpu_start = time.perf_counter(), time.process_time()
+        start = self._clock()
         simulation.step()
-        seconds, cpu_seconds = time.perf_counter() - start, time.process_time() - cpu_start
+        seconds = self._clock() - start
         stats = simulation.world.stats
-        self.meter.add(stats, seconds, cpu_seconds)
+        self.meter.add(stats, seconds)
         self.judge.watch(stats)
 
     def measurement(self, errors: Mapping[str, float | None], **more: Any) -> Measurement:
         """The measurement of a case that consists of this run alone. Errors of a run that broke are dropped."""
         broken = self.judge.broken
         figures = {
-            "cpu_ms_per_simulated_second": 1e3 * self.meter.cpu_seconds / (self.meter.steps * self.setting.dt),
             "volume_error_rms": self.meter.volume_error_rms,
             "energy_peak": self.judge.energy_peak,
             "stops": dict(self.meter.stops),

@@ -25,7 +25,8 @@ def save_accuracy_page(report: dict[str, Any], command: str, options: str, path:
         options: those of them that choose what is measured, to measure one case again.
         path: the page.
     """
-    verdicts = verdicts_of(cases_of(report))
+    cases = cases_of(report)
+    verdicts = verdicts_of(cases)
     save_page(
         "accuracy.html.j2",
         path,
@@ -37,7 +38,8 @@ def save_accuracy_page(report: dict[str, Any], command: str, options: str, path:
         headings=words.HEADINGS,
         meaning=words.MEANING,
         counted=words.counted(verdicts),
-        cases=[_section(case, verdict, options) for case, verdict in verdicts],
+        not_compared=words.not_compared(cases),
+        cases=[_section(case, case.verdict(), options) for case in cases],
     )
 
 
@@ -48,6 +50,7 @@ def _section(case: CaseRows, verdict: Verdict, options: str) -> dict[str, Any]:
         "name": case.name,
         "facts": case.facts,
         "chart": figure.to_html(full_html=False, include_plotlyjs=False, config={"displaylogo": False}),
+        "compared": case.compared,
         "passed": verdict.passed,
         "verdict_cells": words.verdict_cells(case, verdict),
         "verdict_text": f"Verdict: {words.verdict_text(verdict)}",
@@ -110,12 +113,15 @@ def _measure_text(measure: dict[str, Any]) -> str:
 def _left_out(case: CaseRows) -> list[str]:
     """What the reader does not see: what the case says, settings without a figure, solvers that were not tried."""
     lines = [case.facts["notes"]] if case.facts["notes"] else []
+    lines += case.facts.get("left_out", [])
     without = [row for row in case.rows if row["error"] is None or row["ms_per_simulated_second"] is None]
     if without:
         lines.append(
             f"{len(without)} settings broke before an error could be measured: crosses at the chart's upper edge."
         )
     missing = [solver for solver in ("paper", "dual", "primal", "explicit") if solver not in case.solvers]
+    if case.facts.get("own_cells") is not None and any(row["cells"] != case.facts["own_cells"] for row in case.rows):
+        lines.append(f"Front and verdict: only the grid of {case.facts['own_cells']} cells.")
     if missing:
         lines.append(f"Not in this sweep: {', '.join(missing)}.")
     return lines or ["Nothing that is known."]

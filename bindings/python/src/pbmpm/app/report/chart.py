@@ -49,7 +49,7 @@ def accuracy_figure(case: CaseRows) -> go.Figure:
         updatemenus=[_menu(views, [len(group) for group in traces])] if len(views) > 1 else [],
         **_layout(views[0]),
     )
-    figure.update_xaxes(title="wall milliseconds per simulated second", **_AXIS)
+    figure.update_xaxes(title="milliseconds per simulated second", **_AXIS)
     figure.update_yaxes(**_AXIS)
     return figure
 

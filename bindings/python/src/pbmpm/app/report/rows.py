@@ -50,9 +50,16 @@ class CaseRows:
         """The rows that are not stable."""
         return [row for row in self.rows if not row["stable"]]
 
+    @property
+    def compared(self) -> bool:
+        """Whether the case compares costs; claims, predictions and invariances do not."""
+        return bool(self.facts.get("searched", True))
+
     def verdict(self) -> Verdict:
-        """What the stable rows say about the solvers."""
-        return judge([point_of(row) for row in self.stable], self.solvers, self.measure.get("tolerance"))
+        """What the stable rows on the case's own grid say about the solvers."""
+        own = self.facts.get("own_cells")
+        rows = [row for row in self.stable if own is None or row["cells"] == own]
+        return judge([point_of(row) for row in rows], self.solvers, self.measure.get("tolerance"))
 
 
 def point_of(row: dict[str, Any]) -> Point:
@@ -77,5 +84,5 @@ def cases_of(report: dict[str, Any]) -> list[CaseRows]:
 
 
 def verdicts_of(cases: Iterable[CaseRows]) -> list[tuple[CaseRows, Verdict]]:
-    """Each case with its verdict."""
-    return [(case, case.verdict()) for case in cases]
+    """Each case that compares costs, with its verdict."""
+    return [(case, case.verdict()) for case in cases if case.compared]

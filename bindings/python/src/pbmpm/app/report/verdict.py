@@ -1,7 +1,16 @@
 """How many times cheaper the accelerated solvers are at equal error, computed from the rows of a sweep.
 
-Accelerated are the dual and the primal solver. Each case gives one comparison per solver to compare with, at one error:
-the one that the case calls good, if the accelerated solvers reach it, and else the lowest that both reach.
+Accelerated are the dual and the primal solver. One rule for all cases:
+
+- Only settings on the case's own grid count: on a coarser one everything is cheaper, and how fine a grid has to be is
+  another question.
+- Errors that count lie within a decade: from the one that the case calls good (GOOD where it names none) down to a tenth
+  of it, or to the lowest that the accelerated solvers reach, whichever is higher. Cheap answers that are worse than good
+  are no answers, and errors far below are luck: a figure that passes through the truth on its way to another value.
+- At LEVELS errors, evenly in logarithms, the cost of each solver is read from its own front, and the ratios of the other's
+  cost to that of the accelerated solvers are taken; the other's is infinite where it does not get so far. The verdict is
+  about the median of these ratios; the lowest and highest are told beside it.
+- The front over all solvers must hold accelerated ones alone, among the errors that count.
 """
 
 from __future__ import annotations
@@ -16,8 +25,16 @@ ACCELERATED = ("dual", "primal")
 #: How many times dearer each solver has to be at equal error.
 WANTED = {"paper": 3.0, "explicit": 10.0}
 NOT_REACHED = "not reached"
-_LEVELS = 6  # at most, in the table of costs
+GOOD = 0.05  #: where a case does not say which error it calls good
+DECADE = 10.0
+LEVELS = 21
+_SHOWN_LEVELS = 6  # at most, in the table of costs
 _ROUND = (1.0, 2.0, 5.0)
+
+
+def good_error(tolerance: float | None) -> float:
+    """The error that counts as good."""
+    return tolerance or GOOD
 
 
 @dataclass(frozen=True)
@@ -28,23 +45,22 @@ class Comparison:
     wanted: float  #: times cheaper
     measured: bool  #: whether the sweep holds the other solver at all
     best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
-    level: float | None = None  #: the error at which they are compared
-    cost: float | None = None  #: of the accelerated there [ms]
-    other_cost: float | None = None  #: None: not reached
-    lowest_ratio: float | None = None  #: over all errors that both reach
-    highest_ratio: float | None = None
+    ratios: tuple[float, ...] = ()  #: its cost over that of the accelerated solvers, from the largest error down; may be infinite
 
     @property
-    def ratio(self) -> float | None:
-        """How many times cheaper the accelerated solvers are at the level."""
-        return None if self.cost is None or self.other_cost is None else self.other_cost / self.cost
+    def median(self) -> float | None:
+        """The typical ratio; infinite when the other does not reach most of the errors; None when nothing was compared."""
+        return sorted(self.ratios)[len(self.ratios) // 2] if self.ratios else None
 
     @property
     def reached(self) -> bool:
-        """Whether the wanted ratio is reached; also when the other solver never gets to that error."""
-        if not self.measured or self.cost is None:
-            return False
-        return self.ratio is None or self.ratio >= self.wanted
+        """Whether the accelerated solvers are typically as many times cheaper as wanted."""
+        return bool(self.ratios) and sorted(self.ratios)[len(self.ratios) // 2] >= self.wanted
+
+    @property
+    def always(self) -> bool:
+        """Whether they are so at every error."""
+        return bool(self.ratios) and min(self.ratios) >= self.wanted
 
 
 @dataclass(frozen=True)
@@ -61,39 +77,56 @@ class Verdict:
 
     front: tuple[Point, ...]  #: over all solvers
     best_error: float | None  #: of the accelerated solvers; None when none of their settings is stable
+    highest: float  #: error that counts
+    lowest: float | None  #: error that counts; None without a stable accelerated setting
     comparisons: tuple[Comparison, ...]
     levels: tuple[Level, ...]
 
     @property
     def solvers_on_front(self) -> tuple[str, ...]:
-        """In the order of their first point."""
-        return tuple(dict.fromkeys(point.solver for point in self.front))
+        """Among the errors that count, in the order of their first point."""
+        return tuple(dict.fromkeys(point.solver for point in self.front if point.error <= self.highest))
 
     @property
     def alone_on_front(self) -> bool:
-        """Whether only accelerated solvers are on the front."""
-        return bool(self.front) and all(point.solver in ACCELERATED for point in self.front)
+        """Whether only accelerated solvers are there."""
+        return bool(self.solvers_on_front) and all(name in ACCELERATED for name in self.solvers_on_front)
+
+    @property
+    def good_reached(self) -> bool:
+        """Whether the accelerated solvers reach the error that is called good."""
+        return self.best_error is not None and self.best_error <= self.highest
 
     @property
     def passed(self) -> bool:
-        """Alone on the front, and as many times cheaper as wanted."""
-        return self.alone_on_front and all(comparison.reached for comparison in self.comparisons)
+        """A good error reached, alone on the front, and typically as many times cheaper as wanted."""
+        return self.good_reached and self.alone_on_front and all(item.reached for item in self.comparisons)
+
+    @property
+    def always(self) -> bool:
+        """The same, and as many times cheaper at every error that counts."""
+        return self.passed and all(item.always for item in self.comparisons)
 
 
 def judge(points: Sequence[Point], solvers: Sequence[str], good: float | None = None) -> Verdict:
     """The verdict over the stable points of a case.
 
     Args:
-        points: what was measured.
+        points: what was measured on the case's own grid.
         solvers: all that were tried, stable or not.
         good: the error that the case calls good; None when it calls none so.
     """
     accelerated = front_of(point for point in points if point.solver in ACCELERATED)
     fronts = {name: front_of(point for point in points if point.solver == name) for name in solvers}
+    best = accelerated[-1].error if accelerated else None
+    highest = good_error(good)
+    errors = _errors_that_count(highest, best)
     return Verdict(
         front=tuple(front_of(points)),
-        best_error=accelerated[-1].error if accelerated else None,
-        comparisons=tuple(_compare(accelerated, other, fronts.get(other), good) for other in WANTED),
+        best_error=best,
+        highest=highest,
+        lowest=errors[-1] if errors else None,
+        comparisons=tuple(_compare(accelerated, other, fronts.get(other), errors) for other in WANTED),
         levels=tuple(
             Level(error, {name: cost_of(front, error) for name, front in fronts.items()})
             for error in round_levels([point.error for point in front_of(points)])
@@ -101,39 +134,23 @@ def judge(points: Sequence[Point], solvers: Sequence[str], good: float | None = 
     )
 
 
-def _compare(accelerated: list[Point], other: str, front: list[Point] | None, good: float | None) -> Comparison:
-    measured, best = front is not None, front[-1].error if front else None
-    if not accelerated or not measured:
-        return Comparison(other, WANTED[other], measured, best)
-    reachable = accelerated[-1].error
-    shared = reachable if best is None else max(best, reachable)
-    level = good if good is not None and good >= reachable else shared
-    ratios = [
-        ratio
-        for error in _corners(accelerated, front or [], shared)
-        if (ratio := _ratio(accelerated, front or [], error)) is not None
-    ]
-    return Comparison(
-        other,
-        WANTED[other],
-        measured,
-        best,
-        level,
-        cost=cost_of(accelerated, level),
-        other_cost=cost_of(front or [], level),
-        lowest_ratio=min(ratios, default=None),
-        highest_ratio=max(ratios, default=None),
-    )
+def _errors_that_count(highest: float, best: float | None) -> list[float]:
+    """From the largest down; the lowest that the accelerated solvers reach alone, where that is not a good one."""
+    if best is None:
+        return []
+    if best >= highest:
+        return [best]
+    lowest = max(best, highest / DECADE)
+    return [max(highest * (lowest / highest) ** (step / (LEVELS - 1)), lowest) for step in range(LEVELS)]
 
 
-def _corners(one: list[Point], two: list[Point], lowest: float) -> set[float]:
-    """Errors at which the ratio of two costs can be extreme: it is monotonous between the corners of the fronts."""
-    return {lowest, *(point.error for point in (*one, *two) if point.error >= lowest)}
-
-
-def _ratio(accelerated: list[Point], front: list[Point], error: float) -> float | None:
-    cost, other = cost_of(accelerated, error), cost_of(front, error)
-    return None if cost is None or other is None else other / cost
+def _compare(accelerated: list[Point], other: str, front: list[Point] | None, errors: list[float]) -> Comparison:
+    ratios = []
+    for error in errors if front is not None else []:
+        own, others = cost_of(accelerated, error), cost_of(front or [], error)
+        if own is not None:
+            ratios.append(math.inf if others is None else others / own)
+    return Comparison(other, WANTED[other], front is not None, front[-1].error if front else None, tuple(ratios))
 
 
 def round_levels(errors: Sequence[float]) -> list[float]:
@@ -143,5 +160,5 @@ def round_levels(errors: Sequence[float]) -> list[float]:
     low, high = min(errors), max(errors)
     decades = range(math.floor(math.log10(low)), math.ceil(math.log10(high)) + 1)
     inside = [step * 10.0**decade for decade in decades for step in _ROUND if low <= step * 10.0**decade <= high]
-    thinning = math.ceil(len(inside) / _LEVELS) or 1
+    thinning = math.ceil(len(inside) / _SHOWN_LEVELS) or 1
     return sorted(inside[::thinning], reverse=True) or [high]

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from .rows import CaseRows
-from .verdict import ACCELERATED, NOT_REACHED, WANTED, Comparison, Verdict
+from .verdict import ACCELERATED, GOOD, LEVELS, NOT_REACHED, WANTED, Comparison, Verdict
 
 HEADINGS = (
     "case",
     "error",
     "best accelerated",
+    "compared over",
     *(f"cheaper than {other}" for other in WANTED),
     "on the front",
     "verdict",
@@ -32,28 +34,37 @@ def cost_text(value: float | None) -> str:
 
 
 def comparison_text(comparison: Comparison, unit: str) -> str:
-    """How many times cheaper, and at which error; in brackets the range over all errors that both reach."""
+    """How many times cheaper, typically; in brackets the range over the errors that count."""
     if not comparison.measured:
         return "not measured"
-    if comparison.level is None:
+    if comparison.median is None:
         return "no stable accelerated setting"
-    at = f"at {error_text(comparison.level, unit)}"
     if comparison.best_error is None:
-        return f"{NOT_REACHED} {at}: never stable"
-    if comparison.ratio is None:
-        return f"{NOT_REACHED} {at}: ends at {error_text(comparison.best_error, unit)}"
-    spread = ""
-    if comparison.lowest_ratio is not None and comparison.highest_ratio is not None:
-        spread = f" ({comparison.lowest_ratio:.2g} to {comparison.highest_ratio:.2g})"
+        return f"{NOT_REACHED}: never stable"
+    if math.isinf(min(comparison.ratios)):
+        return f"{NOT_REACHED}: ends at {error_text(comparison.best_error, unit)}"
+    typical = _ratio_text(comparison.median)
+    spread = f" ({_ratio_text(min(comparison.ratios))} to {_ratio_text(max(comparison.ratios))})"
     mark = "" if comparison.reached else f", below {comparison.wanted:g}x"
-    return f"{comparison.ratio:.2g}x {at}{spread}{mark}"
+    return f"{typical}{spread}{mark}"
+
+
+def _ratio_text(ratio: float) -> str:
+    return NOT_REACHED if math.isinf(ratio) else f"{ratio:.2g}x"
+
+
+def range_text(verdict: Verdict, unit: str) -> str:
+    """The errors that count."""
+    if verdict.lowest is None or not verdict.good_reached:
+        return f"{error_text(verdict.lowest, unit)}: {error_text(verdict.highest, unit)} not reached"
+    return f"{error_text(verdict.highest, unit)} to {error_text(verdict.lowest, unit)}"
 
 
 def shortfalls(verdict: Verdict) -> list[str]:
     """Why a verdict is not passed; empty when it is."""
     if verdict.best_error is None:
         return ["no accelerated setting is stable"]
-    said = []
+    said = [] if verdict.good_reached else ["no accelerated setting is good"]
     others = [name for name in verdict.solvers_on_front if name not in ACCELERATED]
     if others:
         said.append(f"{' and '.join(others)} on the front too")
@@ -76,6 +87,7 @@ def verdict_cells(case: CaseRows, verdict: Verdict) -> list[str]:
         case.name,
         case.measure["name"],
         error_text(verdict.best_error, unit),
+        range_text(verdict, unit),
         *(comparison_text(comparison, unit) for comparison in verdict.comparisons),
         ", ".join(verdict.solvers_on_front) or "-",
         verdict_text(verdict),
@@ -91,16 +103,25 @@ def verdict_table(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
 
 
 MEANING = (
-    "Accelerated: dual and primal. Compared at the error that the case calls good, or, where they do not reach it, at the"
-    " lowest that both reach; interpolated in logarithms along each solver's front. In brackets: the range over all errors"
-    " that both reach."
+    "Accelerated: dual and primal. Compared on the case's own grid over the errors that count: from the one that the case calls"
+    f" good ({100 * GOOD:g} % where it names none) down to a tenth of it or to the lowest that the accelerated solvers reach;"
+    f" at {LEVELS} of them, interpolated in logarithms along each solver's front. The first figure is the median, in brackets"
+    " the range."
 )
+
+
+def not_compared(cases: Sequence[CaseRows]) -> str:
+    """The cases without a verdict; empty when there are none."""
+    names = [case.name for case in cases if not case.compared]
+    return f"No comparison of costs, so without a verdict: {', '.join(names)}." if names else ""
 
 
 def counted(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
     """How many cases are passed, and what that means."""
     passed = sum(verdict.passed for _, verdict in verdicts)
+    always = sum(verdict.always for _, verdict in verdicts)
     wanted = " and ".join(f"{factor:g} times cheaper than the {other} solver" for other, factor in WANTED.items())
     return (
-        f"{passed} of {len(verdicts)} cases: accelerated solvers alone on the front, and {wanted} or not reached by it."
+        f"{passed} of {len(verdicts)} cases: accelerated solvers alone on the front, and typically {wanted} or not reached by"
+        f" it; {always} of them at every error that counts."
     )

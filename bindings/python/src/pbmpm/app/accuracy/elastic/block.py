@@ -25,36 +25,43 @@ _FREE_END_CELLS = 2.0
 _FLOOR_CELLS = 2.0
 _SPEED_LIMIT = 10.0  # times the speed of a free fall over the height
 _STRETCHES = (0.3, 3.0)  # of the search
-_NEWTON_STEPS = 60
+_HALVINGS = 50  # of a bisection: to the rounding of double precision
 
 
-def uniaxial_stress(solid: Solid, model: str, stretch: float) -> float:
-    """Nominal stress of a block that is stretched along one axis while the others are free [Pa].
+def uniaxial_stress(solid: Solid, model: str, stretches: np.ndarray) -> np.ndarray:
+    """Nominal stress of a block that is stretched along one axis while the others are free [Pa], for each stretch.
 
     The lateral stretch is where the lateral stress vanishes; that rises with it, so bisection finds it.
     """
-    low, high = 0.05, 5.0
-    for _ in range(_NEWTON_STEPS):
+    low, high = np.full(np.shape(stretches), 0.05), np.full(np.shape(stretches), 5.0)
+    for _ in range(_HALVINGS):
         lateral = 0.5 * (low + high)
-        stress = _axial_and_lateral(solid, model, stretch, lateral)
-        low, high = (low, lateral) if stress[1] > 0.0 else (lateral, high)
-    return float(stress[0])
+        axial, across = _axial_and_lateral(solid, model, stretches, lateral)
+        low, high = np.where(across > 0.0, low, lateral), np.where(across > 0.0, lateral, high)
+    return axial
 
 
-def _axial_and_lateral(solid: Solid, model: str, stretch: float, lateral: float) -> tuple[float, float]:
-    deformation = np.diag([stretch] + [lateral] * (solid.dimension - 1))
-    stress = strain.piola_stress(solid, model, deformation)
-    return float(stress[0, 0]), float(stress[1, 1])
+def _axial_and_lateral(
+    solid: Solid, model: str, stretches: np.ndarray, laterals: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    deformations = np.stack([stretches] + [laterals] * (solid.dimension - 1), axis=-1)[..., None] * np.eye(
+        solid.dimension
+    )
+    stress = strain.piola_stress(solid, model, deformations)
+    return stress[..., 0, 0], stress[..., 1, 1]
 
 
-def uniaxial_stretch(solid: Solid, model: str, stress: float) -> float:
-    """The stretch under a nominal stress; ValueError outside [0.3, 3]."""
-    low, high = _STRETCHES
-    if not uniaxial_stress(solid, model, low) <= stress <= uniaxial_stress(solid, model, high):
-        raise ValueError(f"no stretch in [{low:g}, {high:g}] gives {stress:g} Pa")
-    for _ in range(_NEWTON_STEPS):
+def uniaxial_stretch(solid: Solid, model: str, stresses: np.ndarray) -> np.ndarray:
+    """The stretch under each nominal stress; ValueError outside [0.3, 3]."""
+    least, most = uniaxial_stress(solid, model, np.array(_STRETCHES))
+    outside = stresses[(stresses < least) | (stresses > most)]
+    if len(outside):
+        raise ValueError(f"no stretch in [{_STRETCHES[0]:g}, {_STRETCHES[1]:g}] gives {outside[0]:g} Pa")
+    low, high = np.full(stresses.shape, _STRETCHES[0]), np.full(stresses.shape, _STRETCHES[1])
+    for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
-        low, high = (low, middle) if uniaxial_stress(solid, model, middle) > stress else (middle, high)
+        too_far = uniaxial_stress(solid, model, middle) > stresses
+        low, high = np.where(too_far, low, middle), np.where(too_far, middle, high)
     return 0.5 * (low + high)
 
 
@@ -137,5 +144,5 @@ class Block:
         held = (self.width_cells if hangs else _FLOOR_CELLS) * self.cell_size
         far = (free_end > _FREE_END_CELLS * self.cell_size) & (self.height - free_end > held)
         stresses = np.sign(self.load) * self.solid.density * GRAVITY * free_end[far]
-        truths = np.array([uniaxial_stretch(self.solid, self.model, stress) for stress in stresses])
+        truths = uniaxial_stretch(self.solid, self.model, stresses)
         return Profile(stresses, stretches[far], truths)

@@ -29,9 +29,10 @@ class BlockCase(ElasticCase):
     model = strain.FIXED_COROTATED
     particles_per_axis = Block.particles_per_axis
     seconds = 3.0
-    rates = (60.0, 240.0)
-    iterations = (5, 20, 50)
-    variants = ("dual", "primal")
+    rates = (30.0, 120.0)
+    iterations = (5, 20)
+    variants = ("paper", "dual", "primal")
+    patience = 2.0
     grid_setting = ("primal", 60.0, 20)
     hanging_load, standing_load = 0.5, -0.25
     error_kinds = (
@@ -45,7 +46,7 @@ class BlockCase(ElasticCase):
     notes = (
         "Each layer carries the weight beyond it. Layers within the block's width of the upper hold, 2 cells of the"
         " free end and 2 of the floor are left out. The block is braked until it rests."
-        " The paper's solver has no modulus of its own and is left out."
+        " The paper's solver has no modulus of its own but for that of its law, at the rate that fits."
     )
 
     def __init__(self) -> None:
@@ -86,7 +87,6 @@ class NeoHookeanBlockCase(BlockCase):
     name = "uniaxial-block-neo-hookean"
     title = "Stress and stretch of a block, neo-Hookean"
     model = strain.NEO_HOOKEAN
-    variants = ("primal",)
 
 
 class Block3DCase(BlockCase):
@@ -97,14 +97,12 @@ class Block3DCase(BlockCase):
     dimension = 3
     cells = (16,)
     particles_per_axis = 2
-    rates = (60.0,)
+    rates = (30.0, 60.0)
     quick_rates = (60.0,)
-    iterations = (10, 20)
     quick_iterations = (10,)
-    variants = ("primal",)
 
     def explicit_rates(self, quick: bool) -> list[float]:
-        return [] if quick else super().explicit_rates(True)
+        return [] if quick else super().explicit_rates(False)
 
 
 class TwoDiscsCase(ElasticCase):
@@ -115,9 +113,8 @@ class TwoDiscsCase(ElasticCase):
     length_name = "radius of a disc"
     length = 0.2
     cells = (4, 8, 16)
-    rates = (60.0, 120.0, 240.0, 1000.0)
-    iterations = (2, 5, 10, 20)
-    quick_rates = (60.0, 240.0)
+    rates = (60.0, 240.0)
+    iterations = (5, 20)
     grid_setting = ("primal-bdf2", 240.0, 10)
     error_kinds = (
         ErrorMeasure("energy_lost", "discretisation", "%", "of the energy at the start, kinetic and stored, at 3.5 s"),
@@ -141,9 +138,6 @@ class TwoDiscsCase(ElasticCase):
     @property
     def solid(self) -> Solid:
         return TwoDiscs().solid
-
-    def explicit_rates(self, quick: bool) -> list[float]:
-        return [60.0, 240.0, 1000.0]
 
     def measure(self, setting: Setting) -> Measurement:
         discs = TwoDiscs(self.cell_size(setting))
@@ -171,8 +165,13 @@ class SpinningDiscCase(ElasticCase):
     length_name = "radius of the disc"
     length = SpinningDisc().radius
     cells = (10, 20)
-    iterations = (2, 5, 10, 20)
     error_kinds = (
+        ErrorMeasure(
+            "displaced",
+            "discretisation",
+            "%",
+            "largest root mean square distance of the particles from where a rigid disc carries them, over the radius",
+        ),
         ErrorMeasure("lost", "discretisation", "%", "of the angular momentum, in one revolution"),
         ErrorMeasure(
             "of_theory",
@@ -196,19 +195,25 @@ class SpinningDiscCase(ElasticCase):
     def measure(self, setting: Setting) -> Measurement:
         disc = SpinningDisc(cells=setting.cells)
         record = disc.spin(setting.run_settings())
-        kept, moving, stored, reach = (float(value) for value in record.values[-1])
-        errors: dict[str, float | None] = {"lost": abs(1.0 - kept), "of_theory": None, "grown": abs(reach - 1.0)}
+        kept, moving, stored, reach, _ = (float(value) for value in record.values[-1])
+        errors: dict[str, float | None] = {
+            "displaced": float(record.values[:, 4].max()),
+            "lost": abs(1.0 - kept),
+            "of_theory": None,
+            "grown": abs(reach - 1.0),
+        }
         if setting.solver != "explicit":
             steps = round(disc.period / setting.dt) * setting.substeps
             dt = setting.dt / setting.substeps
             errors["of_theory"] = relative(kept, rotation_kept(setting.integrator, disc.angular_velocity, dt, steps))
-        return record.measurement(errors, (kept,), kinetic_kept=moving, stored=stored)
+        return record.measurement(errors, (errors["displaced"],), kinetic_kept=moving, stored=stored)
 
 
 class InvarianceCase(ElasticCase):
     """What must not change with drift and turn."""
 
     name = "elastic-invariance"
+    searched = False
     title = "Drift, turn and a turned body at rest"
     length_name = "metre"
     length = 1.0
@@ -257,8 +262,8 @@ class FloatingBlockCase(ElasticCase):
     length_name = "metre"
     length = 1.0
     cells = (32, 48)
-    rates = (60.0, 120.0, 240.0)
-    iterations = (10, 20, 30)
+    rates = (60.0, 120.0)
+    iterations = (5, 20)
     quick_iterations = (20,)
     variants = ("paper", "dual")
     grid_setting = ("dual", 120.0, 30)

@@ -6,7 +6,9 @@ import math
 from abc import abstractmethod
 from dataclasses import replace
 
-from ..case import Case, Setting, settings_of
+import pbmpm
+
+from ..case import COURANT_SHARES, Case, Setting, settings_of
 from .theory import Integrator, Solid
 
 IMPLICIT = ("paper", "dual", "primal", "primal-bdf2")
@@ -34,8 +36,8 @@ class ElasticCase(Case):
     dimension = 2
     converged_iterations = _CONVERGED_ITERATIONS
 
-    rates: tuple[float, ...] = (30.0, 60.0, 120.0, 240.0, 480.0)
-    iterations: tuple[int, ...] = (2, 5, 10, 20, 50)
+    rates: tuple[float, ...] = (30.0, 120.0)
+    iterations: tuple[int, ...] = (2, 5, 20)
     cells: tuple[int, ...]
     """The first is the one at which rates and iterations are swept; the others show the grid's share."""
     grid_setting = ("primal-bdf2", 240.0, 20)
@@ -47,6 +49,7 @@ class ElasticCase(Case):
     def sweep(self, quick: bool) -> list[Setting]:
         rates, iterations = (self.quick_rates, self.quick_iterations) if quick else (self.rates, self.iterations)
         made = settings_of(self.variants, rates, iterations, self.cells[:1])
+        made += [] if quick else self.matched()
         made += settings_of(["explicit"], self.explicit_rates(quick), [1], self.cells[:1])
         if not quick:
             variant, rate, count = self.grid_setting
@@ -54,10 +57,20 @@ class ElasticCase(Case):
         return made
 
     def explicit_rates(self, quick: bool) -> list[float]:
-        """Rates around that at which sound travels a cell per step, rounded to 60 Hz."""
+        """Rates around that at which sound travels a cell per step."""
         limit = self.solid.pressure_wave_speed * self.cells[0] / self.length
-        shares = (2.0,) if quick else (0.5, 1.0, 2.0, 4.0)
-        return [60.0 * math.ceil(share * limit / 60.0) for share in shares]
+        return [float(math.ceil(share * limit)) for share in (COURANT_SHARES[-1:] if quick else COURANT_SHARES)]
+
+    def matched(self) -> list[Setting]:
+        """The paper's solver at the rates at which its law of stiffness, E = w N rho dx^2 / (4 dt^2), gives this body's
+        modulus: dt = dx / 2 sqrt(w N rho / E). It has no other way to a modulus; which one that is, the user must know."""
+        if not self.searched or self.kind != "elastic" or "paper" not in self.variants:
+            return []
+        cells, relaxation = self.cells[0], pbmpm.Elastic().relaxation
+        speed = math.sqrt(self.solid.slender_modulus / self.solid.density)
+        slowest = 2.0 * speed * cells / self.length
+        rates = {count: round(slowest / math.sqrt(relaxation * count)) for count in (1, 5, 20)}
+        return [Setting("paper", float(rate), count, cells) for count, rate in rates.items()]
 
     @property
     @abstractmethod

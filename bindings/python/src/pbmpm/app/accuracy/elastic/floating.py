@@ -6,13 +6,13 @@ is under water; it is twice as wide as high, which floats upright.
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass
 
 import numpy as np
 
 import pbmpm
 
+from ...meter import stepping_clock
 from ...simulation import RunSettings
 from .stage import failures, lattice
 
@@ -70,7 +70,7 @@ class FloatingBlock:
 
     def float_up(self, settings: RunSettings) -> Floated:
         """Lets the block fall and waits until it rests."""
-        dx, dt = self.cell_size, settings.dt
+        dx, dt, clock = self.cell_size, settings.dt, stepping_clock(settings.threads)
         water = lattice([0.0, 0.0], [self.tank_cells[0] * dx, self.pool_cells * dx], dx)
         left = 0.5 * (self.tank_cells[0] - self.block_cells[0])
         corner = np.array([left, self.pool_cells + 1.0]) * dx
@@ -87,9 +87,9 @@ class FloatingBlock:
             steps = max(1, round(self.seconds / dt))
             spent, predicted, samples, reasons, done = 0.0, 0.0, [], [], 0
             for done in range(1, steps + 1):
-                begin = time.perf_counter()
+                begin = clock()
                 world.step(dt)
-                spent += time.perf_counter() - begin
+                spent += clock() - begin
                 stats = world.stats
                 predicted += stats.predicted_error
                 reasons = failures(stats, _SPEED_LIMIT)

@@ -7,7 +7,6 @@ is the true error of the solution of that step, which the first has predicted.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
@@ -15,6 +14,7 @@ import numpy as np
 
 import pbmpm
 
+from ...meter import stepping_clock
 from ...simulation import RunSettings
 
 FACTOR = 3.0
@@ -64,19 +64,20 @@ def compare(make: Make, settings: RunSettings, steps: int, exact_iterations: int
     with world:
         other, other_bodies = make(replace(settings, iterations=exact_iterations, target_error=0.0))
         with other:
-            rows = [_step_both(world, bodies, other, other_bodies, settings.dt) for _ in range(steps)]
+            rows = [_step_both(world, bodies, other, other_bodies, settings) for _ in range(steps)]
     predicted, true, seconds, used = np.array(rows).T
     return Agreement(predicted, true, 1e3 * float(seconds.mean()) / settings.dt, float(used.mean()))
 
 
 def _step_both(
-    world: pbmpm.World, bodies: Bodies, other: pbmpm.World, other_bodies: Bodies, dt: float
+    world: pbmpm.World, bodies: Bodies, other: pbmpm.World, other_bodies: Bodies, settings: RunSettings
 ) -> tuple[float, float, float, float]:
     """Predicted and true error of one step of ``world`` [cells], its time [s], and its iterations."""
+    clock, dt = stepping_clock(settings.threads), settings.dt
     copy_state(world, bodies, other, other_bodies)
-    begin = time.perf_counter()
+    begin = clock()
     world.step(dt)
-    seconds = time.perf_counter() - begin
+    seconds = clock() - begin
     other.step(dt)
     away = _places(world, bodies) - _places(other, other_bodies)
     stats = world.stats

@@ -18,6 +18,13 @@ from .theory import Solid
 _SPEED_LIMIT = 10.0  # times the speed of the rim
 
 
+def _turned(angle: float, dimension: int) -> np.ndarray:
+    """The rotation by an angle about the third axis."""
+    rotation = np.eye(dimension)
+    rotation[:2, :2] = [[math.cos(angle), -math.sin(angle)], [math.sin(angle), math.cos(angle)]]
+    return rotation
+
+
 @dataclass(frozen=True)
 class SpinningDisc:
     """A disc, or in 3D a ball, around the third axis."""
@@ -38,7 +45,8 @@ class SpinningDisc:
 
     def spin(self, settings: RunSettings, revolutions: float = 1.0) -> Record:
         """The observed values are the angular momentum over that at the start, the kinetic and the stored energy over
-        the kinetic energy at the start, and the reach of the particles from the centre over that at the start."""
+        the kinetic energy at the start, the reach of the particles from the centre over that at the start, and their root
+        mean square distance from where a rigid disc would carry them, over the radius."""
         dimension, omega = self.solid.dimension, self.angular_velocity
         points = disc([0.0] * dimension, self.radius, self.cell_size)
         turn = np.zeros((dimension, dimension))
@@ -54,7 +62,10 @@ class SpinningDisc:
                 moving, stored = stage.energy(ids)
                 places = stage.state(ids).positions
                 far = float(np.linalg.norm(places - places.mean(axis=0), axis=1).max())
-                return [stage.angular_momentum(ids) / start, moving / energy, stored / energy, far / reach]
+                angle = omega * stage.world.stats.simulated_seconds
+                away = places - points @ _turned(angle, dimension).T
+                displaced = float(np.sqrt(np.mean(np.sum(away**2, axis=1)))) / self.radius
+                return [stage.angular_momentum(ids) / start, moving / energy, stored / energy, far / reach, displaced]
 
             seconds = revolutions * self.period
             every = max(1, round(settings.rate_hz * self.period / 24.0))

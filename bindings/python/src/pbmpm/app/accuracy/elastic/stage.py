@@ -10,7 +10,6 @@ little softer there than the built-in end of a beam: an error of discretisation 
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -19,6 +18,7 @@ import numpy as np
 
 import pbmpm
 
+from ...meter import stepping_clock
 from ...simulation import RunSettings
 from ..case import Measurement
 from . import strain
@@ -217,14 +217,14 @@ def run(
     A run ends early, as not stable, when a figure is not finite, a particle was deleted, or one is faster than
     ``speed_limit`` [m/s]. Only the calls of the library's step are timed.
     """
-    world, dt = stage.world, stage.settings.dt
+    world, dt, clock = stage.world, stage.settings.dt, stepping_clock(stage.settings.threads)
     steps = max(1, round(seconds / dt))
     times, values, reasons = [0.0], [observe()], []
     spent, done, used, predicted, refused = 0.0, 0, 0, 0.0, 0
     for step in range(1, steps + 1):
-        begin = time.perf_counter()
+        begin = clock()
         world.step(dt)
-        spent += time.perf_counter() - begin
+        spent += clock() - begin
         stats, done = world.stats, step
         used, predicted = used + stats.iterations_used, predicted + stats.predicted_error
         refused += stats.energy_checks_failed

@@ -19,7 +19,7 @@ from ...simulation import Simulation
 from ..case import Case, CurvePanel, ErrorMeasure, Measurement, Setting, settings_of
 from ..measures import Curve
 from ..trial import Trial
-from .common import box_fill, stiff_enough, water_scene
+from .common import box_fill, explicit_settings, stiff_enough, water_scene
 
 GAP = 0.5  # L [m]
 SLAB_GAPS = 4.0
@@ -77,9 +77,9 @@ class _Channel(Case):
         if quick:
             return settings_of(("paper", "dual"), (60,), (2, 10), (12,))
         variants = ("paper", "dual", "dual-cells")
-        coarse = settings_of(variants, (30, 60, 120, 240), (1, 2, 5, 10, 20), (16,), most_work=240 * 13)
+        coarse = settings_of(variants, (30, 120), (1, 5, 20), (16,))
         fine = settings_of(("paper", "dual"), (60, 120), (5, 10), (32,))
-        return coarse + fine + settings_of(("explicit",), (60, 120, 240), (1,), (16,))
+        return coarse + fine + explicit_settings(FASTEST, GAP / 16, 16)
 
     @property
     def panels(self) -> tuple[CurvePanel, ...]:  # type: ignore[override]

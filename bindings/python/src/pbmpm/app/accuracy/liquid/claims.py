@@ -32,6 +32,7 @@ class _Tank(Case):
 
     dimension = 2
     kind = "liquid"
+    searched = False
     length = 1.0
     length_name = "width of the column"
     seconds = 20.0
@@ -168,6 +169,7 @@ class StiffnessClaim(Column):
     """How the stiffness of the paper's solver grows with rate and iterations."""
 
     name = "claim-stiffness"
+    searched = False
     title = "Claim: stiffness grows with the iterations; by law with N / dt^2"
     truth = "law of the paper's solver: K = rho w N dx^2 / (4 d dt^2) [Pa]; mean compression of a column of 1 m"
     error_kinds = (  # type: ignore[assignment]

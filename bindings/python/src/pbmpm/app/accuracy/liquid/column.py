@@ -10,6 +10,7 @@ is what the feedback changes.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from typing import Any
 
@@ -18,15 +19,18 @@ import numpy as np
 from ...scene import Scene
 from ...simulation import Simulation
 from .. import laws
-from ..case import Case, ErrorMeasure, Measurement, Setting, settings_of
+from ..case import COURANT_SHARES, Case, ErrorMeasure, Measurement, Setting, settings_of
 from ..trial import Trial
 from .common import (
     DEFAULT_FEEDBACK,
     DENSITY,
     GRAVITY,
+    WATER,
     box_fill,
+    explicit_settings,
     paper_modulus_over_density,
     rest_energy,
+    stiff_enough,
     water_scene,
 )
 
@@ -89,9 +93,16 @@ class Column(Case):
         if quick:
             return settings_of(("paper", "dual"), (60, 240), (5, 20, 50), (16,), most_work=240 * 25)
         variants = ("paper", "dual", "dual-cells")
-        most = 240 * 53
-        coarse = settings_of(variants, (60, 120, 240, 480), (1, 5, 10, 20, 50, 100), (32,), most_work=most)
-        return coarse + settings_of(("explicit",), (960, 1920, 3840), (1,), (32,))
+        coarse = settings_of(variants, (60, 240), (1, 5, 20, 100), (32,), most_work=240 * 23)
+        own_sound = math.sqrt(BULK_MODULUS / DENSITY)
+        rates = [math.ceil(share * own_sound * 32 / self.height) for share in COURANT_SHARES]
+        explicit = settings_of(("explicit",), rates, (1,), (32,))
+        return coarse + explicit + explicit_settings(self.fastest, self.height / 32, 32)
+
+    @property
+    def fastest(self) -> float:
+        """Of a fall through the column [m/s]: what weakly compressible water is measured by."""
+        return math.sqrt(2.0 * GRAVITY * self.height)
 
     def scene(self, setting: Setting, volume_feedback: float = DEFAULT_FEEDBACK) -> Scene:
         """The column in its box."""
@@ -101,7 +112,11 @@ class Column(Case):
             self.cell_size(setting),
             [box_fill((0.0, 0.0), (width, self.height), jitter=0.0)],
             domain=((0.0, 0.0), (width, BOX_HEIGHT * self.height)),
-            water={"volume_feedback": volume_feedback, "bulk_modulus": BULK_MODULUS},
+            water={
+                "volume_feedback": volume_feedback,
+                "bulk_modulus": BULK_MODULUS,
+                **(stiff_enough(setting, self.fastest) if setting.sound else {}),
+            },
         )
 
     @property
@@ -177,7 +192,7 @@ class Column(Case):
         if setting.solver == "paper":
             modulus = DENSITY * paper_modulus_over_density(scene, setting.run_settings())
             return modulus * (1.0 / ratios - 1.0) / ratios
-        return BULK_MODULUS * (1.0 - ratios)
+        return scene.materials[WATER].bulk_modulus * (1.0 - ratios)
 
 
 def _rms(values: np.ndarray) -> float:

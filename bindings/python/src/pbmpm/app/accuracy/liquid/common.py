@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -9,7 +10,7 @@ import numpy as np
 from ...scene import FORMAT_NAME, FORMAT_VERSION, LiquidPart, Scene, parse_scene
 from ...simulation import RunSettings, Simulation
 from .. import laws
-from ..case import Setting
+from ..case import COURANT_SHARES, Setting
 
 GRAVITY = 9.81
 DENSITY = 1000.0
@@ -18,7 +19,11 @@ WATER = "water"
 DEFAULT_FEEDBACK: float = LiquidPart.model_fields["volume_feedback"].default
 
 SOUND_TO_FLOW = 10.0
-"""Speed of sound over the fastest flow, where a solver cannot do an incompressible liquid: densities then vary by 1 %."""
+"""Speed of sound over the fastest flow, where a solver cannot do an incompressible liquid: densities then vary by 1 %.
+A setting may say otherwise."""
+
+WATER_SOUND = 1480.0
+"""Speed of sound in real water [m/s]."""
 
 
 def box_fill(lower: tuple[float, ...], upper: tuple[float, ...], **more: Any) -> dict[str, Any]:
@@ -67,8 +72,20 @@ def stiff_enough(setting: Setting, fastest: float) -> dict[str, float]:
     The speed of sound is sqrt(K / rho).
     """
     if setting.solver in ("explicit", "primal"):
-        return {"bulk_modulus": DENSITY * (SOUND_TO_FLOW * fastest) ** 2}
+        return {"bulk_modulus": DENSITY * ((setting.sound or SOUND_TO_FLOW) * fastest) ** 2}
     return {}
+
+
+def explicit_settings(
+    fastest: float, cell_size: float, cells: int, sounds: tuple[float, ...] = (5.0, 10.0, 20.0)
+) -> list[Setting]:
+    """The explicit solver with weakly compressible water of several speeds of sound, each a little above and below the
+    rate at which sound travels a cell per step; ``fastest`` as for ``stiff_enough``."""
+    return [
+        Setting("explicit", float(math.ceil(share * sound * fastest / cell_size)), 1, cells, sound=sound)
+        for sound in sounds
+        for share in COURANT_SHARES
+    ]
 
 
 def paper_modulus_over_density(scene: Scene, settings: RunSettings) -> float:

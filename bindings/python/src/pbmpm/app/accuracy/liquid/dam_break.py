@@ -23,6 +23,7 @@ from .common import (
     GRAVITY,
     PARTICLES_PER_AXIS,
     box_fill,
+    explicit_settings,
     paper_modulus_over_density,
     rest_energy,
     stiff_enough,
@@ -82,22 +83,25 @@ class DamBreak(Case):
     def sweep(self, quick: bool) -> list[Setting]:
         if quick:
             return settings_of(("paper", "dual"), (30, 60, 240), (1, 5, 20), (16,), most_work=240 * 10)
-        explicit = settings_of(("explicit",), (480, 960, 1920, 3840), (1,), (16,))
         variants = ("paper", "dual", "dual-cells", "dual-cells-flip0.9")
-        fine = settings_of(("paper", "dual"), (60, 120, 240), (5, 20), (32,), most_work=240 * 8)
-        rates, iterations = (30, 60, 120, 240), (1, 2, 5, 10, 20, 50)
-        return settings_of(variants, rates, iterations, (16,), most_work=240 * 13) + fine + explicit
+        coarse = settings_of(variants, (30, 60, 120, 240), (1, 5, 20), (16,), most_work=240 * 8)
+        fine = settings_of(("paper", "dual"), (120,), (5,), (32,))
+        return coarse + fine + explicit_settings(self.fastest, self.width / 16, 16)
+
+    @property
+    def fastest(self) -> float:
+        """Of a fall from the column's top [m/s]."""
+        return math.sqrt(2.0 * GRAVITY * HEIGHT_RATIO * self.width)
 
     def scene(self, setting: Setting, tank: float = SHORT_TANK) -> Scene:
         """The scene with a tank of a length given in column widths."""
         a = self.width
-        fastest = math.sqrt(2.0 * GRAVITY * HEIGHT_RATIO * a)
         return water_scene(
             "dam_break_2d",
             self.cell_size(setting),
             [box_fill((0.0, 0.0), (a, HEIGHT_RATIO * a))],
             domain=((0.0, 0.0), (tank * a, TANK_HEIGHT * a)),
-            water=stiff_enough(setting, fastest),
+            water=stiff_enough(setting, self.fastest),
         )
 
     def measure(self, setting: Setting) -> Measurement:

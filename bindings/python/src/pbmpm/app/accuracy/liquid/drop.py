@@ -19,7 +19,7 @@ from ...simulation import Simulation
 from ..case import Case, CurvePanel, ErrorMeasure, Measurement, Setting, settings_of
 from ..measures import Curve
 from ..trial import Trial
-from .common import PARTICLES_PER_AXIS, WATER, kinetic_energy, stiff_enough, water_scene
+from .common import PARTICLES_PER_AXIS, WATER, explicit_settings, kinetic_energy, stiff_enough, water_scene
 
 START_RATE = 1.0  # A0 [1/s]
 END = 1.0  # of A0 t
@@ -116,9 +116,9 @@ class EllipticalDrop(Case):
         if quick:
             return settings_of(("paper", "dual", "dual-cells-flip0.9"), (30, 60), (1, 5, 20), (16,))
         variants = ("paper", "dual", "dual-flip0.9", "dual-cells", "dual-cells-flip0.9")
-        coarse = settings_of(variants, (30, 60, 120, 240), (1, 2, 5, 10, 20, 50), (16,), most_work=240 * 23)
-        fine = settings_of(("paper", "dual", "dual-cells-flip0.9"), (60, 120, 240), (5, 20), (32,))
-        return coarse + fine + settings_of(("explicit",), (120, 240, 480, 960, 1920), (1,), (16,))
+        coarse = settings_of(variants, (30, 120), (1, 5, 20), (16,))
+        fine = settings_of(("paper", "dual", "dual-cells-flip0.9"), (60, 120), (5, 20), (32,))
+        return coarse + fine + explicit_settings(START_RATE * self.radius, self.radius / 16, 16)
 
     def measure(self, setting: Setting) -> Measurement:
         stretch, spreads, energies, times = Stretch(), [], [], []

@@ -34,6 +34,7 @@ class Invariance(Case):
         ErrorMeasure("turned_90", "discretisation", "%", "|a_turned - a| / a at the end: the grid is the same", 1e-5),
     )
     length_name = "radius of the drop"
+    searched = False
     notes = "The rate sets how far the drop stretches in its 100 steps."
 
     @property

@@ -22,6 +22,7 @@ class _Prediction(Case):
 
     dimension = 2
     kind = "liquid"
+    searched = False
     truth = f"the same step from the same state with {EXACT_ITERATIONS} iterations"
     error_kinds = (
         ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),

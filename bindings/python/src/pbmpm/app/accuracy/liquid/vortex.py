@@ -17,7 +17,7 @@ from ...scene import Scene
 from ...simulation import Simulation
 from ..case import Case, ErrorMeasure, Measurement, Setting, settings_of
 from ..trial import Trial
-from .common import box_fill, kinetic_energy, stiff_enough, water_scene
+from .common import box_fill, explicit_settings, kinetic_energy, stiff_enough, water_scene
 
 SPEED = 0.25  # U [m/s]
 SECONDS = 0.25
@@ -57,9 +57,10 @@ class TaylorGreen(Case):
         if quick:
             return settings_of(("paper", "dual", "dual-cells-flip0.9"), (60,), (1, 10, 50), (16,))
         variants = ("paper", "dual", "dual-flip0.9", "dual-cells", "dual-cells-flip0.9")
-        coarse = settings_of(variants, (60, 120, 240), (1, 5, 10, 20, 50, 100), (16,), most_work=240 * 53)
-        fine = settings_of(("paper", "dual", "dual-cells-flip0.9"), (120, 240), (1, 20), (32,))
-        return coarse + fine + settings_of(("explicit",), (480, 960, 1920), (1,), (16,))
+        coarse = settings_of(variants, (60, 240), (1, 10, 50), (32,))
+        fine = settings_of(("paper", "dual", "dual-cells-flip0.9"), (120, 240), (1, 20), (16,))
+        explicit = explicit_settings(SPEED, self.wave_length / 32, 32)
+        return coarse + fine + explicit + [replace(setting, flip=0.9) for setting in explicit]
 
     def scene(self, setting: Setting) -> Scene:
         """The full box."""

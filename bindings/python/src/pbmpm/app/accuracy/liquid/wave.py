@@ -12,7 +12,7 @@ from ...simulation import Simulation
 from ..case import Case, ErrorMeasure, Measurement, Setting, settings_of
 from ..elastic.signal import fit_oscillation
 from ..trial import Trial
-from .common import GRAVITY, box_fill, rest_energy, stiff_enough, water_scene
+from .common import GRAVITY, box_fill, explicit_settings, rest_energy, stiff_enough, water_scene
 
 PERIODS = 3.0
 AMPLITUDE_SHARE = 0.05  # of the depth
@@ -58,19 +58,23 @@ class StandingWave(Case):
         if quick:
             return settings_of(("paper", "dual"), (60, 120), (5, 20), (12,))
         variants = ("paper", "dual", "dual-cells", "dual-cells-flip0.9")
-        coarse = settings_of(variants, (30, 60, 120, 240), (1, 5, 10, 20, 50), (16,), most_work=240 * 13)
-        fine = settings_of(("paper", "dual"), (60, 120), (10, 20), (32,))
-        return coarse + fine + settings_of(("explicit",), (480, 960, 1920), (1,), (16,))
+        coarse = settings_of(variants, (30, 120), (1, 5, 20), (16,))
+        fine = settings_of(("paper", "dual"), (60, 120), (5, 20), (32,))
+        return coarse + fine + explicit_settings(self.fastest, self.depth / 16, 16)
+
+    @property
+    def fastest(self) -> float:
+        """No wave of the surface is faster [m/s]."""
+        return math.sqrt(GRAVITY * self.depth)
 
     def scene(self, setting: Setting) -> Scene:
         """The tank with its water still flat."""
-        fastest = math.sqrt(GRAVITY * self.depth)  # no wave of the surface is faster
         return water_scene(
             "standing_wave",
             self.cell_size(setting),
             [box_fill((0.0, 0.0), (self.tank_length, self.depth), jitter=0.0)],
             domain=((0.0, 0.0), (self.tank_length, 1.5 * self.depth)),
-            water=stiff_enough(setting, fastest),
+            water=stiff_enough(setting, self.fastest),
         )
 
     def _displace(self, simulation: Simulation) -> None:
@@ -122,4 +126,5 @@ class OffGridWave(StandingWave):
         if quick:
             return settings_of(("paper", "dual"), (60,), (20,), (12,))
         variants = ("paper", "dual", "dual-cells")
-        return settings_of(variants, (60, 120, 240), (5, 20), (16,)) + settings_of(("explicit",), (960, 1920), (1,), (16,))
+        coarse = settings_of(variants, (30, 120), (1, 5, 20), (16,))
+        return coarse + explicit_settings(self.fastest, self.depth / 16, 16)
