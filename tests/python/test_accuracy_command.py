@@ -15,7 +15,8 @@ from PIL import Image
 from pbmpm.app.accuracy.case import Case, ErrorMeasure, Measurement, Setting, parse_variant, settings_of
 from pbmpm.app.accuracy.explore import Explorer, next_iterations, next_rate
 from pbmpm.app.accuracy.registry import all_cases, find_cases
-from pbmpm.app.accuracy.sweep import TIMINGS, Choice, Sweep
+from pbmpm.app.accuracy.saved import merged
+from pbmpm.app.accuracy.sweep import TIMINGS, Choice, Sweep, row_of
 from pbmpm.app.accuracy.table import legend, table
 from pbmpm.app.errors import InputError
 
@@ -165,6 +166,8 @@ def test_a_choice_fills_in_what_the_sweep_has() -> None:
 class Priced(Stub):
     """Errors and costs by a law: the error falls with the rate and the iterations, the cost is their product."""
 
+    clock = 0.0
+    """Processor time that measuring has taken [s]: one for each setting."""
     sharpness = {"paper": 2.0, "dual": 0.1, "explicit": 10.0}
     measured: list[Setting] = []
 
@@ -174,6 +177,7 @@ class Priced(Stub):
 
     def measure(self, setting: Setting) -> Measurement:
         self.measured.append(setting)
+        Priced.clock += 1.0
         error = self.sharpness[setting.solver] / setting.rate_hz + 0.1 / setting.iterations**2 / setting.rate_hz**0.5
         cost = setting.rate_hz * (setting.iterations + 3) * (1.5 if setting.pressure == "cells" else 1.0)
         # Timings are noisy: each one of the same setting is 1 ms shorter than the one before.
@@ -182,26 +186,33 @@ class Priced(Stub):
         return Measurement({"error": error}, cost, 1.0, 0.0, stable, [] if stable else ["it blew up"])
 
 
-def test_search_finds_the_front_between_the_settings_of_the_sweep() -> None:
+@pytest.fixture
+def priced(monkeypatch: pytest.MonkeyPatch) -> Priced:
+    """The case, with a clock that only its measurements move."""
+    Priced.measured.clear()
+    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: Priced.clock)
+    return Priced()
+
+
+def test_search_finds_the_front_between_the_settings_of_the_sweep(priced: Priced) -> None:
     """At an error of 1 % the law's cheapest dual setting is 90 Hz x 3: 0.0011 + 0.1 / 9 / sqrt(90) = 0.0023; with 2 iterations
     or at 15 Hz more is lost. The sweep alone has 30 and 480 Hz x 2 and 20."""
-    Priced.measured.clear()
-    case = Priced()
-    report = Sweep().search(case, 5.0)
-    assert {setting for setting in case.sweep(False)} <= set(report.settings)
+    report = Sweep().search(priced, 300.0)
+    assert set(priced.sweep(False)) <= set(report.settings)
     stable = [row for row in report.rows if row["stable"] and row["cells"] == 8]
     for solver in ("paper", "dual"):
         own = [row for row in stable if row["solver"] == solver]
         front = [row for row in own if not any(beats(other, row) for other in own)]
         inside = [row for row in front if 0.005 <= row["error"] <= 0.05]
         assert len(inside) >= 4
-        # Nothing next to the front beats it.
+        tried = {(item["rate_hz"], item["iterations"], item["variant"]) for item in own}
+        # What is next to the front was tried.
         for row in inside:
-            for rate, count in ((next_rate(row["rate_hz"], False), row["iterations"]), (row["rate_hz"], next_iterations(row["iterations"], False))):
-                other = [item for item in own if (item["rate_hz"], item["iterations"], item["variant"]) == (rate, count, row["variant"])]
-                assert other or rate < case.slowest_hz
+            slower = next_rate(row["rate_hz"], False)
+            assert (slower, row["iterations"], row["variant"]) in tried or slower < priced.slowest_hz
+            assert (row["rate_hz"], next_iterations(row["iterations"], False), row["variant"]) in tried
     moduli = {setting.sound for setting in report.settings if setting.solver == "explicit"}
-    assert {5.0, 10.0, 20.0} <= moduli
+    assert {5.0, 10.0} <= moduli
     assert any(not row["stable"] for row in report.rows)
 
 
@@ -209,9 +220,8 @@ def beats(one: dict[str, Any], other: dict[str, Any]) -> bool:
     return one["ms_per_simulated_second"] < other["ms_per_simulated_second"] and one["error"] <= other["error"]
 
 
-def test_settings_on_a_front_are_timed_again_and_the_cheapest_counts() -> None:
-    Priced.measured.clear()
-    report = Sweep().search(Priced(), 5.0)
+def test_settings_on_a_front_are_timed_again_and_the_cheapest_counts(priced: Priced) -> None:
+    report = Sweep().search(priced, 100.0)
     again = [setting for setting in report.settings if Priced.measured.count(setting) == TIMINGS]
     assert again and all(Priced.measured.count(setting) in (1, TIMINGS) for setting in report.settings)
     row = report.rows[report.settings.index(again[0])]
@@ -220,7 +230,7 @@ def test_settings_on_a_front_are_timed_again_and_the_cheapest_counts() -> None:
 
 
 def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A clock on which a setting takes a second per 1000 of its work: 480 Hz x 20 takes 11 s, more than a quarter of 40."""
+    """A clock on which a setting takes a second per 1000 of its work: 480 Hz x 20 takes 11 s, more than all there is."""
     clock = [0.0]
     monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: clock[0])
     rows: list[Setting] = []
@@ -228,9 +238,9 @@ def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.M
     def measure(setting: Setting) -> dict[str, Any]:
         clock[0] += setting.work / 1000.0
         rows.append(setting)
-        return {"solver": setting.solver, "stable": True, "error": 1.0, "ms_per_simulated_second": 1.0, "rate_hz": 1.0, "iterations": 1, "cell_m": 1.0}
+        return row_of(Priced(), setting, Measurement({"error": 0.04}, 1.0, 1.0, 0.0, True), None)
 
-    explorer = Explorer(Priced(), measure, 40.0)
+    explorer = Explorer(Priced(), measure, 10.0)
     explorer.run()
     assert {(left.setting.rate_hz, left.setting.iterations) for left in explorer.left_out.values()} >= {(480.0, 20)}
     assert all(setting.work <= 10000.0 for setting in rows)
@@ -238,5 +248,41 @@ def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.M
 
 
 def test_ladders() -> None:
-    assert [next_rate(60.0, True), next_rate(90.0, True), next_rate(60.0, False), next_rate(100.0, False)] == [90.0, 120.0, 45.0, 90.0]
-    assert [next_iterations(5, True), next_iterations(5, False), next_iterations(6, False), next_iterations(1, False)] == [7, 3, 5, 1]
+    assert [next_rate(60.0, True), next_rate(90.0, True)] == [90.0, 120.0]
+    assert [next_rate(60.0, False), next_rate(100.0, False)] == [45.0, 90.0]
+    assert [next_iterations(5, True), next_iterations(150, True), next_iterations(200, True)] == [7, 200, 200]
+    assert [next_iterations(count, False) for count in (5, 6, 1)] == [3, 5, 1]
+
+
+def report_file(path: Path, names: list[str], cpu: str = "a") -> Path:
+    """A saved report with a row per case, whose error is the length of the file's name."""
+    report = {
+        "rows": [{"case": name, "error": len(path.name)} for name in names],
+        "cases": [{"case": name} for name in names],
+        "stable_means": "",
+        "versions": {},
+        "machine": {"cpu": cpu, "isa": "AVX2"},
+    }
+    path.write_text(json.dumps(report), encoding="utf-8")
+    return path
+
+
+def test_saved_reports_are_put_together_the_last_of_a_case_counts(tmp_path: Path) -> None:
+    files = [report_file(tmp_path / "a.json", ["drop", "column"]), report_file(tmp_path / "later.json", ["column"])]
+    whole = merged(files, ["column", "drop", "couette"])
+    assert [facts["case"] for facts in whole["cases"]] == ["column", "drop"]
+    assert [(row["case"], row["error"]) for row in whole["rows"]] == [("column", 10), ("drop", 6)]
+
+
+def test_saved_reports_that_do_not_fit_are_refused(tmp_path: Path) -> None:
+    one, other = report_file(tmp_path / "a.json", ["drop"]), report_file(tmp_path / "b.json", ["column"], "b")
+    with pytest.raises(InputError, match="different machines"):
+        merged([one, other], ["drop", "column"])
+    with pytest.raises(InputError, match="none of these"):
+        merged([one], ["column"])
+    (tmp_path / "c.json").write_text("[1]")
+    with pytest.raises(InputError, match=r"c\.json: not what"):
+        merged([tmp_path / "c.json"], ["drop"])
+    (tmp_path / "c.json").write_text("{")
+    with pytest.raises(InputError, match=r"c\.json: not JSON"):
+        merged([tmp_path / "c.json"], ["drop"])

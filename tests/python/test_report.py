@@ -61,7 +61,7 @@ def test_verdict_of_a_solver_four_times_cheaper() -> None:
     assert (verdict.highest, verdict.lowest) == pytest.approx((GOOD, GOOD / 10))
     assert paper.ratios == pytest.approx([4.0] * LEVELS)
     assert explicit.median == pytest.approx(20.0)
-    assert verdict.best_error == 0.001
+    assert verdict.best_error == pytest.approx(0.001)
     assert verdict.alone_on_front and verdict.passed and verdict.always
 
 
@@ -116,6 +116,18 @@ def test_verdict_where_good_is_not_reached() -> None:
     verdict = judge(points, ["dual", "paper", "explicit"])
     assert [item.ratios for item in verdict.comparisons] == [pytest.approx((30.0,))] * 2
     assert not verdict.good_reached and not verdict.passed
+
+
+def test_an_error_below_that_of_the_converged_solution_counts_as_that() -> None:
+    """The explicit solver meets the truth closer than the grid warrants, at a price; the primal is as good as its grid."""
+    points = [*line("primal", 1.0, [0.5, 0.03]), *line("explicit", 20.0, [0.5, 0.01])]
+    assert judge(points, ["primal", "explicit"]).solvers_on_front == ("primal", "explicit")
+    verdict = judge(points, ["primal", "explicit"], converged=0.03)
+    assert verdict.solvers_on_front == ("primal",) and verdict.lowest == 0.03
+    assert [point.solver for point in verdict.front] == ["primal", "primal", "explicit"]
+    # Costs are read from what was measured.
+    assert verdict.comparisons[1].ratios == pytest.approx([20.0] * LEVELS)
+    assert judge(points, ["primal", "explicit"], converged=0.2).lowest == GOOD
 
 
 def test_verdict_over_the_errors_below_the_one_that_is_called_good() -> None:

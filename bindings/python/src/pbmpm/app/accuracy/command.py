@@ -75,8 +75,8 @@ def accuracy(
 
     Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers; what
     is not given is as each case has it. Exit code 1 when a setting is not stable; it stays in all tables and charts,
-    marked. Costs are processor time with one thread, else wall time. At the end the verdict: how many times cheaper the dual and primal solvers are than the
-    paper's and the explicit one at equal error.
+    marked. Costs are processor time with one thread, else wall time. At the end the verdict: how many times cheaper the
+    dual and primal solvers are than the paper's and the explicit one at equal error.
     """
     from .chart import save_chart
     from .registry import find_cases

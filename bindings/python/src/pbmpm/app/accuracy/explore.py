@@ -17,7 +17,7 @@ from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 from typing import Any
 
-from ..report.pareto import front_of
+from ..report.pareto import Point, front_of
 from ..report.rows import point_of
 from ..report.verdict import DECADE, good_error
 from .case import Case, Setting, parse_variant
@@ -26,7 +26,7 @@ ITERATIONS = (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200)
 _EXPLICIT_STEP = 2.0 ** (1.0 / 3.0)  # between rates of the explicit solver: its cost is all that they change
 _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more
-_LONGEST_SHARE = 0.25  # of a case's time that one setting may take
+_LONGEST_SHARE = 0.25  # of a case's time that one setting may take; those of the case's own sweep may take it all
 
 
 @dataclass(frozen=True)
@@ -53,6 +53,10 @@ class Explorer:
     rows: dict[Setting, dict[str, Any]] = field(default_factory=dict)
     left_out: dict[Setting, LeftOut] = field(default_factory=dict)
     _spent: dict[Setting, float] = field(default_factory=dict)
+    _points: dict[str, dict[Setting, Point]] = field(default_factory=dict)
+    """Stable settings on the own grid, by solver."""
+    _around: dict[Setting, list[Setting]] = field(default_factory=dict)
+    """Neighbours."""
     _variants: dict[str, list[str]] = field(default_factory=dict)
 
     def run(self) -> None:
@@ -60,7 +64,7 @@ class Explorer:
         own = self.case.sweep(False)
         for setting in sorted(own, key=lambda item: item.work):
             if setting.cells == self.case.own_cells:
-                self._try(setting)
+                self._try(setting, 1.0)
         self._variants = {
             solver: list(dict.fromkeys(item.variant for item in own if item.solver == solver))
             for solver in dict.fromkeys(item.solver for item in own)
@@ -85,17 +89,19 @@ class Explorer:
         """The settings on the fronts of the solvers, as far as their errors matter for the verdict."""
         return [setting for solver in self._variants for setting in self._front(solver)]
 
-    def affordable(self, setting: Setting | None) -> bool:
-        """Whether measuring a setting takes no longer than one may."""
-        return setting is not None and self._expected_seconds(setting) <= _LONGEST_SHARE * self.seconds
+    def affordable(self, setting: Setting | None, share: float = _LONGEST_SHARE) -> bool:
+        """Whether measuring a setting takes no more than this share of the case's time."""
+        return setting is not None and self._expected_seconds(setting) <= share * self.seconds
 
-    def _try(self, setting: Setting) -> None:
-        if not self.affordable(setting):
+    def _try(self, setting: Setting, share: float = _LONGEST_SHARE) -> None:
+        if not self.affordable(setting, share):
             self.left_out[setting] = LeftOut(setting, self._expected_seconds(setting))
             return
         begin = time.process_time()
-        self.rows[setting] = self.measure(setting)
+        row = self.rows[setting] = self.measure(setting)
         self._spent[setting] = time.process_time() - begin
+        if setting.cells == self.case.own_cells and counts(row):
+            self._points.setdefault(setting.solver, {})[setting] = point_of(row)
 
     def _spent_on(self, solver: str) -> float:
         return sum(seconds for setting, seconds in self._spent.items() if setting.solver == solver)
@@ -116,13 +122,9 @@ class Explorer:
     def _front(self, solver: str) -> list[Setting]:
         """Of one solver on the case's own grid, from somewhat above the error that is called good to the least that the
         verdict looks at and one below it; when none is that good, the best one."""
-        points = {
-            setting: point_of(row)
-            for setting, row in self.rows.items()
-            if setting.solver == solver and setting.cells == self.case.own_cells and counts(row)
-        }
-        front = front_of(points.values())
+        points = self._points.get(solver, {})
         settings = {id(point): setting for setting, point in points.items()}
+        front = front_of(points.values())
         good = good_error(self.case.headline.tolerance)
         near = [point for point in front if good / DECADE <= point.error <= 2.0 * good]
         below = [point for point in front if point.error < good / DECADE][:1]
@@ -130,7 +132,11 @@ class Explorer:
 
     def _candidates(self, solver: str) -> Iterator[Setting]:
         """What has not been tried around the front, a neighbour of each in turn."""
-        around = [self._neighbours(setting) for setting in self._front(solver)]
+        front = self._front(solver)
+        for setting in front:
+            if setting not in self._around:
+                self._around[setting] = list(self._neighbours(setting))
+        around = [self._around[setting] for setting in front]
         for turn in zip_longest(*around):
             for setting in turn:
                 if setting is None or setting.rate_hz < self.case.slowest_hz:

@@ -15,7 +15,7 @@ from .case import Case, Measurement, Setting, settings_of
 from .explore import Explorer
 from .stability import DEFINITION
 
-TIMINGS = 3
+TIMINGS = 2
 """Measurements of the settings on a front."""
 
 

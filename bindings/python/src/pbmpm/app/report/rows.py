@@ -59,7 +59,9 @@ class CaseRows:
         """What the stable rows on the case's own grid say about the solvers."""
         own = self.facts.get("own_cells")
         rows = [row for row in self.stable if own is None or row["cells"] == own]
-        return judge([point_of(row) for row in rows], self.solvers, self.measure.get("tolerance"))
+        left = [row.get("converged_error") for row in rows if row["solver"] in ACCELERATED]
+        converged = min((error for error in left if error is not None), default=None)
+        return judge([point_of(row) for row in rows], self.solvers, self.measure.get("tolerance"), converged)
 
 
 def point_of(row: dict[str, Any]) -> Point:

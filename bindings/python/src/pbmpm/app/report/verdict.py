@@ -5,8 +5,10 @@ Accelerated are the dual and the primal solver. One rule for all cases:
 - Only settings on the case's own grid count: on a coarser one everything is cheaper, and how fine a grid has to be is
   another question.
 - Errors that count lie within a decade: from the one that the case calls good (GOOD where it names none) down to a tenth
-  of it, or to the lowest that the accelerated solvers reach, whichever is higher. Cheap answers that are worse than good
-  are no answers, and errors far below are luck: a figure that passes through the truth on its way to another value.
+  of it, or to what the grid and the time step leave to a converged solution, whichever is higher: that is the floor. Cheap
+  answers that are worse than good are no answers. An error below the floor counts as the floor: it is luck, a figure that
+  passes through the truth on its way to another value. Where the accelerated solvers do not get down to the floor, the
+  ratios are taken as far down as they get.
 - At LEVELS errors, evenly in logarithms, the cost of each solver is read from its own front, and the ratios of the other's
   cost to that of the accelerated solvers are taken; the other's is infinite where it does not get so far. The verdict is
   about the median of these ratios; the lowest and highest are told beside it.
@@ -17,7 +19,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from .pareto import Point, cost_of, front_of
 
@@ -45,7 +47,7 @@ class Comparison:
     wanted: float  #: times cheaper
     measured: bool  #: whether the sweep holds the other solver at all
     best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
-    ratios: tuple[float, ...] = ()  #: its cost over that of the accelerated solvers, from the largest error down; may be infinite
+    ratios: tuple[float, ...] = ()  #: its cost over that of the accelerated, from the largest error down; may be infinite
 
     @property
     def median(self) -> float | None:
@@ -76,6 +78,7 @@ class Verdict:
     """What a case says about the solvers."""
 
     front: tuple[Point, ...]  #: over all solvers
+    counted: tuple[Point, ...]  #: the front of the errors that count, those below the floor raised to it
     best_error: float | None  #: of the accelerated solvers; None when none of their settings is stable
     highest: float  #: error that counts
     lowest: float | None  #: error that counts; None without a stable accelerated setting
@@ -85,7 +88,7 @@ class Verdict:
     @property
     def solvers_on_front(self) -> tuple[str, ...]:
         """Among the errors that count, in the order of their first point."""
-        return tuple(dict.fromkeys(point.solver for point in self.front if point.error <= self.highest))
+        return tuple(dict.fromkeys(point.solver for point in self.counted))
 
     @property
     def alone_on_front(self) -> bool:
@@ -108,39 +111,45 @@ class Verdict:
         return self.passed and all(item.always for item in self.comparisons)
 
 
-def judge(points: Sequence[Point], solvers: Sequence[str], good: float | None = None) -> Verdict:
+def judge(
+    measured: Sequence[Point], solvers: Sequence[str], good: float | None = None, converged: float | None = None
+) -> Verdict:
     """The verdict over the stable points of a case.
 
     Args:
-        points: what was measured on the case's own grid.
+        measured: on the case's own grid.
         solvers: all that were tried, stable or not.
         good: the error that the case calls good; None when it calls none so.
+        converged: the least error that converged solutions of the accelerated solvers have; None when it is not known.
     """
-    accelerated = front_of(point for point in points if point.solver in ACCELERATED)
-    fronts = {name: front_of(point for point in points if point.solver == name) for name in solvers}
-    best = accelerated[-1].error if accelerated else None
     highest = good_error(good)
-    errors = _errors_that_count(highest, best)
+    floor = min(max(highest / DECADE, converged or 0.0), highest)
+    accelerated = front_of(point for point in measured if point.solver in ACCELERATED)
+    best = accelerated[-1].error if accelerated else None
+    errors = _errors_that_count(highest, floor, best)
+    fronts = {name: front_of(point for point in measured if point.solver == name) for name in solvers}
+    counted = front_of(replace(point, error=max(point.error, floor)) for point in measured)
     return Verdict(
-        front=tuple(front_of(points)),
+        front=tuple(front_of(measured)),
+        counted=tuple(point for point in counted if point.error <= highest),
         best_error=best,
         highest=highest,
         lowest=errors[-1] if errors else None,
         comparisons=tuple(_compare(accelerated, other, fronts.get(other), errors) for other in WANTED),
         levels=tuple(
             Level(error, {name: cost_of(front, error) for name, front in fronts.items()})
-            for error in round_levels([point.error for point in front_of(points)])
+            for error in round_levels([point.error for point in front_of(measured)])
         ),
     )
 
 
-def _errors_that_count(highest: float, best: float | None) -> list[float]:
-    """From the largest down; the lowest that the accelerated solvers reach alone, where that is not a good one."""
+def _errors_that_count(highest: float, floor: float, best: float | None) -> list[float]:
+    """From the largest down to the floor or the best of the accelerated solvers; that alone, where it is not a good one."""
     if best is None:
         return []
     if best >= highest:
         return [best]
-    lowest = max(best, highest / DECADE)
+    lowest = max(best, floor)
     return [max(highest * (lowest / highest) ** (step / (LEVELS - 1)), lowest) for step in range(LEVELS)]
 
 

@@ -104,9 +104,9 @@ def verdict_table(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
 
 MEANING = (
     "Accelerated: dual and primal. Compared on the case's own grid over the errors that count: from the one that the case calls"
-    f" good ({100 * GOOD:g} % where it names none) down to a tenth of it or to the lowest that the accelerated solvers reach;"
-    f" at {LEVELS} of them, interpolated in logarithms along each solver's front. The first figure is the median, in brackets"
-    " the range."
+    f" good ({100 * GOOD:g} % where it names none) down to a tenth of it or to what grid and time step leave to a"
+    f" converged solution, whichever is higher; at {LEVELS} of them, interpolated in logarithms along each solver's front. The"
+    " first figure is the median, in brackets the range."
 )
 
 
