@@ -38,6 +38,11 @@ typedef int32 int32_t;
 #endif
 #define K_WITH_SOLIDS (PBMPM_WITH_ELASTIC || PBMPM_WITH_SAND || PBMPM_WITH_VISCO)
 
+/* How a K_ELASTIC material yields. */
+#define K_NO_YIELD 0
+#define K_SAND 1
+#define K_VISCO 2
+
 #define K_FIXED_COROTATED 0
 #define K_NEO_HOOKEAN 1
 
@@ -74,6 +79,14 @@ struct KernelMaterial {
     float carried;            /* liquid: from a pressure [Pa] to the multiplier to start from */
     float pascal;             /* liquid: from a multiplier to a pressure [Pa] */
     float viscous_share;      /* liquid: share of the deviator that one round of viscosity takes */
+    /* How elastic matter yields, see plastic.isph. */
+    int32_t yields;
+    float friction;           /* sand: sine of the friction angle */
+    float cohesion;           /* sand: ln J where tension yields */
+    float looseness;          /* sand: growth of ln J beyond that which is kept */
+    float bulk_over_shear;    /* (2 mu + d lambda) / (2 mu) of the solver's law */
+    float yield_strain;       /* visco: norm of the deviator of the logarithmic strain that is borne */
+    float excess_kept;        /* visco: share of what is beyond that is left after a substep */
 };
 #endif
 

@@ -10,6 +10,8 @@ static const struct {
 } kinds[] = {
     [PBMPM_LIQUID] = {"liquid", PBMPM_WITH_LIQUID},
     [PBMPM_ELASTIC] = {"elastic", PBMPM_WITH_ELASTIC},
+    [PBMPM_SAND] = {"sand", PBMPM_WITH_SAND},
+    [PBMPM_VISCO] = {"visco", PBMPM_WITH_VISCO},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -44,7 +46,11 @@ pbmpm_material_def material_defaults(void)
                                 .rebound_max = 1.0f,
                                 .elastic_model = PBMPM_FIXED_COROTATED,
                                 .young_modulus = 1e5f,
-                                .poisson_ratio = 0.3f};
+                                .poisson_ratio = 0.3f,
+                                .friction_angle = 0.52359878f,
+                                .volume_correction = 1,
+                                .yield_strain = 0.05f,
+                                .flow_rate = 100.0f};
 }
 
 static const char *modulus_problem(const pbmpm_material_def *def)
@@ -56,6 +62,18 @@ static const char *modulus_problem(const pbmpm_material_def *def)
         return "material.elastic_model is unknown";
     if (!in_range(def->young_modulus, 1e-3, 1e15)) return "material.young_modulus must be in [1e-3, 1e15]";
     if (!in_range(def->poisson_ratio, 0.0, 0.495)) return "material.poisson_ratio must be in [0, 0.495]";
+    return NULL;
+}
+
+static const char *yield_problem(const pbmpm_material_def *def)
+{
+    const bool plastic = def->kind == PBMPM_SAND || def->kind == PBMPM_VISCO;
+    if (plastic && def->elasticity_ratio < 0.1f) return "material.elasticity_ratio of sand and visco must be in [0.1, 1]";
+    if (!in_range(def->friction_angle, 0.0, 1.4)) return "material.friction_angle must be in [0, 1.4] radians";
+    if (!in_range(def->cohesion, 0.0, 0.5)) return "material.cohesion must be in [0, 0.5]";
+    if (def->volume_correction > 1) return "material.volume_correction must be 0 or 1";
+    if (!in_range(def->yield_strain, 0.0, 10.0)) return "material.yield_strain must be in [0, 10]";
+    if (!in_range(def->flow_rate, 0.0, 1e9)) return "material.flow_rate must be in [0, 1e9]";
     return NULL;
 }
 
@@ -74,7 +92,17 @@ const char *material_problem(const pbmpm_material_def *def)
     if (!in_range(def->strain_max, 1.0, 1e4)) return "material.strain_max must be in [1, 1e4]";
     if (!in_range(def->condition_max, 10.0, 1e6)) return "material.condition_max must be in [10, 1e6]";
     if (!(def->rebound_max > 0.0f && def->rebound_max <= 10.0f)) return "material.rebound_max must be in (0, 10]";
-    return modulus_problem(def);
+    const char *problem = modulus_problem(def);
+    return problem ? problem : yield_problem(def);
+}
+
+/* Largest growth of ln J by which sand that came apart closes up before it bears pressure: spray shall not pull a heap together. */
+static const float LOOSENESS_MAX = 0.14f;
+
+static int32_t yield_of(pbmpm_material_kind kind)
+{
+    if (kind == PBMPM_SAND) return K_SAND;
+    return kind == PBMPM_VISCO ? K_VISCO : K_NO_YIELD;
 }
 
 void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def *def)
@@ -93,6 +121,10 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .rebound_max = def->rebound_max, /* of a liquid: set anew for each substep, see solver.c */
         .inverse_density = 1.0f / def->density,
         .elastic_model = def->elastic_model == PBMPM_NEO_HOOKEAN ? K_NEO_HOOKEAN : K_FIXED_COROTATED,
+        .yields = yield_of(def->kind),
+        .cohesion = def->cohesion,
+        .looseness = def->volume_correction ? LOOSENESS_MAX : 0.0f,
+        .yield_strain = def->yield_strain,
     };
 }
 

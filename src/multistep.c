@@ -43,12 +43,13 @@ void multistep_free(World *world)
     array_free(&world->memory, &world->primal.body_share);
 }
 
-/* Whether all particles of a block are elastic and have a past of steps like this one. */
+/* Whether all particles of a block are elastic, do not yield (what F forgets is no motion) and have a past of steps like this one. */
 static bool has_past(const World *world, int32_t block)
 {
     const uint32_t *block_run = world->grid.block_run.data;
     for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++) {
-        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind != K_ELASTIC) return false;
+        const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
+        if (material->kind != K_ELASTIC || material->yields != K_NO_YIELD) return false;
         for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++)
             if (world->particles.past_dt[row] != world->args.dt) return false;
     }

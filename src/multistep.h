@@ -7,7 +7,7 @@
  * It needs a past of equal steps. A body takes a step of backward Euler when a particle in it has none: new or edited matter, after a step
  * of another length, or that was pushed by an obstacle. An impact is no smooth motion: v' = (3 u - d) / (2 dt) of a body that has been stopped
  * would be -d / (2 dt), a bounce that comes from nothing. So a body that an obstacle pushes finishes with v' = u / dt, and has no past. Nodes
- * held for good by an obstacle that sticks do not count. Bodies with liquid always take backward Euler. */
+ * held for good by an obstacle that sticks do not count. Bodies with liquid, sand or visco always take backward Euler. */
 #ifndef PBMPM_SRC_MULTISTEP_H
 #define PBMPM_SRC_MULTISTEP_H
 

@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "depth.h"
+#include "plastic.h"
 
 /* ---- The bound of the pressure ---- */
 
@@ -85,6 +86,8 @@ void paper_set_materials(World *world, float dt)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation * soft;
+        /* It answers a volume strain in full and a deviator by the share beta: 2 mu = beta (2 mu + d lambda), which needs no Poisson effect. */
+        if (material->kind != K_LIQUID) plastic_set(world, slot, (double)dt, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
         if (material->kind != K_LIQUID) continue;
         material->volume_feedback = def->volume_feedback;
         material->viscosity = (float)paper_viscous_share(world, def, (double)dt);

@@ -9,6 +9,7 @@
 #include "explicit.h"
 #include "multistep.h"
 #include "paper.h"
+#include "plastic.h"
 #include "primal.h"
 #include "result.h"
 #include "viscosity.h"
@@ -53,6 +54,7 @@ static void set_moduli(World *world, float dt)
             if (world->record.solver == PBMPM_SOLVER_DUAL) c *= dual_stiffness_cap(world, def, (double)dt);
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
+            plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
         }
     }
 }

@@ -17,6 +17,8 @@ enum {
 typedef enum pbmpm_material_kind {
     PBMPM_LIQUID = 0,  /**< keeps its volume: J = 1 */
     PBMPM_ELASTIC = 1, /**< keeps its shape and volume: F is a rotation */
+    PBMPM_SAND = 2,    /**< an elastic body that shears as far as friction lets it and bears no tension */
+    PBMPM_VISCO = 3,   /**< an elastic body that flows where it is strained too far, at constant volume: clay, dough, mud */
     PBMPM_MATERIAL_KIND_FORCE32 = 0x7fffffff
 } pbmpm_material_kind;
 
@@ -41,6 +43,11 @@ typedef enum pbmpm_elastic_model {
  *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion; where the
  *  grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
  *  per substep so that they part (unless volume_feedback is 0).
+ *
+ *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
+ *  takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Theirs is the least elasticity_ratio of 0.1.
+ *  Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
+ *  from the pressure at the start of the substep.
  *
  *  The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
@@ -72,6 +79,15 @@ typedef struct pbmpm_material_def {
     pbmpm_elastic_model elastic_model; /**< elastic, not the paper's solver; default PBMPM_FIXED_COROTATED */
     float young_modulus;        /**< elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5 */
     float poisson_ratio;        /**< elastic, not the paper's solver: nu, in [0, 0.495]; default 0.3 */
+    float friction_angle;       /**< sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
+                                     3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure. */
+    float cohesion;             /**< sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry */
+    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart closes up again before it bears pressure; 0: it does not, and a heap
+                                     grows a little with each fall */
+    float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
+                                     [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
+    float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
+                                     Bingham fluid with the viscosity mu / flow_rate [Pa s]. */
 } pbmpm_material_def;
 
 /** How stiff a material is with a world's settings and rate. */

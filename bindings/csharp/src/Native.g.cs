@@ -102,6 +102,10 @@ namespace Pbmpm
         Liquid = 0,
         /// <summary>keeps its shape and volume: F is a rotation</summary>
         Elastic = 1,
+        /// <summary>an elastic body that shears as far as friction lets it and bears no tension</summary>
+        Sand = 2,
+        /// <summary>an elastic body that flows where it is strained too far, at constant volume: clay, dough, mud</summary>
+        Visco = 3,
     }
 
     /// <summary>What happens to an elastic particle that is strained beyond all measure.</summary>
@@ -417,6 +421,11 @@ namespace Pbmpm
     /// grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
     /// per substep so that they part (unless volume_feedback is 0).
     ///
+    /// Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
+    /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Theirs is the least elasticity_ratio of 0.1.
+    /// Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
+    /// from the pressure at the start of the substep.
+    ///
     /// The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
@@ -466,6 +475,20 @@ namespace Pbmpm
         public float YoungModulus;
         /// <summary>elastic, not the paper's solver: nu, in [0, 0.495]; default 0.3</summary>
         public float PoissonRatio;
+        /// <summary>sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
+        /// 3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure.</summary>
+        public float FrictionAngle;
+        /// <summary>sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry</summary>
+        public float Cohesion;
+        /// <summary>sand: 1 (default): sand that has come apart closes up again before it bears pressure; 0: it does not, and a heap
+        /// grows a little with each fall</summary>
+        public uint VolumeCorrection;
+        /// <summary>visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
+        /// [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain.</summary>
+        public float YieldStrain;
+        /// <summary>visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
+        /// Bingham fluid with the viscosity mu / flow_rate [Pa s].</summary>
+        public float FlowRate;
 
         /// <summary>The library's defaults.</summary>
         public static MaterialDef Default
@@ -1938,6 +1961,11 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_material_def", "elastic_model", &it, &it.ElasticModel, &it.ElasticModel + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "young_modulus", &it, &it.YoungModulus, &it.YoungModulus + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "poisson_ratio", &it, &it.PoissonRatio, &it.PoissonRatio + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "friction_angle", &it, &it.FrictionAngle, &it.FrictionAngle + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "cohesion", &it, &it.Cohesion, &it.Cohesion + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "volume_correction", &it, &it.VolumeCorrection, &it.VolumeCorrection + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "yield_strain", &it, &it.YieldStrain, &it.YieldStrain + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "flow_rate", &it, &it.FlowRate, &it.FlowRate + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "", &it, &it, &it + 1, true));
         }
 

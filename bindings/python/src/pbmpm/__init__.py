@@ -33,7 +33,7 @@ from .errors import (
 )
 from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
 from .forces import Falloff, Force, ForceKind
-from .materials import Effective, Elastic, ElasticModel, Liquid, Material, StrainPolicy, built_materials
+from .materials import Effective, Elastic, ElasticModel, Liquid, Material, Sand, StrainPolicy, Visco, built_materials
 from .queries import PointFields, RayHit, RegionShare
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
@@ -96,6 +96,7 @@ __all__ = [
     "RayHit",
     "Region",
     "RegionShare",
+    "Sand",
     "Shape",
     "SolidInfo",
     "Solver",
@@ -107,6 +108,7 @@ __all__ = [
     "UnsupportedCpuError",
     "UnsupportedError",
     "View",
+    "Visco",
     "World",
     "bake_heights",
     "bake_hull",

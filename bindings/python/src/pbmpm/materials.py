@@ -89,7 +89,81 @@ class Elastic:
     poisson_ratio: float = _default("poisson_ratio")
 
 
-Parameters = Liquid | Elastic
+@dataclass(frozen=True)
+class Sand:
+    """Shears as far as friction lets it and bears no tension beyond its cohesion.
+
+    Below yield it is an elastic body. Defaults are those of the C library.
+
+    Attributes:
+        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
+        relaxation: share of the constraint error removed per iteration, in (0, 2).
+        elasticity_ratio: how stiff the shape is beside the volume, in [0.1, 1]. Paper's solver.
+        strain_policy: what happens beyond all measure of strain.
+        strain_min: lower bound of the singular values of F, in [1e-3, 1].
+        strain_max: upper bound, in [1, 1e4].
+        condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
+        rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]. Paper's solver.
+        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
+        poisson_ratio: in [0, 0.495]. Not the paper's solver.
+        friction_angle: [rad], in [0, 1.4]; its tangent is the friction coefficient.
+        cohesion: ln of the volume ratio up to which it bears tension, in [0, 0.5]; 0: dry.
+        volume_correction: whether sand that has come apart closes up again before it bears pressure.
+    """
+
+    density: float = _default("density")
+    relaxation: float = _default("relaxation")
+    elasticity_ratio: float = _default("elasticity_ratio")
+    strain_policy: StrainPolicy = StrainPolicy(_DEFAULTS.strain_policy)
+    strain_min: float = _default("strain_min")
+    strain_max: float = _default("strain_max")
+    condition_max: float = _default("condition_max")
+    rebound_max: float = _default("rebound_max")
+    young_modulus: float = _default("young_modulus")
+    poisson_ratio: float = _default("poisson_ratio")
+    friction_angle: float = _default("friction_angle")
+    cohesion: float = _default("cohesion")
+    volume_correction: bool = bool(_DEFAULTS.volume_correction)
+
+
+@dataclass(frozen=True)
+class Visco:
+    """Flows where it is strained too far, at constant volume: clay, dough, mud.
+
+    Below yield it is an elastic body; beyond, a Bingham fluid with the viscosity mu / flow_rate [Pa s]. Defaults are those
+    of the C library.
+
+    Attributes:
+        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
+        relaxation: share of the constraint error removed per iteration, in (0, 2).
+        elasticity_ratio: how stiff the shape is beside the volume, in [0.1, 1]. Paper's solver.
+        strain_policy: what happens beyond all measure of strain.
+        strain_min: lower bound of the singular values of F, in [1e-3, 1].
+        strain_max: upper bound, in [1, 1e4].
+        condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
+        rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]. Paper's solver.
+        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
+        poisson_ratio: in [0, 0.495]. Not the paper's solver.
+        yield_strain: largest norm of the deviator of the logarithmic strain that is borne, in [0, 10]. The yield stress in
+            shear is sqrt(2) mu yield_strain.
+        flow_rate: [1/s]; strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9].
+    """
+
+    density: float = _default("density")
+    relaxation: float = _default("relaxation")
+    elasticity_ratio: float = _default("elasticity_ratio")
+    strain_policy: StrainPolicy = StrainPolicy(_DEFAULTS.strain_policy)
+    strain_min: float = _default("strain_min")
+    strain_max: float = _default("strain_max")
+    condition_max: float = _default("condition_max")
+    rebound_max: float = _default("rebound_max")
+    young_modulus: float = _default("young_modulus")
+    poisson_ratio: float = _default("poisson_ratio")
+    yield_strain: float = _default("yield_strain")
+    flow_rate: float = _default("flow_rate")
+
+
+Parameters = Liquid | Elastic | Sand | Visco
 
 
 @dataclass(frozen=True)
@@ -111,6 +185,8 @@ class Effective:
 _KINDS: dict[type, int] = {
     Liquid: ffi.integer_const("PBMPM_LIQUID"),
     Elastic: ffi.integer_const("PBMPM_ELASTIC"),
+    Sand: ffi.integer_const("PBMPM_SAND"),
+    Visco: ffi.integer_const("PBMPM_VISCO"),
 }
 
 
@@ -123,7 +199,7 @@ def built_materials() -> tuple[type[Parameters], ...]:
 def to_c(parameters: Parameters) -> Any:
     """The C structure of a material."""
     if type(parameters) not in _KINDS:
-        raise TypeError(f"a Liquid or an Elastic is needed, not {type(parameters).__name__}")
+        raise TypeError(f"a Liquid, Elastic, Sand or Visco is needed, not {type(parameters).__name__}")
     out = initialised("pbmpm_material_def")
     out.kind = _KINDS[type(parameters)]
     for item in fields(parameters):
@@ -133,12 +209,15 @@ def to_c(parameters: Parameters) -> Any:
 
 def from_c(definition: Any) -> Parameters:
     """The parameters in a C structure."""
-    kind = Liquid if definition.kind == _KINDS[Liquid] else Elastic
-    values: dict[str, Any] = {item.name: shortest(getattr(definition, item.name)) for item in fields(kind)}
-    if kind is Elastic:
-        values["strain_policy"] = StrainPolicy(definition.strain_policy)
-        values["elastic_model"] = ElasticModel(definition.elastic_model)
-    return kind(**values)
+    kind = next(kind for kind, number in _KINDS.items() if number == definition.kind)
+    return kind(**{item.name: _value(definition, item.name) for item in fields(kind)})
+
+
+_DECODED = {"strain_policy": StrainPolicy, "elastic_model": ElasticModel, "volume_correction": bool}
+
+
+def _value(definition: Any, field: str) -> Any:
+    return _DECODED.get(field, shortest)(getattr(definition, field))
 
 
 class Material:

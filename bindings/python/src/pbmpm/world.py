@@ -222,7 +222,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
     # Matter
 
     def add_material(self, parameters: Parameters) -> Material:
-        """Adds a material: a `Liquid` or an `Elastic`."""
+        """Adds a material: a `Liquid`, `Elastic`, `Sand` or `Visco`."""
         out = ffi.new("pbmpm_material_id *")
         self._call(lib.pbmpm_material_create, materials.to_c(parameters), out)
         return Material(self, out[0])

@@ -21,7 +21,13 @@ _SPEED_RAMP = np.array(
     [[26, 74, 150], [34, 110, 190], [48, 152, 216], [112, 202, 228], [196, 234, 238], [255, 255, 255]], dtype=np.float32
 )
 _LIQUID_COLOURS = ((36, 98, 190), (20, 150, 160), (90, 80, 170))
-_SOLID_COLOURS = ((232, 119, 46), (60, 160, 92), (178, 74, 160), (214, 178, 40), (170, 60, 60))
+_SOLID_COLOURS = ((232, 119, 46), (60, 160, 92), (178, 74, 160), (170, 60, 60))
+_COLOURS = {
+    "liquid": _LIQUID_COLOURS,
+    "elastic": _SOLID_COLOURS,
+    "sand": ((214, 178, 60), (160, 118, 60), (196, 158, 120)),
+    "visco": ((140, 92, 84), (120, 130, 70), (96, 70, 110)),
+}
 
 
 @dataclass(frozen=True)
@@ -52,9 +58,9 @@ def _typical_speed(scene: Scene) -> float:
 
 
 def material_colours(scene: Scene) -> np.ndarray:
-    """(m, 3) float32: a colour per material of the scene, cold for liquids and warm for solids."""
-    liquids, solids = itertools.cycle(_LIQUID_COLOURS), itertools.cycle(_SOLID_COLOURS)
-    colours = [next(liquids if material.kind == "liquid" else solids) for material in scene.materials.values()]
+    """(m, 3) float32: a colour per material of the scene, cold for liquids, warm for solids, those of sand and of mud."""
+    cycles = {kind: itertools.cycle(colours) for kind, colours in _COLOURS.items()}
+    colours = [next(cycles[material.kind]) for material in scene.materials.values()]
     return np.array(colours, dtype=np.float32)
 
 

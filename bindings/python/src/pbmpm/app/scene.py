@@ -15,7 +15,7 @@ from typing import Annotated, Any, Literal, Union
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
-from ..materials import Elastic, Liquid
+from ..materials import Elastic, Liquid, Sand, Visco
 from .errors import InputError
 from .names import EffectName, IntegratorName, PressureName, SolverName
 
@@ -42,7 +42,7 @@ class _Part(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True, strict=True)
 
 
-_LIQUID, _ELASTIC = Liquid(), Elastic()  # the library's defaults
+_LIQUID, _ELASTIC, _SAND, _VISCO = Liquid(), Elastic(), Sand(), Visco()  # the library's defaults
 
 
 class LiquidPart(_Part):
@@ -58,10 +58,9 @@ class LiquidPart(_Part):
     kinematic_viscosity: Annotated[float, Field(ge=0, le=1e6)] = _LIQUID.kinematic_viscosity
 
 
-class ElasticPart(_Part):
-    """An elastic solid. Fields and defaults are those of ``pbmpm_material_def``."""
+class _SolidPart(_Part):
+    """What all matter with a deformation gradient has. Fields and defaults are those of ``pbmpm_material_def``."""
 
-    kind: Literal["elastic"]
     density: Annotated[float, Field(ge=1e-3, le=1e6)] = _ELASTIC.density
     relaxation: Annotated[float, Field(gt=0, lt=2)] = _ELASTIC.relaxation
     elasticity_ratio: Share = _ELASTIC.elasticity_ratio
@@ -70,12 +69,39 @@ class ElasticPart(_Part):
     strain_max: Annotated[float, Field(ge=1, le=1e4)] = _ELASTIC.strain_max
     condition_max: Annotated[float, Field(ge=10, le=1e6)] = _ELASTIC.condition_max
     rebound_max: Annotated[float, Field(gt=0, le=10)] = _ELASTIC.rebound_max
-    elastic_model: Literal["fixed_corotated", "neo_hookean"] = "fixed_corotated"
     young_modulus: Modulus = _ELASTIC.young_modulus
     poisson_ratio: Annotated[float, Field(ge=0, le=0.495)] = _ELASTIC.poisson_ratio
 
 
-MaterialPart = Annotated[LiquidPart | ElasticPart, Field(discriminator="kind")]
+class ElasticPart(_SolidPart):
+    """An elastic solid."""
+
+    kind: Literal["elastic"]
+    elastic_model: Literal["fixed_corotated", "neo_hookean"] = "fixed_corotated"
+
+
+class SandPart(_SolidPart):
+    """Grains with friction."""
+
+    kind: Literal["sand"]
+    elasticity_ratio: Annotated[float, Field(ge=0.1, le=1)] = _SAND.elasticity_ratio
+    friction_angle: Annotated[float, Field(ge=0, le=1.4)] = _SAND.friction_angle
+    """[rad]"""
+    cohesion: Annotated[float, Field(ge=0, le=0.5)] = _SAND.cohesion
+    volume_correction: bool = _SAND.volume_correction
+
+
+class ViscoPart(_SolidPart):
+    """A solid that flows where it is strained too far."""
+
+    kind: Literal["visco"]
+    elasticity_ratio: Annotated[float, Field(ge=0.1, le=1)] = _VISCO.elasticity_ratio
+    yield_strain: Annotated[float, Field(ge=0, le=10)] = _VISCO.yield_strain
+    flow_rate: Annotated[float, Field(ge=0, le=1e9)] = _VISCO.flow_rate
+    """[1/s]"""
+
+
+MaterialPart = Annotated[LiquidPart | ElasticPart | SandPart | ViscoPart, Field(discriminator="kind")]
 
 
 class PlanePart(_Part):

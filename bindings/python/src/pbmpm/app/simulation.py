@@ -379,10 +379,12 @@ def _capacity(scene: Scene) -> int:
     return total
 
 
-def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic:
+_CLASSES = {"liquid": pbmpm.Liquid, "elastic": pbmpm.Elastic, "sand": pbmpm.Sand, "visco": pbmpm.Visco}
+_ENUMERATIONS = {"strain_policy": pbmpm.StrainPolicy, "elastic_model": pbmpm.ElasticModel}
+
+
+def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco:
     values = part.model_dump(exclude={"kind"})
-    if part.kind == "liquid":
-        return pbmpm.Liquid(**values)
-    values["strain_policy"] = pbmpm.StrainPolicy[part.strain_policy.upper()]
-    values["elastic_model"] = pbmpm.ElasticModel[part.elastic_model.upper()]
-    return pbmpm.Elastic(**values)
+    for name in _ENUMERATIONS.keys() & values.keys():
+        values[name] = _ENUMERATIONS[name][values[name].upper()]
+    return _CLASSES[part.kind](**values)
