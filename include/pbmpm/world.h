@@ -49,7 +49,7 @@ typedef enum pbmpm_solver {
                                       compressible one. */
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
-    PBMPM_SOLVER_CONVERGENT = 4, /**< the dual while the world holds a particle of a liquid, else the primal */
+    PBMPM_SOLVER_CONVERGENT = 4, /**< the dual while the world holds a particle of a liquid or of sand, else the primal */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 

@@ -67,7 +67,7 @@ static void test_instruction_sets_have_names(void)
 
 static void test_all_materials_are_built(void)
 {
-    TEST_ASSERT_EQUAL_HEX32(1u << PBMPM_LIQUID | 1u << PBMPM_ELASTIC, pbmpm_materials_built());
+    TEST_ASSERT_EQUAL_HEX32(1u << PBMPM_LIQUID | 1u << PBMPM_ELASTIC | 1u << PBMPM_SAND | 1u << PBMPM_VISCO, pbmpm_materials_built());
 }
 
 static void *fail_on_another_thread(void *message)

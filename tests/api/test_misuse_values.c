@@ -194,10 +194,15 @@ static void test_materials(void)
         {FIELD(pbmpm_material_def, kinematic_viscosity), FLOAT32, 0, 1e6, false, false},
         {FIELD(pbmpm_material_def, young_modulus), FLOAT32, (double)1e-3f, (double)1e15f, false, false},
         {FIELD(pbmpm_material_def, poisson_ratio), FLOAT32, 0, (double)0.495f, false, false},
+        {FIELD(pbmpm_material_def, friction_angle), FLOAT32, 0, (double)1.4f, false, false},
+        {FIELD(pbmpm_material_def, cohesion), FLOAT32, 0, 0.5, false, false},
+        {FIELD(pbmpm_material_def, yield_strain), FLOAT32, 0, 10, false, false},
+        {FIELD(pbmpm_material_def, flow_rate), FLOAT32, 0, 1e9, false, false},
     };
     static const rule enums[] = {
-        {FIELD(pbmpm_material_def, kind), INT32, PBMPM_LIQUID, PBMPM_ELASTIC, false, false},
+        {FIELD(pbmpm_material_def, kind), INT32, PBMPM_LIQUID, PBMPM_VISCO, false, false},
         {FIELD(pbmpm_material_def, strain_policy), INT32, PBMPM_STRAIN_CLAMP, PBMPM_STRAIN_DELETE, false, false},
+        {FIELD(pbmpm_material_def, volume_correction), INT32, 0, 1, false, false},
         {FIELD(pbmpm_material_def, elastic_model), INT32, PBMPM_FIXED_COROTATED, PBMPM_NEO_HOOKEAN, false, false},
     };
     const pbmpm_material_def def = default_material(PBMPM_ELASTIC);

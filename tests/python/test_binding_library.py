@@ -129,4 +129,4 @@ def test_the_instruction_set_has_a_name() -> None:
 
 
 def test_all_materials_are_built() -> None:
-    assert set(pbmpm.built_materials()) == {pbmpm.Liquid, pbmpm.Elastic}
+    assert set(pbmpm.built_materials()) == {pbmpm.Liquid, pbmpm.Elastic, pbmpm.Sand, pbmpm.Visco}

@@ -56,7 +56,7 @@ static void check_range(pbmpm_material_def *def, Range range, bool open)
 
 static void test_ranges(void)
 {
-    for (int kind = PBMPM_LIQUID; kind <= PBMPM_ELASTIC; kind++) {
+    for (int kind = PBMPM_LIQUID; kind <= PBMPM_VISCO; kind++) {
         pbmpm_material_def def = material_defaults();
         def.kind = (pbmpm_material_kind)kind;
         TEST_ASSERT_NULL(material_problem(&def));
@@ -64,10 +64,18 @@ static void test_ranges(void)
         check_range(&def, (Range){&def.relaxation, 0.0f, 2.0f}, true);
         check_range(&def, (Range){&def.viscosity, 0.0f, 1.0f}, false);
         check_range(&def, (Range){&def.volume_feedback, 0.0f, 1.0f}, false);
-        check_range(&def, (Range){&def.elasticity_ratio, 0.0f, 1.0f}, false);
+        check_range(&def, (Range){&def.elasticity_ratio, kind >= PBMPM_SAND ? 0.1f : 0.0f, 1.0f}, false);
         check_range(&def, (Range){&def.strain_min, 1e-3f, 1.0f}, false);
         check_range(&def, (Range){&def.strain_max, 1.0f, 1e4f}, false);
         check_range(&def, (Range){&def.condition_max, 10.0f, 1e6f}, false);
+        check_range(&def, (Range){&def.friction_angle, 0.0f, 1.4f}, false);
+        check_range(&def, (Range){&def.cohesion, 0.0f, 0.5f}, false);
+        check_range(&def, (Range){&def.yield_strain, 0.0f, 10.0f}, false);
+        check_range(&def, (Range){&def.flow_rate, 0.0f, 1e9f}, false);
+        def.volume_correction = 2;
+        TEST_ASSERT_NOT_NULL(material_problem(&def));
+        def.volume_correction = 0;
+        TEST_ASSERT_NULL(material_problem(&def));
         def.rebound_max = 10.0f;
         TEST_ASSERT_NULL(material_problem(&def));
         def.rebound_max = 0.0f;
@@ -78,7 +86,7 @@ static void test_ranges(void)
 static void test_unknown_kinds_are_refused(void)
 {
     pbmpm_material_def def = material_defaults();
-    def.kind = (pbmpm_material_kind)2;
+    def.kind = (pbmpm_material_kind)4;
     TEST_ASSERT_NOT_NULL(material_problem(&def));
     def = material_defaults();
     def.strain_policy = (pbmpm_strain_policy)2;

@@ -159,7 +159,7 @@ namespace Pbmpm
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>the dual while the world holds a particle of a liquid, else the primal</summary>
+        /// <summary>the dual while the world holds a particle of a liquid or of sand, else the primal</summary>
         Convergent = 4,
     }
 
