@@ -66,7 +66,7 @@ def test_defaults() -> None:
         ("materials.water.densty", 3, "materials.water.densty", "unknown field"),
         ("materials.water.density", -3, "materials.water.density", "greater than"),
         ("materials.water.relaxation", 2.0, "materials.water.relaxation", "less than 2"),
-        ("materials.water.kind", "sand", "materials.water", "'sand'"),
+        ("materials.water.kind", "snow", "materials.water", "'snow'"),
         ("materials.water.bulk_modulus", 1e-6, "materials.water.bulk_modulus", "0.001"),
         ("materials.water.young_modulus", 1e6, "materials.water.young_modulus", "unknown field"),
         ("solver", {"solver": "newton"}, "solver.solver", "'paper'"),
