@@ -244,6 +244,7 @@ def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.M
     explorer.run()
     assert {(left.setting.rate_hz, left.setting.iterations) for left in explorer.left_out.values()} >= {(480.0, 20)}
     assert all(setting.work <= 10000.0 for setting in rows)
+    assert all(left.own == (left.setting in Priced().sweep(False)) for left in explorer.left_out.values())
     assert "would take 11 s" in next(left.text() for left in explorer.left_out.values() if left.setting.rate_hz == 480.0)
 
 

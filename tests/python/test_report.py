@@ -147,6 +147,14 @@ def test_errors_that_the_other_does_not_reach_are_infinitely_dear() -> None:
     assert paper.reached and not paper.always
 
 
+def test_what_a_solver_that_was_cut_short_does_not_reach_is_not_known() -> None:
+    """The explicit solver's stable settings were too dear to measure; of the paper's, those below 0.03."""
+    points = [*line("primal", 1.0, [0.5, 0.001]), *line("paper", 4.0, [0.5, 0.03])]
+    paper, explicit = judge(points, ["primal", "paper", "explicit"], cut_short=["paper", "explicit"]).comparisons
+    assert paper.ratios == pytest.approx([4.0] * len(paper.ratios)) and 0 < len(paper.ratios) < LEVELS
+    assert not explicit.measured and not explicit.reached
+
+
 def test_verdict_where_the_other_is_never_stable() -> None:
     verdict = judge(line("dual", 1.0, [0.5, 0.01]), ["dual", "paper", "explicit"])
     assert all(comparison.best_error is None and comparison.always for comparison in verdict.comparisons)

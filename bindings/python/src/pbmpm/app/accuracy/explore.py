@@ -37,7 +37,11 @@ class LeftOut:
     seconds: float
     """Predicted for the measurement, from another one of the same solver."""
 
+    own: bool = False
+    """Whether it is on the case's own grid and of its own sweep: without it, what its solver reaches is not known."""
+
     def text(self) -> str:
+        """For people."""
         return f"{self.setting.text()}: would take {self.seconds:.0f} s to measure"
 
 
@@ -95,7 +99,8 @@ class Explorer:
 
     def _try(self, setting: Setting, share: float = _LONGEST_SHARE) -> None:
         if not self.affordable(setting, share):
-            self.left_out[setting] = LeftOut(setting, self._expected_seconds(setting))
+            own = share == 1.0
+            self.left_out[setting] = LeftOut(setting, self._expected_seconds(setting), own)
             return
         begin = time.process_time()
         row = self.rows[setting] = self.measure(setting)

@@ -12,7 +12,7 @@ from ..machine import machine_facts
 from ..progress import progress_bar
 from ..simulation import versions
 from .case import Case, Measurement, Setting, settings_of
-from .explore import Explorer
+from .explore import Explorer, LeftOut
 from .stability import DEFINITION
 
 TIMINGS = 2
@@ -74,7 +74,7 @@ class CaseReport:
     settings: list[Setting]
     measurements: list[Measurement]
     rows: list[dict[str, Any]]
-    left_out: list[str] = field(default_factory=list)
+    left_out: list[LeftOut] = field(default_factory=list)
     """Settings that would have taken too long."""
 
     def facts(self) -> dict[str, Any]:
@@ -92,7 +92,8 @@ class CaseReport:
             "errors": [vars(measure) for measure in case.error_kinds],
             "searched": case.searched,
             "own_cells": case.own_cells,
-            "left_out": self.left_out,
+            "left_out": [left.text() for left in self.left_out],
+            "cut_short": sorted({left.setting.solver for left in self.left_out if left.own}),
         }
 
 
@@ -146,7 +147,7 @@ class Sweep:
             settings,
             [measurements[setting] for setting in settings],
             [explorer.rows[setting] for setting in settings],
-            [left.text() for left in explorer.left_out.values()],
+            list(explorer.left_out.values()),
         )
 
     def _reference(self, case: Case, setting: Setting) -> Measurement | None:

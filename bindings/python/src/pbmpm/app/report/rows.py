@@ -61,7 +61,8 @@ class CaseRows:
         rows = [row for row in self.stable if own is None or row["cells"] == own]
         left = [row.get("converged_error") for row in rows if row["solver"] in ACCELERATED]
         converged = min((error for error in left if error is not None), default=None)
-        return judge([point_of(row) for row in rows], self.solvers, self.measure.get("tolerance"), converged)
+        points, good = [point_of(row) for row in rows], self.measure.get("tolerance")
+        return judge(points, self.solvers, good, converged, self.facts.get("cut_short", ()))
 
 
 def point_of(row: dict[str, Any]) -> Point:

@@ -18,7 +18,7 @@ Accelerated are the dual and the primal solver. One rule for all cases:
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, replace
 
 from .pareto import Point, cost_of, front_of
@@ -45,7 +45,7 @@ class Comparison:
 
     other: str
     wanted: float  #: times cheaper
-    measured: bool  #: whether the sweep holds the other solver at all
+    measured: bool  #: whether the sweep holds the other solver, and enough of it to compare
     best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
     ratios: tuple[float, ...] = ()  #: its cost over that of the accelerated, from the largest error down; may be infinite
 
@@ -112,7 +112,11 @@ class Verdict:
 
 
 def judge(
-    measured: Sequence[Point], solvers: Sequence[str], good: float | None = None, converged: float | None = None
+    measured: Sequence[Point],
+    solvers: Sequence[str],
+    good: float | None = None,
+    converged: float | None = None,
+    cut_short: Collection[str] = (),
 ) -> Verdict:
     """The verdict over the stable points of a case.
 
@@ -121,6 +125,8 @@ def judge(
         solvers: all that were tried, stable or not.
         good: the error that the case calls good; None when it calls none so.
         converged: the least error that converged solutions of the accelerated solvers have; None when it is not known.
+        cut_short: solvers of which settings were left out that would have taken too long: what they do not reach, nobody
+            knows, so they are compared where they are known alone.
     """
     highest = good_error(good)
     floor = min(max(highest / DECADE, converged or 0.0), highest)
@@ -135,7 +141,7 @@ def judge(
         best_error=best,
         highest=highest,
         lowest=errors[-1] if errors else None,
-        comparisons=tuple(_compare(accelerated, other, fronts.get(other), errors) for other in WANTED),
+        comparisons=tuple(_compare(accelerated, other, fronts.get(other), errors, other in cut_short) for other in WANTED),
         levels=tuple(
             Level(error, {name: cost_of(front, error) for name, front in fronts.items()})
             for error in round_levels([point.error for point in front_of(measured)])
@@ -153,13 +159,16 @@ def _errors_that_count(highest: float, floor: float, best: float | None) -> list
     return [max(highest * (lowest / highest) ** (step / (LEVELS - 1)), lowest) for step in range(LEVELS)]
 
 
-def _compare(accelerated: list[Point], other: str, front: list[Point] | None, errors: list[float]) -> Comparison:
+def _compare(
+    accelerated: list[Point], other: str, front: list[Point] | None, errors: list[float], cut_short: bool
+) -> Comparison:
     ratios = []
     for error in errors if front is not None else []:
         own, others = cost_of(accelerated, error), cost_of(front or [], error)
-        if own is not None:
+        if own is not None and not (cut_short and others is None):
             ratios.append(math.inf if others is None else others / own)
-    return Comparison(other, WANTED[other], front is not None, front[-1].error if front else None, tuple(ratios))
+    measured = front is not None and not (cut_short and errors and not ratios)
+    return Comparison(other, WANTED[other], measured, front[-1].error if front else None, tuple(ratios))
 
 
 def round_levels(errors: Sequence[float]) -> list[float]:
