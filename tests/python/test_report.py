@@ -137,6 +137,9 @@ def test_verdict_over_the_errors_below_the_one_that_is_called_good() -> None:
     assert paper.ratios[0] == pytest.approx(2.0) and paper.ratios[-1] == pytest.approx(8.0)
     assert paper.median == pytest.approx(4.0)
     assert paper.reached and not paper.always
+    points[-1] = Point("paper", "b", 400, 0.01)
+    paper = judge(points, ["dual", "paper"], good=0.1).comparisons[0]
+    assert max(paper.ratios) > 3.0 > paper.median and not paper.reached
 
 
 def test_errors_that_the_other_does_not_reach_are_infinitely_dear() -> None:

@@ -57,7 +57,7 @@ class Comparison:
     @property
     def reached(self) -> bool:
         """Whether the accelerated solvers are typically as many times cheaper as wanted."""
-        return bool(self.ratios) and sorted(self.ratios)[len(self.ratios) // 2] >= self.wanted
+        return self.median is not None and self.median >= self.wanted
 
     @property
     def always(self) -> bool:
