@@ -141,14 +141,29 @@ def test_emitters_and_drains() -> None:
     assert effects_on(scene) == ["liquid", "elastic", "viscosity", "volume_feedback", "emitters", "drains"]
 
 
-def test_sand_and_visco_get_stand_ins_with_notes() -> None:
+def test_sand_and_visco() -> None:
     data = small(emitMaterial="3")
     data["shapes"].append({**SMALL["shapes"][0], "emitMaterial": "2"})
+    settings = {"frictionAngle": "40", "plasticity": 0.88, "elasticityRatio": "0.5", "elasticRelaxation": 1.25}
+    data["settings"] = [{"name": name, "value": value} for name, value in settings.items()]
     scene = import_ea_scene(data, "small.json")
     assert [fill.material for fill in scene.fills] == ["visco", "sand"]
-    assert (scene.materials["visco"].kind, scene.materials["sand"].kind) == ("elastic", "liquid")
-    for name in ("sand", "visco"):
-        assert any(f"no {name} here" in note for note in scene.notes)
+    visco, sand = scene.materials["visco"], scene.materials["sand"]
+    assert (visco.kind, sand.kind) == ("visco", "sand")
+    assert visco.elasticity_ratio == sand.elasticity_ratio == 0.5 and visco.relaxation == sand.relaxation == 1.25
+    assert sand.friction_angle == pytest.approx(math.radians(40))
+    assert visco.yield_strain == pytest.approx(math.sqrt(2) * 0.12)
+    assert visco.flow_rate / scene.rate_hz > 100  # nothing is left of exp(-100) in single precision
+
+
+def test_extreme_sand_and_visco_stay_within_what_there_is() -> None:
+    data = small(emitMaterial="3")
+    data["shapes"].append({**SMALL["shapes"][0], "emitMaterial": "2"})
+    settings = {"frictionAngle": 90, "plasticity": 1.5, "elasticityRatio": 0}
+    data["settings"] = [{"name": name, "value": value} for name, value in settings.items()]
+    materials = import_ea_scene(data, "small.json").materials
+    assert materials["visco"].yield_strain == 0 and 1.3 < materials["sand"].friction_angle < math.pi / 2
+    assert 0 < materials["sand"].elasticity_ratio == materials["visco"].elasticity_ratio <= 0.1
 
 
 def test_what_nobody_knows_becomes_a_note() -> None:

@@ -7,8 +7,8 @@ in cells then has the same meaning as in the demo.
 
 What cannot be carried over is noted, never fatal: the demo's border friction is a share of the tangential displacement
 removed per iteration and becomes a Coulomb coefficient here; its ``iterationCount`` of n makes n - 1 complete rounds where
-ours makes n; sand and viscoplastic matter get the nearest material that there is; settings, fields, shapes and functions
-that nobody knows are left out.
+ours makes n; its sand yields by a constant for 3D, ours by that for 2D; its viscoplastic matter bounds each stretch, ours
+the norm of their deviator; settings, fields, shapes and functions that nobody knows are left out.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import math
 from typing import Any
 
 from .errors import InputError
-from .scene import FORMAT_NAME, FORMAT_VERSION, Scene, parse_scene
+from .scene import FORMAT_NAME, FORMAT_VERSION, SandPart, Scene, ViscoPart, parse_scene
 
 STANDARD_GRAVITY = 9.81
 DEFAULT_STRENGTH = 2.5
@@ -45,8 +45,8 @@ DEFAULTS = {
 MATERIALS = {0: "liquid", 1: "elastic", 2: "sand", 3: "visco"}
 FUNCTIONS = {0: "emitter", 1: "collider", 2: "drain", 3: "initial fill"}
 SHAPES = {0: "box", 1: "circle"}
-STAND_INS = {"sand": "a liquid as thick as can be", "visco": "an elastic body"}
-"""What stands in for materials that there are not."""
+AT_ONCE = 1e9
+"""[1/s] a flow rate at which strain beyond the yield is gone after a step, as in the demo."""
 KNOWN_FIELDS = {"id", "position", "halfSize", "rotation", "shape", "function", "emitMaterial", "emissionRate", "radius"}
 
 
@@ -173,24 +173,39 @@ def _settings(data: dict[str, Any], source: str) -> tuple[dict[str, float], list
 def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> dict[str, Any]:
     notes.append("border friction is a Coulomb coefficient here; the demo removes a share of the motion per iteration")
     notes.append("N iterations are N complete rounds here; the demo makes one fewer")
-    notes += [f"there is no {name} here yet: {STAND_INS[name]} stands in for it" for name in sorted(used & STAND_INS.keys())]
     liquid = {
         "kind": "liquid",
         "relaxation": _relaxation(settings, "liquidRelaxation", notes),
         "viscosity": min(max(settings["liquidViscosity"], 0.0), 1.0),
         "volume_feedback": 0.1 if settings["useGridVolumeForLiquid"] else 0.0,
     }
-    elastic = {
-        "kind": "elastic",
-        "relaxation": _relaxation(settings, "elasticRelaxation", notes),
-        "elasticity_ratio": min(max(settings["elasticityRatio"], 0.0), 1.0),
+    solid = {"relaxation": _relaxation(settings, "elasticRelaxation", notes)}
+    ratio = settings["elasticityRatio"]
+    elastic = {"kind": "elastic", **solid, "elasticity_ratio": min(max(ratio, 0.0), 1.0)}
+    sand = {
+        "kind": "sand",
+        **solid,
+        "elasticity_ratio": _within(SandPart, "elasticity_ratio", ratio),
+        "friction_angle": _within(SandPart, "friction_angle", math.radians(settings["frictionAngle"])),
     }
-    materials = {"liquid": liquid, "elastic": elastic}
-    if "sand" in used:
-        materials["sand"] = {**liquid, "viscosity": 1.0}
-    if "visco" in used:
-        materials["visco"] = dict(elastic)
+    # The demo keeps ln of each stretch within 1 - plasticity, and the volume: a deviator (a, -a) of norm sqrt(2) a.
+    visco = {
+        "kind": "visco",
+        **solid,
+        "elasticity_ratio": _within(ViscoPart, "elasticity_ratio", ratio),
+        "yield_strain": _within(ViscoPart, "yield_strain", math.sqrt(2) * (1 - settings["plasticity"])),
+        "flow_rate": AT_ONCE,
+    }
+    materials = {"liquid": liquid, "elastic": elastic, "sand": sand, "visco": visco}
     return {name: material for name, material in materials.items() if name in used}
+
+
+def _within(part: type[SandPart | ViscoPart], field: str, value: float) -> float:
+    """The nearest value that the format of scenes allows."""
+    for bound in part.model_fields[field].metadata:
+        value = max(value, getattr(bound, "ge", value))
+        value = min(value, getattr(bound, "le", value))
+    return value
 
 
 def _relaxation(settings: dict[str, float], name: str, notes: list[str]) -> float:
