@@ -8,9 +8,11 @@ import re
 import shlex
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from browser import browser, open_page
@@ -29,13 +31,35 @@ ROW_KEYS = {"case", "solver", "material", "dims", "rate_hz", "iterations", "pass
 def test_the_full_form_runs_everything() -> None:
     runs = plan(Selection())
     assert len(runs) == len(set(runs))
-    assert {(run.setting.rate_hz, run.setting.iterations) for run in runs} == {
+    ordinary = [run for run in runs if not find_case(run.case).ladder and run.setting.variant not in find_case(run.case).long_variants]
+    assert {(run.setting.rate_hz, run.setting.iterations) for run in ordinary} == {
         (r, n) for r in RATES for n in ITERATIONS
     }
     for solver in SOLVERS:
-        settings = sum(len(list(case.settings(solver=solver))) for case in CASES)
+        settings = sum(len(list(case.settings(solver=solver))) for case in CASES if not case.ladder)
         places = len(RATES) * (1 if solver == "explicit" else len(ITERATIONS))
-        assert sum(run.setting.solver == solver for run in runs) == settings * places
+        assert sum(run.setting.solver == solver for run in ordinary) == settings * places
+
+
+def test_a_ladder_is_climbed_in_the_quick_form_and_brings_its_rates_into_the_full_one() -> None:
+    case = find_case("H02")
+    quick = plan(Selection(cases=(case,), rates=None, iterations=None, dimensions=(2,), materials=("liquid",)))
+    for solver, counts_of in (("dual", ITERATIONS), ("explicit", (1,))):
+        places = [(run.setting.rate_hz, run.setting.iterations) for run in quick if run.setting.solver == solver]
+        assert len(places) == len(set(places))
+        assert set(places) == {(rate, count) for rate in (*RATES, 1200.0) for count in counts_of}
+    assert 1200.0 in {run.setting.rate_hz for run in plan(Selection(cases=(case,)))}
+
+
+def test_long_variants_run_in_the_full_form_or_when_they_are_named() -> None:
+    case = find_case("H19")
+    (name,) = case.long_variants
+    full = [run.setting for run in plan(Selection(cases=(case,))) if run.setting.variant == name]
+    assert {(setting.rate_hz, setting.iterations) for setting in full} == {(case.rate_hz, case.iterations)}
+    assert len(full) == len(SOLVERS) * len(case.materials) * 2
+    some = Selection(cases=(case,), rates=(60.0,), iterations=(5,))
+    assert all(run.setting.variant != name for run in plan(some))
+    assert all(run.setting.variant == name for run in plan(replace(some, variant=name, rates=None, iterations=None)))
 
 
 def test_the_quick_form_runs_each_case_at_its_own_setting() -> None:
@@ -121,6 +145,11 @@ def test_row_has_the_promised_keys_and_its_command_gives_the_same_run() -> None:
     assert set(row) >= ROW_KEYS
     assert (row["passed"], row["figure"], row["limit"]) == (False, 0.3, 0.9)
     assert row["command"] == Run("H04", outcome(False).setting).command
+
+
+def test_a_row_is_json_whatever_numbers_a_case_counts_with() -> None:
+    counted = Outcome("H04", outcome(True).setting, (Check("particles", np.int64(3), np.float32(2.0)),), 0.5)  # type: ignore[arg-type]
+    assert json.loads(json.dumps(row_of(counted)))["figure"] == 3.0
 
 
 def test_sweep_keeps_the_order_of_the_runs_with_one_process_and_with_two() -> None:

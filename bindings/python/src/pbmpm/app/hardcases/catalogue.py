@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from . import bad_input, energy, impact, overfull, rate, strain, volume
+from . import bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume
 from .case import HardCase
 
-CASES: tuple[HardCase, ...] = tuple(
-    sorted(
-        (*volume.CASES, *strain.CASES, *energy.CASES, *bad_input.CASES, *impact.CASES, *overfull.CASES, *rate.CASES),
-        key=lambda case: case.id,
-    )
-)
+_MODULES = (bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume)
+CASES: tuple[HardCase, ...] = tuple(sorted((case for module in _MODULES for case in module.CASES), key=lambda case: case.id))
 
 
 def find_case(identifier: str) -> HardCase:

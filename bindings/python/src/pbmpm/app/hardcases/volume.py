@@ -10,13 +10,11 @@ import numpy as np
 import pbmpm
 
 from ..accuracy import laws
-from .case import DUAL, LIQUID, PAPER, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
-from .watch import GRAVITY, Watch, make_world, occupied_share, potential_energy, total_energy, vector
+from .case import DUAL, LIQUID, PAPER, PRIMAL, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
+from .watch import ENERGY_SLACK, GRAVITY, Watch, make_world, occupied_share, potential_energy, total_energy, vector
 
 #: Share of the volume that has to come back, of what the solver's own compressibility leaves of it.
 RECOVERED_VOLUME = 0.9
-#: Energy may exceed what was there at the start by this share (validation check "energy": 0 violations > 0.1 %).
-ENERGY_SLACK = 0.001
 
 
 def volume_at_rest(setting: Setting, cell_size: float, height: float) -> float:
@@ -193,7 +191,8 @@ def collapse(setting: Setting) -> list[Check]:
 
 
 _ONE_ITERATION = KnownFailure(
-    "one iteration per 1/30 s does not carry the pressure of an incompressible liquid through a column of 64 cells",
+    "one iteration per 1/30 s does not carry the pressure of an incompressible liquid through a column of 64 cells: mean volume"
+    " ratio 0.83",
     solvers=(DUAL,),
     dimensions=(2,),
     most_iterations=1,
@@ -209,7 +208,7 @@ CASES = (
         materials=(LIQUID,),
         rate_hz=30.0,
         iterations=1,
-        known_failures=(_ONE_ITERATION, UNFINISHED_LIQUID),
+        known_failures=(_ONE_ITERATION, KnownFailure(UNFINISHED_LIQUID, solvers=(PRIMAL,))),
     ),
     HardCase(
         "H03",

@@ -17,6 +17,9 @@ GRAVITY = 9.81
 POSITION_ROUNDING = 1e-6
 #: Rounding of energy summed over single precision steps, relative.
 ENERGY_ROUNDING = 1e-4
+#: Kinetic and potential energy may exceed what was there at the start by this share (validation check "energy": no violation
+#: above 0.1 %).
+ENERGY_SLACK = 0.001
 #: Rounding of a speed at the clamp.
 SPEED_ROUNDING = 1e-4
 
@@ -116,6 +119,15 @@ class Watch:
 def total_energy(stats: pbmpm.Stats) -> float:
     """Kinetic and potential energy [J]."""
     return stats.kinetic_energy + stats.potential_energy
+
+
+def highest_energy(watch: Watch, seconds: float, dt: float) -> Check:
+    """Steps matter that begins at rest and unstrained in gravity, and compares its kinetic and potential energy with the
+    start's, above the floor at the origin. What is stored as strain came from there, so the sum without it is bounded, too."""
+    start, peak = potential_energy(watch.world), -math.inf
+    for _ in range(max(1, round(seconds / dt))):
+        peak = max(peak, total_energy(watch.step(dt)) / start)
+    return Check("highest energy over the start's", peak, 1.0 + ENERGY_SLACK)
 
 
 def potential_energy(world: pbmpm.World) -> float:

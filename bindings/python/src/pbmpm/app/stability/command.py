@@ -22,7 +22,7 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--solvers", type=NameList(_SOLVERS), help="Solvers to run.  [default: all]")
 @click.option("--rates", type=NumberList(float, 1e5), help="Steps per second.  [default: 15,30,60,120,240,480]")
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per step.  [default: 1,2,5,10,20]")
-@click.option("--materials", type=NameList(["liquid", "elastic"]), help="Kinds of matter.  [default: both]")
+@click.option("--materials", type=NameList(["liquid", "elastic", "mixed"]), help="Kinds of matter.  [default: all]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--variant", help="One variant of a case.  [default: all]")
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
@@ -40,8 +40,8 @@ def stability(
 ) -> None:
     """Run the hard CASEs (H01, H03, ...; default: all) and print what passes and what does not.
 
-    Each case runs with every solver, material and dimension at every rate and iteration count; that takes an hour or
-    more, so see --quick. For each cell that failed the figure that decided it is printed, with the command that runs it again.
+    Each case runs with every solver, material and dimension at every rate and iteration count; that takes
+    hours, so see --quick. For each cell that failed the figure that decided it is printed, with the command that runs it again.
 
     Exit code 1 when a setting fails, other than for a reason that is known or with the explicit solver, which is there
     to be compared with.

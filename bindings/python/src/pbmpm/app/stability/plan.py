@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from ..errors import InputError
 from ..hardcases import CASES, SOLVERS, HardCase, Setting, find_case
-from ..hardcases.case import ELASTIC, EXPLICIT, LIQUID, SEED
+from ..hardcases.case import EXPLICIT, SEED
 
 RATES = (15.0, 30.0, 60.0, 120.0, 240.0, 480.0)
 ITERATIONS = (1, 2, 5, 10, 20)
-MATERIALS = (LIQUID, ELASTIC)
+MATERIALS = tuple(dict.fromkeys(material for case in CASES for material in case.materials))
 DIMENSIONS = (2, 3)
 
 
@@ -70,29 +71,37 @@ def plan(selection: Selection) -> list[Run]:
 
 
 def _settings(case: HardCase, selection: Selection) -> Iterator[Setting]:
+    for setting in _all_settings(case, selection):
+        if (
+            setting.material in selection.materials
+            and setting.dimension in selection.dimensions
+            and selection.variant in (None, setting.variant)
+        ):
+            yield replace(setting, seed=selection.seed)
+
+
+def _all_settings(case: HardCase, selection: Selection) -> Iterator[Setting]:
+    is_full = (selection.rates, selection.iterations) == (RATES, ITERATIONS)
     for solver in selection.solvers:
-        for rate, iterations in _rates_and_iterations(selection, solver):
-            for setting in case.settings(rate, iterations, solver):
-                if (
-                    setting.material in selection.materials
-                    and setting.dimension in selection.dimensions
-                    and selection.variant in (None, setting.variant)
-                ):
-                    yield replace(setting, seed=selection.seed)
+        for rate, iterations in _rates_and_iterations(case, selection, solver):
+            yield from case.settings(rate, iterations, solver)
+        if is_full or selection.variant in case.long_variants:
+            yield from case.settings(solver=solver, long=True)
 
 
-def _rates_and_iterations(selection: Selection, solver: str) -> Iterator[tuple[float | None, int | None]]:
-    """The explicit solver does not iterate: it runs once per rate."""
-    for rate in selection.rates or (None,):
-        for iterations in selection.iterations or (None,):
-            if solver == EXPLICIT:
-                yield rate, 1
-                break
-            yield rate, iterations
+def _rates_and_iterations(
+    case: HardCase, selection: Selection, solver: str
+) -> Iterator[tuple[float | None, int | None]]:
+    """The explicit solver does not iterate: it runs once per rate. The full form takes in all rates of a case's ladder."""
+    rates: tuple[float | None, ...] = selection.rates or (None,)
+    if rates == RATES:
+        rates = tuple(dict.fromkeys((*RATES, *(rate for rate, _ in case.ladder))))
+    counts: tuple[int | None, ...] = (1,) if solver == EXPLICIT else selection.iterations or (None,)
+    return itertools.product(rates, counts)
 
 
 def _why_empty(selection: Selection) -> str:
-    variants = sorted({variant for case in selection.cases for variant in case.variants})
+    variants = sorted({variant for case in selection.cases for variant in case.variants + case.long_variants})
     if selection.variant is not None and selection.variant not in variants:
         return f"no variant '{selection.variant}'; there are: {', '.join(variants)}"
     return "none of these cases has these solvers, materials and dimensions"

@@ -28,10 +28,10 @@ def row_of(outcome: Outcome) -> dict[str, Any]:
         "variant": setting.variant,
         "rate_hz": setting.rate_hz,
         "iterations": setting.iterations,
-        "passed": outcome.passed,
+        "passed": bool(outcome.passed),
         "check": outcome.telling.name,
-        "figure": outcome.figure,
-        "limit": outcome.limit,
+        "figure": float(outcome.figure),  # some are of numpy's types, which are no JSON
+        "limit": float(outcome.limit),
         "limit_is_lowest": outcome.telling.at_least,
         "known_failure": outcome.known_failure,
         "seconds": outcome.seconds,

@@ -1,0 +1,176 @@
+"""Cases of contrast: heavy matter on light matter, and soft beside stiff in one cell."""
+
+from __future__ import annotations
+
+import numpy as np
+
+import pbmpm
+
+from ..accuracy import laws
+from .case import DUAL, ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, KnownFailure, Setting, sound_modulus
+from .watch import GRAVITY, Watch, highest_energy, make_world, vector
+
+# H09
+
+CELL = 1.0  # [m]: the paper's stiffness grows with the square of the cell, so a light block carries ten times its weight
+BLOCK_CELLS = {2: 6, 3: 4}
+GAP_CELLS = 1.0
+LIGHT_DENSITY = 100.0  # [kg/m^3]
+BLOCK_SECONDS = 3.0
+OVERTURN_SECONDS = 10.0
+RATIOS = (10, 100, 1000, 10000)
+RATIOS_3D = (10, 1000)  # for the sake of time
+VARIANTS = {f"1:{ratio}": ratio for ratio in RATIOS}
+CARRIED_RATIO = 10  # up to here the light block has to keep its volume
+VOLUME_MIN = 0.3
+CRUSHED_MAX = 0.5  # light liquid that is compressed by more is not asked to rise
+EJECTION = 2.0  # times the height at the start
+
+
+def _stack(setting: Setting, world: pbmpm.World, side: float, gap: float) -> tuple[pbmpm.Material, pbmpm.Material]:
+    """Heavy matter above light matter, in the middle of a tank."""
+    d, width = setting.dimension, world.domain[1][0]  # type: ignore[index]  # it has a domain
+    ratio = VARIANTS[setting.variant]
+    light, heavy = (
+        world.add_material(setting.parameters(CELL, density=density))
+        for density in (LIGHT_DENSITY, LIGHT_DENSITY * ratio)
+    )
+    half = [0.5 * side] * d if setting.material == ELASTIC else vector(d, 0.5 * width, 0.5 * side, 0.5 * side)
+    for material, base in ((light, 0.0), (heavy, side + gap)):
+        world.fill(
+            pbmpm.Box(vector(d, 0.5 * width, base + 0.5 * side, 0.5 * side), half), material, seed=setting.seed
+        )
+    return light, heavy
+
+
+def _heavy_block(setting: Setting) -> list[Check]:
+    """A heavy block falls on a light one."""
+    d = setting.dimension
+    side, gap = BLOCK_CELLS[d] * CELL, GAP_CELLS * CELL
+    with make_world(setting, CELL, gravity=True, size=[4.0 * side, 6.0 * side, side]) as world:
+        light, _ = _stack(setting, world, side, gap)
+        watch, top, least = Watch(world), 0.0, np.inf
+        for _ in range(round(BLOCK_SECONDS / setting.dt)):
+            watch.step(setting.dt)
+            rows = world.material_indices.array() == light.index
+            top = max(top, float(world.positions.array()[:, 1].max()))
+            least = min(least, float(np.linalg.det(world.deformations.array()[rows].astype(float)).min()))
+        carried = VARIANTS[setting.variant] <= CARRIED_RATIO
+        return [
+            *([Check("smallest J of the light block", least, VOLUME_MIN, at_least=True)] if carried else []),
+            Check("highest place over the start's height", top / (2.0 * side + gap), EJECTION),
+            *watch.checks(),
+        ]
+
+
+def crushed_share(setting: Setting, height: float) -> float:
+    """By how much heavy liquid of this height compresses the light one, by the solver's own compressibility."""
+    light = setting.parameters(CELL, density=LIGHT_DENSITY)
+    assert isinstance(light, pbmpm.Liquid)
+    modulus = light.bulk_modulus / light.density
+    if setting.solver == PAPER:
+        modulus = laws.bulk_modulus_over_density(
+            setting.dimension, CELL, setting.dt, setting.iterations, light.relaxation
+        )
+    return VARIANTS[setting.variant] * GRAVITY * height / modulus if modulus > 0.0 else 0.0
+
+
+def _overturn(setting: Setting) -> list[Check]:
+    """Heavy liquid above light liquid: they change places."""
+    side = BLOCK_CELLS[setting.dimension] * CELL
+    with make_world(setting, CELL, gravity=True, size=[2.0 * side, 3.0 * side, side]) as world:
+        light, heavy = _stack(setting, world, side, 0.0)
+        watch = Watch(world)
+        energy = highest_energy(watch, OVERTURN_SECONDS, setting.dt)
+        heights, indices = world.positions.array()[:, 1], world.material_indices.array()
+        means = [float(heights[indices == material.index].mean()) for material in (heavy, light)]
+        order = Check("mean height of the heavy liquid over that of the light one", means[0] / means[1], 1.0)
+        return [energy, *([order] if crushed_share(setting, side) < CRUSHED_MAX else []), *watch.checks()]
+
+
+def contrast(setting: Setting) -> list[Check]:
+    """H09."""
+    return _heavy_block(setting) if setting.material == ELASTIC else _overturn(setting)
+
+
+_BOUNCE = (
+    "five iterations let the heavy liquid crush the light one, whose recovery overshoots: energy up by 0.1 % (1:10, 2D), 0.6 % "
+    "(1:100, 2D), 4 % (1:10, 3D); with 20 iterations it stays below the start's"
+)
+_KNOWN = (
+    KnownFailure(_BOUNCE, solvers=(DUAL,), materials=(LIQUID,), dimensions=(2,), variants=("1:10", "1:100")),
+    KnownFailure(_BOUNCE, solvers=(DUAL,), materials=(LIQUID,), dimensions=(3,)),
+    KnownFailure(
+        "a body of the dual solver is as stiff as its iterations hold, (N/2.5)^2 rho dx^2 / (4 dt^2): the weight alone compresses the "
+        "light block by a sixth, and the impact its corners to J = 0.1 (2D), 0.24 (3D)",
+        solvers=(DUAL,),
+        materials=(ELASTIC,),
+        variants=("1:10",),
+    ),
+    KnownFailure(
+        "the light liquid loses its volume to the heavy one's weight, more than the law of a column says, and has not risen after "
+        "10 s: mean heights 9:1",
+        solvers=(PAPER,),
+        materials=(LIQUID,),
+        variants=("1:10",),
+    ),
+)
+
+# H20
+
+PILE_CELL = 0.1
+PILE_CELLS = {2: 6, 3: 4}
+PILE_SECONDS = 3.0
+STIFFNESSES = (1e-3, 1.0, 1e3)  # times the usual modulus
+PILE_PARTICLES = 2  # per axis and cell
+
+
+def pile(setting: Setting) -> list[Check]:
+    """H20: all kinds of matter, soft and stiff, in the same cells; they fall on the floor of a tank."""
+    d = setting.dimension
+    side = PILE_CELLS[d] * PILE_CELL
+    with make_world(setting, PILE_CELL, gravity=True, size=[3.0 * side, 3.0 * side, side]) as world:
+        kinds = [world.add_material(matter) for factor in STIFFNESSES for matter in _matter(setting, factor)]
+        count = PILE_PARTICLES * PILE_CELLS[d]
+        axis = (np.arange(count) + 0.5) / count * side
+        corner = np.array(vector(d, side, 0.5 * side, 0.0))
+        places = corner + np.stack(np.meshgrid(*[axis] * d), axis=-1).reshape(-1, d)
+        places = np.random.default_rng(setting.seed).permutation(places)
+        for kind, part in zip(kinds, np.array_split(places, len(kinds)), strict=True):
+            world.add_particles(kind, part, volumes=(PILE_CELL / PILE_PARTICLES) ** d)
+        watch = Watch(world)
+        return [highest_energy(watch, PILE_SECONDS, setting.dt), *watch.checks()]
+
+
+def _matter(setting: Setting, factor: float) -> list[pbmpm.Liquid | pbmpm.Elastic]:
+    """One of each kind, with a modulus that is so many times the usual one."""
+    modulus = factor * sound_modulus(PILE_CELL)
+    compressible = setting.solver in (PRIMAL, EXPLICIT)
+    return [
+        pbmpm.Elastic(young_modulus=modulus),
+        pbmpm.Liquid(bulk_modulus=modulus) if compressible else pbmpm.Liquid(),
+    ]
+
+
+CASES = (
+    HardCase(
+        "H09",
+        "Heavy matter on light matter, 1:10 to 1:10,000",
+        "manual of a particle engine: stability degrades past 10:1",
+        "the light block keeps J > 0.3 at 1:10, nothing flies above twice the start's height; liquids change places without gain"
+        " of energy",
+        contrast,
+        materials=(LIQUID, ELASTIC),
+        variants=tuple(VARIANTS),
+        makes_sense=lambda setting: setting.dimension == 2 or VARIANTS[setting.variant] in RATIOS_3D,
+        known_failures=_KNOWN,
+    ),
+    HardCase(
+        "H20",
+        "Mixed pile: all kinds of matter in one cell, stiffness from 1e-3 to 1e3",
+        "the four materials of the released demo",
+        "finite, nothing lost or outside, energy never above the start's",
+        pile,
+        materials=(MIXED,),
+    ),
+)
