@@ -15,7 +15,7 @@ pbmpm_result guess_prepare(World *world)
     GuessState *guess = &world->guess;
     const size_t nodes = (size_t)grid->node_blocks * (size_t)grid->block_cells;
     if (array_reserve(&world->memory, &guess->cells, GUESS_ARRAYS * nodes, sizeof(float)) &&
-        pyramid_build(&guess->pyramid, &world->memory, grid->dimension, grid->coordinate.data, grid->node_blocks))
+        multilevel_build(&guess->multilevel, &world->memory, grid, 1, LEVELS_BEYOND))
         return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the coarse grids of %d blocks", grid->node_blocks);
 }
@@ -23,7 +23,7 @@ pbmpm_result guess_prepare(World *world)
 void guess_free(World *world)
 {
     array_free(&world->memory, &world->guess.cells);
-    pyramid_free(&world->guess.pyramid, &world->memory);
+    multilevel_free(&world->guess.multilevel, &world->memory);
 }
 
 /* All pressures yield a little, a tenth as much as the slowest mode of matter n cells deep, whose eigenvalue is (pi / 4n)^2: a guess that is
@@ -126,10 +126,10 @@ void guess_begin(World *world, const ContactFrame *contacts)
     for (size_t i = 0; i < g.cells; i++) {
         const float *u = node + i * K_NODE_WIDTH;
         g.soft[i] = world->args.cell_softness[i] + least;
-        stiffness[i] = 0.25f * u[3];
+        stiffness[i] = u[3];
         load[i] = 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + mass[i] * g.soft[i];
     }
-    pyramid_set_energy(&world->guess.pyramid, stiffness, load);
+    multilevel_weigh(&world->guess.multilevel, world->pool, load, stiffness, 1.0);
     world->guess.closed = is_closed(&g, load);
 }
 
@@ -142,7 +142,7 @@ static void precondition(const Guess *g)
         g->better[i] = g->residual[i] / (own + g->soft[i]);
         g->response[i] = mass[i] * g->residual[i];
     }
-    pyramid_precondition(&g->world->guess.pyramid, g->response, g->better);
+    multilevel_add(&g->world->guess.multilevel, g->world->pool, g->response, g->better);
     for (size_t i = 0; i < g->cells; i++) g->better[i] *= g->mask[i];
     take_mean(g, g->better);
 }

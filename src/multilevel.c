@@ -1,6 +1,7 @@
 #include "multilevel.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1, COORDINATE_BITS = 21 };
@@ -48,8 +49,8 @@ static bool reserve_level(const Multilevel *m, Memory *memory, Level *level, int
     return array_reserve(memory, &level->coordinate, 3 * (size_t)blocks, sizeof(int32_t)) &&
            array_reserve(memory, &level->child, (size_t)blocks * (size_t)children_of(m), sizeof(int32_t)) &&
            array_reserve(memory, &level->parent, (size_t)finer * (size_t)parents_of(m), sizeof(int32_t)) &&
-           array_reserve(memory, &level->vector, nodes * W, sizeof(float)) &&
-           array_reserve(memory, &level->inverse, nodes * W, sizeof(float));
+           array_reserve(memory, &level->vector, nodes * (size_t)m->width, sizeof(float)) &&
+           array_reserve(memory, &level->inverse, nodes * (size_t)m->width, sizeof(float));
 }
 
 /* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. */
@@ -95,33 +96,42 @@ static void list_children(const Multilevel *m, Level *level, const Level *finer)
     }
 }
 
+/* Over how many blocks a level reaches along the longest axis. */
 static int32_t extent_of(const Level *level)
 {
     const int32_t *c = level->coordinate.data;
-    int32_t most = 0;
-    for (int32_t i = 0; i < 3 * level->blocks; i++) most = c[i] > most ? c[i] : most;
-    return most + 1;
+    int32_t least[3] = {INT32_MAX, INT32_MAX, INT32_MAX}, most[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, extent = 1;
+    for (int32_t i = 0; i < 3 * level->blocks; i++) {
+        least[i % 3] = c[i] < least[i % 3] ? c[i] : least[i % 3];
+        most[i % 3] = c[i] > most[i % 3] ? c[i] : most[i % 3];
+    }
+    for (int a = 0; a < 3 && level->blocks > 0; a++) extent = most[a] - least[a] >= extent ? most[a] - least[a] + 1 : extent;
+    return extent;
 }
 
-/* The finest level: the blocks of the grid, counted from those below the lowest with particles. */
-static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid)
+/* The finest level: the blocks of the grid, moved by `shift`. */
+static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t shift)
 {
     Level *level = &m->level[0];
     if (!array_reserve(memory, &level->coordinate, 3 * (size_t)grid->node_blocks, sizeof(int32_t))) return false;
     const int32_t *from = grid->coordinate.data;
     int32_t *to = level->coordinate.data;
-    for (int32_t i = 0; i < 3 * grid->node_blocks; i++) to[i] = i % 3 < grid->dimension ? from[i] + 1 : 0;
+    for (int32_t i = 0; i < 3 * grid->node_blocks; i++) to[i] = i % 3 < grid->dimension ? from[i] + shift : 0;
     level->blocks = grid->node_blocks;
     return true;
 }
 
-bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid)
+bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end)
 {
+    enum { LEVELS_FAR_BEYOND = 8 };
+    const int most_levels = end == LEVELS_BEYOND ? LEVELS_FAR_BEYOND : MULTILEVEL_MAX;
+    m->width = width;
     m->dimension = grid->dimension;
     m->block_cells = grid->block_cells;
     m->levels = 1;
-    if (!list_finest(m, memory, grid)) return false;
-    while (m->levels < MULTILEVEL_MAX && extent_of(&m->level[m->levels - 1]) > 1) {
+    /* The grid counts blocks from those with the lowest particles; the ones below have -1, and would have it on all levels. */
+    if (!list_finest(m, memory, grid, end == LEVELS_BEYOND ? 0 : 1)) return false;
+    while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
         const int32_t most = finer->blocks * parents_of(m);
@@ -129,7 +139,6 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid)
         list_parents(m, level, finer);
         list_children(m, level, finer);
         m->levels++;
-        if (extent_of(level) <= 2) break; /* one block, and what reaches over its end */
     }
     return true;
 }
@@ -149,10 +158,13 @@ void multilevel_free(Multilevel *m, Memory *memory)
 typedef struct TransferJob {
     const Multilevel *m;
     const Level *level;  /* the coarser one */
-    const Level *finer;  /* null: the grid */
+    const Level *finer;
     const float *from;
     float *to;
+    int width;
 } TransferJob;
+
+/* What follows is written once for any width and compiled for each of the two that there are. */
 
 /* The part of the halo that a child fills along one axis: the one below lends its last node. */
 static void child_range(int side, int *from, int *to, int *size)
@@ -162,30 +174,34 @@ static void child_range(int side, int *from, int *to, int *size)
     *size = side == 0 ? 1 : K_BLOCK_AXIS;
 }
 
-static void load_halo(const TransferJob *job, int32_t block, float *halo)
+static inline void load_halo(const TransferJob *job, int32_t block, float *halo, int width)
 {
     const Multilevel *m = job->m;
     const bool deep = m->dimension == 3;
     const int32_t *child = (const int32_t *)job->level->child.data + block * children_of(m);
+    const size_t one = (size_t)width * sizeof(float), line = K_BLOCK_AXIS * one;
     for (int n = 0; n < children_of(m); n++) {
         int fx, fy, fz = 0, tx, ty, tz = 0, sx, sy, sz = 1;
         child_range(n % 3, &fx, &tx, &sx);
         child_range(n / 3 % 3, &fy, &ty, &sy);
         if (deep) child_range(n / 9, &fz, &tz, &sz);
-        const float *source = child[n] < 0 ? NULL : job->from + (size_t)child[n] * (size_t)m->block_cells * W;
+        const float *source = child[n] < 0 ? NULL : job->from + (size_t)child[n] * (size_t)(m->block_cells * width);
         for (int k = 0; k < sz; k++)
             for (int j = 0; j < sy; j++) {
-                float *row = halo + (((tz + k) * HALO + ty + j) * HALO + tx) * W;
-                if (source)
-                    memcpy(row, source + (((fz + k) * K_BLOCK_AXIS + fy + j) * K_BLOCK_AXIS + fx) * W, (size_t)sx * W * sizeof(float));
+                float *row = halo + (((tz + k) * HALO + ty + j) * HALO + tx) * width;
+                const float *from = source + (source ? (((fz + k) * K_BLOCK_AXIS + fy + j) * K_BLOCK_AXIS + fx) * width : 0);
+                if (!source)
+                    memset(row, 0, (size_t)sx * one);
+                else if (sx == 1)
+                    memcpy(row, from, one);
                 else
-                    memset(row, 0, (size_t)sx * W * sizeof(float));
+                    memcpy(row, from, line);
             }
     }
 }
 
 /* Shortens one axis: `count` lines of HALO elements, `stride` floats apart, become lines of K_BLOCK_AXIS. An element has `width` floats. */
-static void sum_axis(const float *from, float *to, int lines, int width)
+static inline void sum_axis(const float *from, float *to, int lines, int width)
 {
     for (int line = 0; line < lines; line++)
         for (int j = 0; j < K_BLOCK_AXIS; j++) {
@@ -195,29 +211,37 @@ static void sum_axis(const float *from, float *to, int lines, int width)
         }
 }
 
+static inline void restrict_block(const TransferJob *job, int32_t block, int width)
+{
+    const bool deep = job->m->dimension == 3;
+    float halo[HALO * HALO * HALO * W], flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    float *to = job->to + (size_t)block * (size_t)(job->m->block_cells * width);
+    load_halo(job, block, halo, width);
+    sum_axis(halo, flat, deep ? HALO * HALO : HALO, width);
+    sum_axis(flat, deep ? thin : to, deep ? HALO : 1, K_BLOCK_AXIS * width);
+    if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
+}
+
 static void restrict_blocks(void *context, int32_t begin, int32_t end)
 {
     const TransferJob *job = context;
-    const bool deep = job->m->dimension == 3;
-    float halo[HALO * HALO * HALO * W], flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
     for (int32_t block = begin; block < end; block++) {
-        float *to = job->to + (size_t)block * (size_t)job->m->block_cells * W;
-        load_halo(job, block, halo);
-        sum_axis(halo, flat, deep ? HALO * HALO : HALO, W);
-        sum_axis(flat, deep ? thin : to, deep ? HALO : 1, K_BLOCK_AXIS * W);
-        if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * W);
+        if (job->width == 1)
+            restrict_block(job, block, 1);
+        else
+            restrict_block(job, block, W);
     }
 }
 
-static void restrict_to(const Multilevel *m, Pool *pool, int l, const float *from, float *to)
+static void restrict_to(const Multilevel *m, Pool *pool, int l, int width, const float *from, float *to)
 {
-    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to};
+    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, width};
     pool_for(pool, m->level[l].blocks, BLOCK_GRAIN, restrict_blocks, &job);
 }
 
 /* ---- Down: interpolation ---- */
 
-static void load_coarse(const TransferJob *job, int32_t block, float *coarse)
+static inline void load_coarse(const TransferJob *job, int32_t block, float *coarse, int width)
 {
     const Multilevel *m = job->m;
     const int depth = m->dimension == 3 ? COARSE : 1;
@@ -229,13 +253,13 @@ static void load_coarse(const TransferJob *job, int32_t block, float *coarse)
                 const int at[3] = {i + 2 * (c[0] & 1), j + 2 * (c[1] & 1), k + 2 * (c[2] & 1)};
                 const int n = (at[0] >> 2) | (at[1] >> 2) << 1 | (at[2] >> 2) << 2;
                 const int node = ((at[2] & 3) * K_BLOCK_AXIS + (at[1] & 3)) * K_BLOCK_AXIS + (at[0] & 3);
-                const float *from = job->from + ((size_t)parent[n] * (size_t)m->block_cells + (size_t)node) * W;
-                memcpy(coarse + ((k * COARSE + j) * COARSE + i) * W, from, W * sizeof(float));
+                const float *from = job->from + (parent[n] * m->block_cells + node) * (ptrdiff_t)width;
+                memcpy(coarse + ((k * COARSE + j) * COARSE + i) * width, from, (size_t)width * sizeof(float));
             }
 }
 
 /* Lengthens one axis: lines of COARSE elements become lines of K_BLOCK_AXIS. */
-static void spread_axis(const float *from, float *to, int lines, int width)
+static inline void spread_axis(const float *from, float *to, int lines, int width)
 {
     for (int line = 0; line < lines; line++)
         for (int j = 0; j < K_BLOCK_AXIS; j++) {
@@ -245,49 +269,68 @@ static void spread_axis(const float *from, float *to, int lines, int width)
         }
 }
 
+static inline void prolong_block(const TransferJob *job, int32_t block, int width)
+{
+    const bool deep = job->m->dimension == 3;
+    const int floats = job->m->block_cells * width;
+    float coarse[COARSE * COARSE * COARSE * W], flat[COARSE * COARSE * K_BLOCK_AXIS * W], thin[COARSE * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    float fine[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W], *to = job->to + (size_t)block * (size_t)floats;
+    load_coarse(job, block, coarse, width);
+    spread_axis(coarse, flat, deep ? COARSE * COARSE : COARSE, width);
+    spread_axis(flat, deep ? thin : fine, deep ? COARSE : 1, K_BLOCK_AXIS * width);
+    if (deep) spread_axis(thin, fine, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
+    for (int i = 0; i < floats; i++) to[i] += fine[i];
+}
+
 static void prolong_blocks(void *context, int32_t begin, int32_t end)
 {
     const TransferJob *job = context;
-    const bool deep = job->m->dimension == 3;
-    const int floats = job->m->block_cells * W;
-    float coarse[COARSE * COARSE * COARSE * W], flat[COARSE * COARSE * K_BLOCK_AXIS * W], thin[COARSE * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
-    float fine[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
     for (int32_t block = begin; block < end; block++) {
-        float *to = job->to + (size_t)block * (size_t)floats;
-        load_coarse(job, block, coarse);
-        spread_axis(coarse, flat, deep ? COARSE * COARSE : COARSE, W);
-        spread_axis(flat, deep ? thin : fine, deep ? COARSE : 1, K_BLOCK_AXIS * W);
-        if (deep) spread_axis(thin, fine, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * W);
-        for (int i = 0; i < floats; i++) to[i] += fine[i];
+        if (job->width == 1)
+            prolong_block(job, block, 1);
+        else
+            prolong_block(job, block, W);
     }
 }
 
 static void prolong_from(const Multilevel *m, Pool *pool, int l, const float *from, float *to)
 {
-    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to};
+    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, m->width};
     pool_for(pool, m->level[l - 1].blocks, BLOCK_GRAIN, prolong_blocks, &job);
 }
 
 /* ---- The operator ---- */
 
-/* Levels overlap: smooth motion is corrected by each of them. With 1 steps were too long by about the factor 2; iterations for the bar and the
- * cantilever of the accuracy cases were fewest around 2. */
-static const double OVERLAP = 2.0;
+typedef struct InvertJob {
+    const float *stiffness; /* restricted, one per node */
+    float *inverse;         /* in: the restricted masses */
+    float mass_factor, stiffness_factor;
+    int cells, width;
+} InvertJob;
 
-void multilevel_weigh(Multilevel *m, Pool *pool, const float *weight)
+static void invert_blocks(void *context, int32_t begin, int32_t end)
+{
+    const InvertJob *job = context;
+    for (int32_t node = begin * job->cells; node < end * job->cells; node++)
+        for (int c = 0; c < job->width; c++) {
+            float *value = job->inverse + (ptrdiff_t)node * job->width + c;
+            const float energy = job->mass_factor * *value + job->stiffness_factor * job->stiffness[node];
+            *value = energy > 1e-30f ? 1.0f / energy : 0.0f;
+        }
+}
+
+void multilevel_weigh(Multilevel *m, Pool *pool, const float *mass, const float *stiffness, double overlap)
 {
     const double d = m->dimension;
-    for (int l = 1; l < m->levels; l++) restrict_to(m, pool, l, l == 1 ? weight : m->level[l - 1].inverse.data, m->level[l].inverse.data);
     for (int l = 1; l < m->levels; l++) {
-        const float mass = (float)pow(2.0 / 3.0, d);
-        const float stiff = (float)(OVERLAP * 0.5 * d * pow(2.0 / 3.0, d - 1.0) * pow(0.25, l));
-        float *inverse = m->level[l].inverse.data;
-        const size_t nodes = (size_t)m->level[l].blocks * (size_t)m->block_cells;
-        for (size_t i = 0; i < nodes; i++, inverse += W)
-            for (int a = 0; a < 3; a++) {
-                const float energy = mass * inverse[a] + stiff * inverse[3];
-                inverse[a] = energy > 1e-30f ? 1.0f / energy : 0.0f;
-            }
+        const Level *level = &m->level[l], *finer = &m->level[l - 1];
+        restrict_to(m, pool, l, m->width, l == 1 ? mass : finer->inverse.data, level->inverse.data);
+        restrict_to(m, pool, l, 1, l == 1 ? stiffness : finer->vector.data, level->vector.data);
+    }
+    for (int l = 1; l < m->levels; l++) {
+        InvertJob job = {m->level[l].vector.data, m->level[l].inverse.data, (float)pow(2.0 / 3.0, d),
+                         (float)(overlap * 0.5 * d * pow(2.0 / 3.0, d - 1.0) * pow(0.25, l)), m->block_cells, m->width};
+        pool_for(pool, m->level[l].blocks, BLOCK_GRAIN, invert_blocks, &job);
     }
 }
 
@@ -300,16 +343,15 @@ typedef struct ScaleJob {
 static void scale_blocks(void *context, int32_t begin, int32_t end)
 {
     const ScaleJob *job = context;
-    for (size_t i = (size_t)begin * (size_t)job->floats; i < (size_t)end * (size_t)job->floats; i++)
-        job->vector[i] *= i % W == 3 ? 0.0f : job->inverse[i];
+    for (size_t i = (size_t)begin * (size_t)job->floats; i < (size_t)end * (size_t)job->floats; i++) job->vector[i] *= job->inverse[i];
 }
 
 void multilevel_add(Multilevel *m, Pool *pool, const float *r, float *z)
 {
-    for (int l = 1; l < m->levels; l++) restrict_to(m, pool, l, l == 1 ? r : m->level[l - 1].vector.data, m->level[l].vector.data);
+    for (int l = 1; l < m->levels; l++) restrict_to(m, pool, l, m->width, l == 1 ? r : m->level[l - 1].vector.data, m->level[l].vector.data);
     for (int l = m->levels - 1; l >= 1; l--) {
         Level *level = &m->level[l];
-        ScaleJob job = {level->inverse.data, level->vector.data, m->block_cells * W};
+        ScaleJob job = {level->inverse.data, level->vector.data, m->block_cells * m->width};
         pool_for(pool, level->blocks, BLOCK_GRAIN, scale_blocks, &job);
         if (l + 1 < m->levels) prolong_from(m, pool, l + 1, m->level[l + 1].vector.data, level->vector.data);
     }

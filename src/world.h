@@ -19,7 +19,6 @@
 #include "particles.h"
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
-#include "pyramid.h"
 #include "sinks.h"
 #include "sleep.h"
 
@@ -46,7 +45,7 @@ typedef struct DualState {
 /* What the guess of the pressure keeps. */
 typedef struct GuessState {
     Array cells;
-    Pyramid pyramid;
+    Multilevel multilevel;
     bool closed; /* matter fills a closed box */
 } GuessState;
 

@@ -196,9 +196,10 @@ static void test_a_warm_step_allocates_nothing(void)
 /* Each allocation refused in turn: the step says so, the world lives on, and the step after it succeeds. */
 static void test_refused_memory_is_reported_and_forgiven(void)
 {
+    enum { MOST_ALLOCATIONS = 128 };
     static ledger book;
     for (int w = 0; w < way_count; w++)
-        for (uint64_t nth = 1; nth < 64; nth++) {
+        for (uint64_t nth = 1; nth < MOST_ALLOCATIONS; nth++) {
             book = (ledger){0};
             const stage made = stirred_pool(2, &ways[w], use_ledger, &book);
             const uint32_t count = world_count(made.world);
@@ -215,7 +216,7 @@ static void test_refused_memory_is_reported_and_forgiven(void)
             ledger_expect_clean(&book, ways[w].name);
             if (book.failures == 0)
                 break;
-            TEST_ASSERT_TRUE_MESSAGE(nth < 63, ways[w].name);
+            TEST_ASSERT_TRUE_MESSAGE(nth + 1 < MOST_ALLOCATIONS, ways[w].name);
         }
 }
 

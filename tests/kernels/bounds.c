@@ -1,6 +1,7 @@
 #include "bounds.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "matrices.h"
 
@@ -101,6 +102,23 @@ void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p,
             node->size[r] += m * size;
         }
     }
+}
+
+void bound_push(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double S[9], double error)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    const double none[3] = {0};
+    bound_scatter(grid, bounds, p, none, S, (BoundParticle){.D = error});
+    if (p->material.kind != K_LIQUID) return;
+    for (int i = 0; i < s.count; i++)
+        for (int outer = 0; outer < s.count; outer++) {
+            const bool same_row = s.node[i][1] == s.node[outer][1] && s.node[i][2] == s.node[outer][2];
+            if (!same_row || abs(s.node[i][0] - s.node[outer][0]) != 1 || fabs(s.offset[i][0]) > 0.5) continue;
+            BoundNode *node = &bounds[reference_index(grid, s.node[i])];
+            const double size = s.weight[outer] * p->mass * fabs(S[0] * s.offset[outer][0]);
+            node->size[0] += size;
+            node->carried[0] += s.weight[outer] * p->mass * error * fabs(s.offset[outer][0]) + FLUSHED * p->mass * (1.0 + fabs(S[0]));
+        }
 }
 
 double bound_of_sum(const BoundNode *node, int axis)

@@ -103,7 +103,7 @@ void cells_check_push(DualStage *stage)
     Scene *scene = &stage->scene;
     KernelArgs *a = &scene->world->args;
     const int n = scene->step.dimension;
-    const double momentum = (double)a->momentum, none[3] = {0};
+    const double momentum = (double)a->momentum;
     scene_run_particles(scene, scene->kernels->cells_push);
     RefGrid sizes, sum = scene_tiles(scene, &sizes), pushed = reference_grid(n, scene->low, scene->high);
     RefGrid pressure = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
@@ -127,7 +127,7 @@ void cells_check_push(DualStage *stage)
         dual_multiplier(stage, i, S);
         for (int k = 0; k < 9; k++) error = fmax(error, 4.0 * UNIT_ROUNDOFF * (fabs(Y[k]) + fabs(S[k])));
         reference_push(&pushed, &p, Y);
-        bound_scatter(&pushed, bounds, &p, none, Y, (BoundParticle){.D = error});
+        bound_push(&pushed, bounds, &p, Y, error);
     }
     for (size_t i = 0; i < node_count(&sum); i++)
         for (int k = 0; k < 3; k++)

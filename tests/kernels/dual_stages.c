@@ -126,13 +126,12 @@ static void check_tiles(const DualStage *stage, const char *what)
     const Scene *scene = &stage->scene;
     RefGrid expected = reference_grid(scene->step.dimension, scene->low, scene->high), sizes, sum = scene_tiles(scene, &sizes);
     BoundNode *bounds = calloc(node_count(&expected), sizeof *bounds);
-    const double none[3] = {0};
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
         double S[9];
         dual_multiplier(stage, i, S);
         reference_push(&expected, &p, S);
-        bound_scatter(&expected, bounds, &p, none, S, (BoundParticle){0});
+        bound_push(&expected, bounds, &p, S, 0.0);
     }
     for (size_t i = 0; i < node_count(&sum); i++) {
         for (int a = 0; a < 3; a++) check_near(expected.node[i].u[a], sum.node[i].u[a], bound_of_sum(&bounds[i], a), what, (long)i);
@@ -225,7 +224,6 @@ void dual_check_displacements(DualStage *stage, double momentum)
     const float kept = scene->world->args.momentum;
     RefGrid node = scene_nodes(scene), q = reference_grid(scene->step.dimension, scene->low, scene->high);
     BoundNode *bounds = calloc(node_count(&q), sizeof *bounds);
-    const double none[3] = {0};
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
         double Y[9], S[9];
@@ -234,7 +232,7 @@ void dual_check_displacements(DualStage *stage, double momentum)
         dual_multiplier(stage, i, S);
         reference_push(&q, &p, Y);
         for (int k = 0; k < 9; k++) S[k] = fabs(S[k]) + 2.0 * fabs(Y[k] - S[k]);
-        bound_scatter(&q, bounds, &p, none, S, (BoundParticle){0});
+        bound_push(&q, bounds, &p, S, 0.0);
     }
     scene->world->args.momentum = kept;
     for (size_t i = 0; i < node_count(&q); i++) {

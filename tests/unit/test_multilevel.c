@@ -1,5 +1,6 @@
 /* The multilevel preconditioner: a symmetric, positive operator, whose levels interpolate linear fields exactly. */
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unity.h>
@@ -11,7 +12,7 @@
 void setUp(void) {}
 void tearDown(void) {}
 
-enum { CAPACITY = 6000, W = K_NODE_WIDTH };
+enum { CAPACITY = 6000 };
 
 typedef struct Hats {
     Books books;
@@ -21,11 +22,14 @@ typedef struct Hats {
     Grid grid;
     Multilevel levels;
     size_t floats;
-    float *weight, *a, *b, *za, *zb;
+    float *mass, *stiffness, *a, *b, *za, *zb;
 } Hats;
 
+/* The fourth value of vectors. */
+static bool unused(const Hats *h, size_t i) { return h->levels.width > 1 && i % (size_t)h->levels.width == 3; }
+
 /* A ragged cloud of cells: blocks with holes, and neighbours that are missing. */
-static void hats_open(Hats *h, int dimension, int threads, uint32_t seed, int spread)
+static void hats_open(Hats *h, int dimension, int width, int threads, uint32_t seed, int spread)
 {
     Random random = {seed};
     *h = (Hats){0};
@@ -39,19 +43,19 @@ static void hats_open(Hats *h, int dimension, int threads, uint32_t seed, int sp
         particles_append(&h->particles, &particle, (uint32_t)i + 1);
     }
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&h->grid, &h->memory, &h->particles, h->pool, false));
-    TEST_ASSERT_TRUE(multilevel_build(&h->levels, &h->memory, &h->grid));
-    h->floats = (size_t)h->grid.node_blocks * (size_t)h->grid.block_cells * W;
-    float **arrays[] = {&h->weight, &h->a, &h->b, &h->za, &h->zb};
+    TEST_ASSERT_TRUE(multilevel_build(&h->levels, &h->memory, &h->grid, width, width == 1 ? LEVELS_BEYOND : LEVELS_OVER_MATTER));
+    h->floats = (size_t)h->grid.node_blocks * (size_t)h->grid.block_cells * (size_t)width;
+    float **arrays[] = {&h->mass, &h->stiffness, &h->a, &h->b, &h->za, &h->zb};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         *arrays[i] = calloc(h->floats, sizeof(float));
-        for (size_t k = 0; k < h->floats; k++) (*arrays[i])[k] = k % W == 3 && i > 0 ? 0.0f : (float)random_in(&random, i == 0 ? 0.1 : -1.0, 1.0);
+        for (size_t k = 0; k < h->floats; k++) (*arrays[i])[k] = unused(h, k) ? 0.0f : (float)random_in(&random, i < 2 ? 0.1 : -1.0, 1.0);
     }
-    multilevel_weigh(&h->levels, h->pool, h->weight);
+    multilevel_weigh(&h->levels, h->pool, h->mass, h->stiffness, 1.0);
 }
 
 static void hats_close(Hats *h)
 {
-    float *arrays[] = {h->weight, h->a, h->b, h->za, h->zb};
+    float *arrays[] = {h->mass, h->stiffness, h->a, h->b, h->za, h->zb};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) free(arrays[i]);
     multilevel_free(&h->levels, &h->memory);
     grid_free(&h->grid, &h->memory);
@@ -69,17 +73,17 @@ static void apply(Hats *h, const float *r, float *z)
 static double dot(const Hats *h, const float *x, const float *y)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < h->floats; i++) sum += i % W == 3 ? 0.0 : (double)x[i] * (double)y[i];
+    for (size_t i = 0; i < h->floats; i++) sum += unused(h, i) ? 0.0 : (double)x[i] * (double)y[i];
     return sum;
 }
 
 /* <a, B b> = <B a, b> and <a, B a> > 0: otherwise L-BFGS would have no descent. Rounding: sums of some 1e4 terms of single precision. */
 static void test_symmetric_and_positive(void)
 {
-    for (int dimension = 2; dimension <= 3; dimension++)
+    for (int kind = 0; kind < 4; kind++)
         for (int spread = 3; spread <= 96; spread *= 2) {
             Hats h;
-            hats_open(&h, dimension, 1, 7, spread);
+            hats_open(&h, 2 + kind / 2, kind % 2 ? K_NODE_WIDTH : 1, 1, 7, spread);
             apply(&h, h.a, h.za);
             apply(&h, h.b, h.zb);
             const double left = dot(&h, h.b, h.za), right = dot(&h, h.a, h.zb);
@@ -97,16 +101,36 @@ static void test_a_force_reaches_far(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++) {
         Hats h;
-        hats_open(&h, dimension, 1, 3, 24);
+        hats_open(&h, dimension, K_NODE_WIDTH, 1, 3, 24);
         memset(h.a, 0, h.floats * sizeof *h.a);
         h.a[0] = 1.0f;
         apply(&h, h.a, h.za);
         size_t moved = 0;
         for (size_t i = 0; i < h.floats; i++) {
-            TEST_ASSERT_TRUE(i % W == 0 ? h.za[i] >= 0.0f : h.za[i] == 0.0f);
+            TEST_ASSERT_TRUE(i % K_NODE_WIDTH == 0 ? h.za[i] >= 0.0f : h.za[i] == 0.0f);
             moved += h.za[i] > 0.0f;
         }
         TEST_ASSERT_TRUE(moved > (dimension == 3 ? 7u * 7u * 7u : 7u * 7u));
+        hats_close(&h);
+    }
+}
+
+/* The diagonal of the first coarse level is the energy of its hats: for m = k = 1 in the middle of a solid block, where they are not cut off,
+ * (2/3)^d 2^d and overlap d/2 (1/4) (2/3)^(d-1) 2^d. */
+static void test_the_diagonal_is_the_energy_of_hats(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        Hats h;
+        hats_open(&h, dimension, 1, 1, 7, 3);
+        for (size_t i = 0; i < h.floats; i++) h.mass[i] = h.stiffness[i] = 1.0f;
+        multilevel_weigh(&h.levels, h.pool, h.mass, h.stiffness, 3.0);
+        const double d = dimension, volume = pow(2.0, d);
+        const double expected = volume * (pow(2.0 / 3.0, d) + 3.0 * 0.5 * d * 0.25 * pow(2.0 / 3.0, d - 1.0));
+        const float *inverse = h.levels.level[1].inverse.data;
+        float least = INFINITY;
+        for (size_t i = 0; i < (size_t)h.levels.level[1].blocks * (size_t)h.grid.block_cells; i++)
+            if (inverse[i] > 0.0f) least = fminf(least, inverse[i]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 / expected, 1.0 / expected, (double)least);
         hats_close(&h);
     }
 }
@@ -115,8 +139,8 @@ static void test_a_force_reaches_far(void)
 static void test_threads_change_nothing(void)
 {
     Hats one, four;
-    hats_open(&one, 3, 1, 11, 40);
-    hats_open(&four, 3, 4, 11, 40);
+    hats_open(&one, 3, 1, 1, 11, 40);
+    hats_open(&four, 3, 1, 4, 11, 40);
     apply(&one, one.a, one.za);
     apply(&four, four.a, four.za);
     TEST_ASSERT_EQUAL_size_t(one.floats, four.floats);
@@ -130,10 +154,10 @@ static void test_no_memory(void)
 {
     for (uint64_t refused = 1; refused < 12; refused++) {
         Hats h;
-        hats_open(&h, 2, 1, 5, 96);
+        hats_open(&h, 2, 1, 1, 5, 96);
         Multilevel fresh = {0};
         h.books.fail_at = h.books.calls + refused;
-        const bool built = multilevel_build(&fresh, &h.memory, &h.grid);
+        const bool built = multilevel_build(&fresh, &h.memory, &h.grid, K_NODE_WIDTH, LEVELS_OVER_MATTER);
         TEST_ASSERT_TRUE(built || h.books.calls >= h.books.fail_at);
         h.books.fail_at = 0;
         multilevel_free(&fresh, &h.memory);
@@ -146,6 +170,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_symmetric_and_positive);
     RUN_TEST(test_a_force_reaches_far);
+    RUN_TEST(test_the_diagonal_is_the_energy_of_hats);
     RUN_TEST(test_threads_change_nothing);
     RUN_TEST(test_no_memory);
     return UNITY_END();
