@@ -5,11 +5,8 @@
 
 #include "holds.h"
 #include "multistep.h"
+#include "primal_solve.h"
 #include "result.h"
-
-/* In cantilevers the true error of steps was 0.5 to 1.2 residuals (medians) where 10 and 20 iterations were enough, and 1.1 to 2.5 where 2 and
- * 5 were too few. */
-static const double ERROR_PER_RESIDUAL = 1.3;
 
 /* Levels overlap: smooth motion is corrected by each of them. With 1 steps were too long by about the factor 2; iterations for the bar and the
  * cantilever of the accuracy cases were fewest around 2. */
@@ -17,41 +14,11 @@ static const double OVERLAP = 2.0;
 
 static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
-static const double ENERGY_ROUNDING = 5e-7; /* of sums of energies in single precision */
 static const double SMALLEST_STEP = 1e-6;
 static const double FAR_FROM_DONE = 0.1;     /* residual over what forces changed */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
-enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4, VECTORS = 4 + 2 * PRIMAL_MEMORY };
-
-/* What a body had and has: see primal.h. */
-typedef struct BodySum {
-    double before, after, work;
-    double mass, momentum[3]; /* of the predictor */
-    double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
-    double elastic;           /* energy of the elastic particles */
-    bool with_liquid, touches, failed;
-    bool unsound;             /* failed at first */
-    bool leans;               /* on an obstacle */
-    float share;              /* of the way from the start to the solution */
-} BodySum;
-
-/* One substep. Vectors have W floats per node; the last is not used. */
-typedef struct Primal {
-    World *world;
-    const ContactFrame *contacts;
-    int floats;                             /* per block */
-    float *node, *base, *force;             /* where the energy was evaluated, the predictor, the gradient there */
-    float *best, *gradient;                 /* the accepted displacements and their gradient */
-    float *right, *direction;               /* what is solved for: free part of the gradient; the next step, with opposite sign */
-    float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients, newest first */
-    double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
-    int pairs;
-    double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
-    float share;                            /* of the step that is tried */
-    double mass, energy, trial_energy, slope_before, slope_after;
-    double total[SUMS];                     /* what the last pass added up */
-} Primal;
+enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY };
 
 /* ---- Memory ---- */
 
@@ -107,9 +74,6 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
 
 /* ---- Passes over the nodes ---- */
 
-/* Works on the floats [begin, end) of one block; adds up into sum[SUMS]. */
-typedef void BlockPass(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
-
 typedef struct PassJob {
     Primal *p;
     BlockPass *pass;
@@ -128,7 +92,7 @@ static void run_pass(void *context, int32_t begin, int32_t end)
 }
 
 /* The sums of the blocks are added in order, so they do not depend on the number of threads. */
-static void over_blocks(Primal *p, BlockPass *pass)
+void primal_over_blocks(Primal *p, BlockPass *pass)
 {
     PassJob job = {p, pass};
     const int32_t blocks = p->world->grid.node_blocks;
@@ -173,11 +137,11 @@ static double sum_energies(const Primal *p)
 }
 
 /* At p->node. */
-static void evaluate(Primal *p)
+void primal_evaluate(Primal *p)
 {
     solver_over_particles(p->world, p->world->kernels->force);
     solver_over_nodes(p->world, p->world->kernels->force_nodes, NULL);
-    over_blocks(p, finish_gradient);
+    primal_over_blocks(p, finish_gradient);
     p->trial_energy = p->total[0] + sum_energies(p);
     p->slope_before = p->total[1];
     p->slope_after = p->total[2];
@@ -254,18 +218,18 @@ static void drop_newest_pair(Primal *p)
 }
 
 /* Makes p->node the accepted displacements. */
-static void accept(Primal *p, bool with_pair)
+void primal_accept(Primal *p, bool with_pair)
 {
     PrimalState *state = &p->world->primal;
     if (with_pair) {
         shift_pairs(p);
-        over_blocks(p, keep_pair);
+        primal_over_blocks(p, keep_pair);
         memcpy(p->product[0], p->total, sizeof p->product[0]);
         if (!(p->product[0][0] > CURVATURE_MIN * sqrt(p->total[SUMS - 1] * p->total[SUMS - 2]))) drop_newest_pair(p);
     } else {
         p->pairs = 0;
     }
-    over_blocks(p, take_over);
+    primal_over_blocks(p, take_over);
     memcpy(p->first, p->total, sizeof p->first);
     memcpy(state->accepted_energy.data, state->block_energy.data, 4 * (size_t)p->world->grid.particle_blocks * sizeof(float));
     p->energy = p->trial_energy;
@@ -304,7 +268,7 @@ static void add_steps(Primal *p, int32_t block, size_t begin, size_t end, double
 }
 
 /* p->direction from p->right; p->first holds step . right of each pair. Returns gradient . direction. */
-static double find_direction(Primal *p)
+double primal_find_direction(Primal *p)
 {
     double coefficient[PRIMAL_MEMORY];
     for (int i = 0; i < p->pairs; i++) {
@@ -312,16 +276,16 @@ static double find_direction(Primal *p)
         for (int j = 0; j < i; j++) along -= p->first[j] * p->product[j][i];
         p->first[i] = along / p->product[i][i];
     }
-    over_blocks(p, add_changes);
+    primal_over_blocks(p, add_changes);
     multilevel_add(&p->world->primal.multilevel, p->world->pool, p->right, p->direction);
-    over_blocks(p, project_direction);
+    primal_over_blocks(p, project_direction);
     memcpy(coefficient, p->total, sizeof coefficient);
     for (int i = p->pairs - 1; i >= 0; i--) {
         double along = coefficient[i];
         for (int j = i + 1; j < p->pairs; j++) along += p->second[j] * p->product[i][j];
         p->second[i] = p->first[i] - along / p->product[i][i];
     }
-    over_blocks(p, add_steps);
+    primal_over_blocks(p, add_steps);
     return p->total[0];
 }
 
@@ -339,7 +303,7 @@ static bool is_good(const Primal *p)
 {
     if (!isfinite(p->trial_energy) || !isfinite(p->slope_after)) return false;
     if (p->trial_energy <= p->energy + ARMIJO * p->slope_before) return true;
-    const bool rounding = p->trial_energy - p->energy <= ENERGY_ROUNDING * p->energy;
+    const bool rounding = p->trial_energy - p->energy <= PRIMAL_ENERGY_ROUNDING * p->energy;
     return rounding && p->slope_before < 0.0 && fabs(p->slope_after) <= SLOPE_SHARE * fabs(p->slope_before);
 }
 
@@ -354,228 +318,42 @@ static float shorter(const Primal *p)
 static bool descend(Primal *p, uint32_t *passes, uint32_t most)
 {
     for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
-        over_blocks(p, try_step);
-        evaluate(p);
+        primal_over_blocks(p, try_step);
+        primal_evaluate(p);
         ++*passes;
         if (!is_good(p)) continue;
-        accept(p, true);
+        primal_accept(p, true);
         return true;
     }
     return false;
 }
 
 /* The same without the pairs. */
-static double find_plain_direction(Primal *p)
+double primal_find_plain_direction(Primal *p)
 {
     p->pairs = 0;
     memcpy(p->right, p->gradient, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->right);
-    return find_direction(p);
+    return primal_find_direction(p);
 }
 
 static void minimise(Primal *p)
 {
     StepRecord *record = &p->world->record;
     for (;;) {
-        double decrement = find_direction(p);
-        if (decrement <= 0.0 && p->pairs > 0) decrement = find_plain_direction(p);
+        double decrement = primal_find_direction(p);
+        if (decrement <= 0.0 && p->pairs > 0) decrement = primal_find_plain_direction(p);
         record->residual = sqrt(fmax(decrement, 0.0) / p->mass);
-        if (!solver_may_go_on(p->world, ERROR_PER_RESIDUAL * record->residual)) return;
+        if (!solver_may_go_on(p->world, PRIMAL_ERROR_PER_RESIDUAL * record->residual)) return;
         if (!(decrement > 0.0) || !descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations)) return;
     }
 }
 
 /* Goes on along p->direction, without stop rules, for what the energy check asks for. */
-static void descend_further(Primal *p)
+void primal_descend_further(Primal *p)
 {
     uint32_t *passes = &p->world->record.iterations_used;
     const uint32_t most = *passes + (uint32_t)p->world->settings.iterations + 1;
-    while (descend(p, passes, most) && *passes < most && find_direction(p) > 0.0) {}
-}
-
-/* ---- The energy check ---- */
-
-static BodySum *body_of(const Primal *p, int32_t block)
-{
-    const PrimalState *state = &p->world->primal;
-    return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
-}
-
-static bool is_multistep(const Primal *p, int32_t block)
-{
-    const float *share = p->world->args.block_share;
-    return share && share[block] < 1.0f;
-}
-
-/* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
-static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const bool multistep = is_multistep(p, block);
-    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
-    for (size_t i = begin; i < end; i += W) {
-        const double mass = (double)p->base[i + 3];
-        sum[3] += mass;
-        for (size_t c = 0; c < 3; c++) {
-            const double u = (double)p->best[i + c], free = (double)p->base[i + c];
-            const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
-            if (multistep) { /* the energy that the step minimises */
-                sum[0] += 0.5 * mass * (u - free) * (u - free);
-                sum[1] += 0.5 * mass * free * free;
-            } else {
-                sum[0] += 0.5 * mass * u * u - mass * g * u;
-                sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
-            }
-            sum[4 + c] += mass * free;
-        }
-    }
-    sum[2] = holds_work(p->contacts, p->gradient, block);
-    sum[7] = (double)holds_touching(p->contacts, block);
-}
-
-static bool has_liquid(const World *world, int32_t block)
-{
-    const uint32_t *block_run = world->grid.block_run.data;
-    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
-        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
-    return false;
-}
-
-/* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
- * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. */
-static bool gained(const BodySum *body)
-{
-    const double after = body->with_liquid ? body->elastic : body->after;
-    return after > body->before + body->work + ENERGY_ROUNDING * body->before;
-}
-
-/* Compares energies at p->best. Returns the number of bodies that gained. */
-static uint32_t check_bodies(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    const double *sums = state->sums.data;
-    const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
-    BodySum *body = state->body_sums.data;
-    uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound};
-    over_blocks(p, sum_motion);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = body_of(p, block);
-        const double *sum = sums + (size_t)block * SUMS;
-        b->after += sum[0];
-        b->before += sum[1];
-        b->work += sum[2];
-        b->mass += sum[3];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sum[4 + c];
-        b->touches = b->touches || sum[7] > 0.0;
-        if (block >= p->world->grid.particle_blocks) continue;
-        b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
-        b->elastic += (double)energy[4 * block];
-        b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];
-        b->with_liquid = b->with_liquid || has_liquid(p->world, block);
-    }
-    for (int32_t i = 0; i < state->bodies.count; i++) {
-        for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
-        body[i].failed = gained(&body[i]);
-        body[i].unsound = body[i].unsound || body[i].failed;
-        failed += body[i].failed;
-    }
-    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
-        holds_turn_aside(p->contacts, block, body_of(p, block)->start);
-    return failed;
-}
-
-/* Moves failed bodies to `share` of the way from their start to the solution; the others are as they were. */
-static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const BodySum *body = body_of(p, block);
-    (void)sum;
-    for (size_t i = begin; i < end; i++) {
-        const size_t c = i % W;
-        if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = (float)body->start[c];
-        p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
-    }
-    holds_project(p->contacts, p->node, block, block + 1);
-}
-
-static void pull_back_to(Primal *p, float share)
-{
-    p->share = share;
-    over_blocks(p, pull_back);
-    evaluate(p);
-    p->world->record.iterations_used++;
-    accept(p, false);
-}
-
-/* For bodies that gained energy: see primal.h. */
-static void mend(Primal *p)
-{
-    descend_further(p); /* nearly there */
-    if (check_bodies(p) == 0) return;
-    pull_back_to(p, 0.0f);
-    find_direction(p);
-    descend_further(p);
-    for (int halving = 0; check_bodies(p) > 0; halving++) {
-        pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
-        if (halving == 2) return;
-    }
-}
-
-static void keep_energy(Primal *p)
-{
-    StepRecord *record = &p->world->record;
-    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    record->energy_checks_failed = check_bodies(p);
-    if (record->energy_checks_failed == 0) return;
-    mend(p);
-    record->residual = sqrt(fmax(find_plain_direction(p), 0.0) / p->mass);
-    record->predicted_error = ERROR_PER_RESIDUAL * record->residual;
-}
-
-/* ---- Momentum ---- */
-
-/* Bodies at or in an obstacle. */
-static void find_leaning(Primal *p)
-{
-    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (holds_any(p->contacts, block)) body_of(p, block)->leans = true;
-}
-
-static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    (void)block;
-    for (size_t i = begin; i < end; i += W) {
-        const double mass = (double)p->base[i + 3];
-        sum[0] += mass;
-        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
-    }
-}
-
-static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const BodySum *body = body_of(p, block);
-    (void)sum;
-    if (body->leans || body->mass == 0.0) return;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
-}
-
-/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
- * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
-static void keep_momentum(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    BodySum *body = state->body_sums.data;
-    const double *sums = state->sums.data;
-    find_leaning(p);
-    over_blocks(p, sum_momentum_error);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = body_of(p, block);
-        b->mass += sums[(size_t)block * SUMS];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
-    }
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
-    over_blocks(p, move_free_body);
+    while (descend(p, passes, most) && *passes < most && primal_find_direction(p) > 0.0) {}
 }
 
 /* ---- The substep ---- */
@@ -594,10 +372,10 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
 static void forget_past(Primal *p)
 {
     if (!p->world->args.block_share) return;
-    over_blocks(p, sum_change);
+    primal_over_blocks(p, sum_change);
     const bool done = p->world->record.residual <= FAR_FROM_DONE * sqrt(p->total[0] / p->mass);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (!done || body_of(p, block)->touches || body_of(p, block)->unsound) multistep_forget(p->world, block);
+        if (!done || primal_body_of(p, block)->touches || primal_body_of(p, block)->unsound) multistep_forget(p->world, block);
 }
 
 static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -613,11 +391,11 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    if (is_multistep(p, block)) {
+    if (primal_is_multistep(p, block)) {
         multistep_predict(p->world, block, block + 1);
         memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     }
-    for (size_t i = begin; i < end && body_of(p, block)->leans; i += W)
+    for (size_t i = begin; i < end && primal_body_of(p, block)->leans; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
     holds_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
@@ -626,20 +404,20 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
 void primal_solve(World *world, const ContactFrame *contacts)
 {
     Primal p = open_solve(world, contacts);
-    find_leaning(&p);
-    over_blocks(&p, start);
+    primal_find_leaning(&p);
+    primal_over_blocks(&p, start);
     solver_over_particles(world, world->kernels->force_first);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
-    over_blocks(&p, finish_gradient);
+    primal_over_blocks(&p, finish_gradient);
     p.trial_energy = p.total[0] + sum_energies(&p);
-    accept(&p, false);
-    over_blocks(&p, weigh_nodes);
+    primal_accept(&p, false);
+    primal_over_blocks(&p, weigh_nodes);
     p.mass = fmax(p.total[0], 1e-30);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     minimise(&p);
-    keep_energy(&p);
+    primal_keep_energy(&p);
     forget_past(&p);
-    keep_momentum(&p);
-    over_blocks(&p, rub_and_write);
+    primal_keep_momentum(&p);
+    primal_over_blocks(&p, rub_and_write);
     holds_book(contacts, p.gradient, p.best, p.node, p.base);
 }

@@ -1,0 +1,191 @@
+#include <math.h>
+#include <string.h>
+
+#include "holds.h"
+#include "primal_solve.h"
+
+/* ---- The energy check ---- */
+
+BodySum *primal_body_of(const Primal *p, int32_t block)
+{
+    const PrimalState *state = &p->world->primal;
+    return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
+}
+
+bool primal_is_multistep(const Primal *p, int32_t block)
+{
+    const float *share = p->world->args.block_share;
+    return share && share[block] < 1.0f;
+}
+
+/* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
+static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const bool multistep = primal_is_multistep(p, block);
+    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[3] += mass;
+        for (size_t c = 0; c < 3; c++) {
+            const double u = (double)p->best[i + c], free = (double)p->base[i + c];
+            const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
+            if (multistep) { /* the energy that the step minimises */
+                sum[0] += 0.5 * mass * (u - free) * (u - free);
+                sum[1] += 0.5 * mass * free * free;
+            } else {
+                sum[0] += 0.5 * mass * u * u - mass * g * u;
+                sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
+            }
+            sum[4 + c] += mass * free;
+        }
+    }
+    sum[2] = holds_work(p->contacts, p->gradient, block);
+    sum[7] = (double)holds_touching(p->contacts, block);
+}
+
+static bool has_liquid(const World *world, int32_t block)
+{
+    const uint32_t *block_run = world->grid.block_run.data;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
+    return false;
+}
+
+/* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
+ * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. */
+static bool gained(const BodySum *body)
+{
+    const double after = body->with_liquid ? body->elastic : body->after;
+    return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * body->before;
+}
+
+/* Compares energies at p->best. Returns the number of bodies that gained. */
+static uint32_t check_bodies(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    const double *sums = state->sums.data;
+    const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound};
+    primal_over_blocks(p, sum_motion);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *b = primal_body_of(p, block);
+        const double *sum = sums + (size_t)block * SUMS;
+        b->after += sum[0];
+        b->before += sum[1];
+        b->work += sum[2];
+        b->mass += sum[3];
+        for (int c = 0; c < 3; c++) b->momentum[c] += sum[4 + c];
+        b->touches = b->touches || sum[7] > 0.0;
+        if (block >= p->world->grid.particle_blocks) continue;
+        b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
+        b->elastic += (double)energy[4 * block];
+        b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];
+        b->with_liquid = b->with_liquid || has_liquid(p->world, block);
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
+        body[i].failed = gained(&body[i]);
+        body[i].unsound = body[i].unsound || body[i].failed;
+        failed += body[i].failed;
+    }
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
+        holds_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+    return failed;
+}
+
+/* Moves failed bodies to `share` of the way from their start to the solution; the others are as they were. */
+static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = primal_body_of(p, block);
+    (void)sum;
+    for (size_t i = begin; i < end; i++) {
+        const size_t c = i % W;
+        if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
+        const float start = (float)body->start[c];
+        p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
+    }
+    holds_project(p->contacts, p->node, block, block + 1);
+}
+
+static void pull_back_to(Primal *p, float share)
+{
+    p->share = share;
+    primal_over_blocks(p, pull_back);
+    primal_evaluate(p);
+    p->world->record.iterations_used++;
+    primal_accept(p, false);
+}
+
+/* For bodies that gained energy: see primal.h. */
+static void mend(Primal *p)
+{
+    primal_descend_further(p); /* nearly there */
+    if (check_bodies(p) == 0) return;
+    pull_back_to(p, 0.0f);
+    primal_find_direction(p);
+    primal_descend_further(p);
+    for (int halving = 0; check_bodies(p) > 0; halving++) {
+        pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
+        if (halving == 2) return;
+    }
+}
+
+void primal_keep_energy(Primal *p)
+{
+    StepRecord *record = &p->world->record;
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    record->energy_checks_failed = check_bodies(p);
+    if (record->energy_checks_failed == 0) return;
+    mend(p);
+    record->residual = sqrt(fmax(primal_find_plain_direction(p), 0.0) / p->mass);
+    record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
+}
+
+/* ---- Momentum ---- */
+
+/* Bodies at or in an obstacle. */
+void primal_find_leaning(Primal *p)
+{
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (holds_any(p->contacts, block)) primal_body_of(p, block)->leans = true;
+}
+
+static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)block;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[0] += mass;
+        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
+    }
+}
+
+static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = primal_body_of(p, block);
+    (void)sum;
+    if (body->leans || body->mass == 0.0) return;
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
+}
+
+/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
+ * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
+void primal_keep_momentum(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    BodySum *body = state->body_sums.data;
+    const double *sums = state->sums.data;
+    primal_find_leaning(p);
+    primal_over_blocks(p, sum_momentum_error);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *b = primal_body_of(p, block);
+        b->mass += sums[(size_t)block * SUMS];
+        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
+    primal_over_blocks(p, move_free_body);
+}
