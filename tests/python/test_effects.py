@@ -19,7 +19,7 @@ from pbmpm.app.effects.effect import Effect, NotHere
 from pbmpm.app.effects.hosting import HOST_EFFECTS
 from pbmpm.app.effects.measure import BARE, Plan, bare, cost_of, measure, names, settled
 from pbmpm.app.effects.probe import Comparison, Probe, compare, comparison_of
-from pbmpm.app.effects.report import report_of, text_of
+from pbmpm.app.effects.report import report_of, text_of, whole
 from pbmpm.app.errors import InputError
 from pbmpm.app.scene import Scene, parse_scene
 from pbmpm.app.simulation import RunSettings, Simulation
@@ -406,6 +406,10 @@ def test_report_text_and_chart(measured: Any, tmp_path: Path) -> None:
     save_chart(report, tmp_path / "sub" / "chart.png")
     with Image.open(tmp_path / "sub" / "chart.png") as image:
         assert image.format == "PNG" and len(image.convert("RGB").getcolors(1 << 20)) > 10
+
+
+def test_less_than_half_a_byte_is_none() -> None:
+    assert [whole(value) for value in (-0.4, -0.0, 0.4, 15.6, -3.2)] == ["0", "0", "0", "16", "-3"]
 
 
 def test_a_scene_without_matter_cannot_be_measured() -> None:

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
 from ..files import replace_when_complete
+from .report import whole
 
 _BARE, _ON, _IDLE, _OFF = "#8a9bb0", "#1f6fb4", "#b03a48", "#d9b382"
 _LINE_INCHES = 0.3
@@ -60,11 +61,12 @@ def _bars(axes: Axes, rows: list[dict[str, Any]], key: str, label: str, error_ke
     errors = [row[error_key] for row in rows] if error_key else None
     axes.barh(range(len(rows)), values, xerr=errors, color=[_colour(row) for row in rows], height=0.7)
     for place, value in enumerate(values):
+        reach = value + (errors[place] if errors else 0.0)
         axes.annotate(
-            f"{value:.1f}" if error_key else f"{value:.0f}",
-            (max(value, 0.0), place),
+            f"{value:.1f}" if error_key else whole(value),
+            (max(reach, 0.0), place),
             textcoords="offset points",
-            xytext=(8, 0),
+            xytext=(5, 0),
             va="center",
             fontsize=8,
         )

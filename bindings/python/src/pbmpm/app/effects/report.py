@@ -77,12 +77,17 @@ def table(rows: list[dict[str, Any]]) -> str:
                 f"{row['ns_per_particle_step']:.2f}",
                 percent if is_sure(row) else f"({percent})",
                 f"{row['percent_error']:.1f}",
-                f"{row['bytes_per_particle']:.0f}",
+                whole(row["bytes_per_particle"]),
                 row["description"] + (f": {row['tried_as']}" if row.get("tried_as") else ""),
             ]
         )
     widths = [max(len(line[column]) for line in lines) for column in range(len(lines[0]))]
     return "\n".join(_line(line, widths) for line in lines)
+
+
+def whole(value: float) -> str:
+    """A number of bytes; less than half a byte is none, and has no sign."""
+    return str(round(value))
 
 
 def _line(line: list[str], widths: list[int]) -> str:
