@@ -10,11 +10,20 @@ from dataclasses import dataclass
 from typing import Any
 
 import pbmpm
+from pbmpm.materials import Parameters
 
 LIQUID = "liquid"
 ELASTIC = "elastic"
+SAND = "sand"
+VISCO = "visco"
 MIXED = "mixed"  # all kinds of matter in one scene
 SOLID_AND_LIQUID = (LIQUID, ELASTIC)
+ALL_KINDS = (*SOLID_AND_LIQUID, SAND, VISCO)
+_SOLIDS: dict[str, type[pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco]] = {
+    ELASTIC: pbmpm.Elastic,
+    SAND: pbmpm.Sand,
+    VISCO: pbmpm.Visco,
+}
 PAPER = "paper"
 EXPLICIT = "explicit"
 DUAL = "dual"
@@ -32,7 +41,7 @@ SOUND_CELLS_PER_SECOND = 120.0
 class Setting:
     """One way to run a case."""
 
-    material: str  #: LIQUID, ELASTIC or MIXED
+    material: str  #: one of ALL_KINDS, or MIXED
     dimension: int  #: 2 or 3
     variant: str  #: one of the case's variants
     rate_hz: float  #: steps per second
@@ -47,7 +56,7 @@ class Setting:
         """Length of a step [s]."""
         return 1.0 / self.rate_hz
 
-    def parameters(self, cell_size: float, **changes: Any) -> pbmpm.Liquid | pbmpm.Elastic:
+    def parameters(self, cell_size: float, **changes: Any) -> Parameters:
         """The material on a grid, with changes of its parameters.
 
         The dual solver gets the liquid that it is made for, an incompressible one; the primal and the explicit solver
@@ -55,9 +64,9 @@ class Setting:
         """
         if self.relaxation is not None:
             changes.setdefault("relaxation", self.relaxation)
-        if self.material == ELASTIC:
+        if self.material in _SOLIDS:
             changes.setdefault("young_modulus", sound_modulus(cell_size))
-            return pbmpm.Elastic(**changes)
+            return _SOLIDS[self.material](**changes)
         if self.solver in (PRIMAL, EXPLICIT):
             changes.setdefault("bulk_modulus", sound_modulus(cell_size))
         return pbmpm.Liquid(**changes)
@@ -83,7 +92,7 @@ def sound_modulus(cell_size: float) -> float:
     return pbmpm.Liquid().density * (SOUND_CELLS_PER_SECOND * cell_size) ** 2
 
 
-def _wave_modulus(matter: pbmpm.Elastic) -> float:
+def _wave_modulus(matter: pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco) -> float:
     """lambda + 2 mu."""
     ratio = matter.poisson_ratio
     return matter.young_modulus * (1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 import pbmpm
+from pbmpm.materials import Parameters
 
 from ..accuracy import laws
 from .case import DUAL, ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, KnownFailure, Setting, sound_modulus
@@ -142,13 +143,13 @@ def pile(setting: Setting) -> list[Check]:
         return [highest_energy(watch, PILE_SECONDS, setting.dt), *watch.checks()]
 
 
-def _matter(setting: Setting, factor: float) -> list[pbmpm.Liquid | pbmpm.Elastic]:
+def _matter(setting: Setting, factor: float) -> list[Parameters]:
     """One of each kind, with a modulus that is so many times the usual one."""
     modulus = factor * sound_modulus(PILE_CELL)
     compressible = setting.solver in (PRIMAL, EXPLICIT)
     return [
-        pbmpm.Elastic(young_modulus=modulus),
         pbmpm.Liquid(bulk_modulus=modulus) if compressible else pbmpm.Liquid(),
+        *(kind(young_modulus=modulus) for kind in (pbmpm.Elastic, pbmpm.Sand, pbmpm.Visco)),
     ]
 
 

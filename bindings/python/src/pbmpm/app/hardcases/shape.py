@@ -8,7 +8,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import DUAL, ELASTIC, PAPER, PRIMAL, Check, HardCase, KnownFailure, Setting, sound_modulus
+from .case import DUAL, ELASTIC, PAPER, PRIMAL, VISCO, Check, HardCase, KnownFailure, Setting, sound_modulus
 from .watch import GRAVITY, Watch, make_world, vector
 
 CELL = 0.1  # [m]
@@ -235,6 +235,6 @@ CASES = (
         "squeeze-out of incremental potential contact",
         "finite; none inside an obstacle; what has not passed has stopped",
         squeeze,
-        materials=(ELASTIC,),
+        materials=(ELASTIC, VISCO),
     ),
 )

@@ -22,7 +22,7 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--solvers", type=NameList(_SOLVERS), help="Solvers to run.  [default: all]")
 @click.option("--rates", type=NumberList(float, 1e5), help="Steps per second.  [default: 15,30,60,120,240,480]")
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per step.  [default: 1,2,5,10,20]")
-@click.option("--materials", type=NameList(["liquid", "elastic", "mixed"]), help="Kinds of matter.  [default: all]")
+@click.option("--materials", type=NameList(["liquid", "elastic", "sand", "visco", "mixed"]), help="Kinds of matter.  [default: all]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--variant", help="One variant of a case.  [default: all]")
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
