@@ -287,3 +287,14 @@ def test_saved_reports_that_do_not_fit_are_refused(tmp_path: Path) -> None:
     (tmp_path / "c.json").write_text("{")
     with pytest.raises(InputError, match=r"c\.json: not JSON"):
         merged([tmp_path / "c.json"], ["drop"])
+
+
+def test_page_from_saved_rows_says_how_to_measure_them_again(tmp_path: Path) -> None:
+    rows, page = tmp_path / "rows.json", tmp_path / "page.html"
+    options = ("--solvers", "paper,dual", "--rates", "30", "--iterations", "2", "--cells", 8)
+    assert accuracy("taylor-green", *options, "--json", rows).returncode == 0
+    shown = accuracy("taylor-green", "--from", rows, "--html", page)
+    assert shown.returncode == 0 and "explicit not measured" in shown.stdout
+    assert "<code>pbmpm accuracy taylor-green</code>" in page.read_text(encoding="utf-8")
+    drawn = accuracy("taylor-green", "--from", rows, "--chart", tmp_path)
+    assert drawn.returncode == 2 and "--chart needs the curves" in drawn.stderr

@@ -133,7 +133,7 @@ def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None
     if html is not None:
         from ..report.accuracy_page import save_accuracy_page
 
-        options_kept = own_options(("--html", "--json", "--chart"), names)
+        options_kept = own_options(("--html", "--json", "--chart", "--from"), names)
         save_accuracy_page(whole, own_command(), options_kept, html)
     if json_target != "-":
         click.echo(f"\n{verdict_table(verdicts_of(cases_of(whole)))}")

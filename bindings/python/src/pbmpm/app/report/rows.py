@@ -56,9 +56,10 @@ class CaseRows:
         return bool(self.facts.get("searched", True))
 
     def verdict(self) -> Verdict:
-        """What the stable rows on the case's own grid say about the solvers."""
+        """What the stable rows on the case's own grid say about the solvers; all rows, where none is on that grid."""
         own = self.facts.get("own_cells")
-        rows = [row for row in self.stable if own is None or row["cells"] == own]
+        has_own = own is not None and any(row["cells"] == own for row in self.rows)
+        rows = [row for row in self.stable if not has_own or row["cells"] == own]
         left = [row.get("converged_error") for row in rows if row["solver"] in ACCELERATED]
         converged = min((error for error in left if error is not None), default=None)
         points, good = [point_of(row) for row in rows], self.measure.get("tolerance")
