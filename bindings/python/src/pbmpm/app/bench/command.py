@@ -9,12 +9,12 @@ from typing import Any
 import click
 
 from ..options import JSON_HELP, NameList, emit_json
-from .subjects import MATERIALS, VARIANTS
+from .subjects import MATERIALS, QUICK_MATERIALS, VARIANTS
 
 
 @click.command()
 @click.option("--solvers", type=NameList(VARIANTS), help="Solvers to measure.  [default: all]")
-@click.option("--materials", type=NameList(list(MATERIALS)), help="Kinds of matter.  [default: all]")
+@click.option("--materials", type=NameList(list(MATERIALS)), help=f"Kinds of matter.  [default: {','.join(QUICK_MATERIALS)}]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--rounds", type=click.IntRange(1, 1000), default=5, show_default=True, help="Times that each solver has its turn.")
 @click.option("--warmup-steps", type=click.IntRange(0, 10000), default=60, show_default=True, help="Motion before the measurement.")
@@ -42,7 +42,7 @@ def bench(json_target: str | None, rounds: int, warmup_steps: int, lake: bool, *
         if json_target != "-":
             click.echo(lake_text(report["rows"]))
         return
-    subjects = [(name, int(dims)) for dims in options["dims"] or ("3", "2") for name in options["materials"] or MATERIALS]
+    subjects = [(name, int(dims)) for dims in options["dims"] or ("3", "2") for name in options["materials"] or QUICK_MATERIALS]
     core, rows, ratios = pin(), [], []
     with progress_bar(len(subjects) * pieces(rounds), "round", "bench") as bar:
         for material, dimension in subjects:

@@ -47,7 +47,7 @@ def ratios_of(material: str, dimension: int, all_costs: Sequence[Costs]) -> list
                 "dims": dimension,
                 "solver": name,
                 "iteration": own / other if own is not None and other else None,
-                "solve": min(dual.few_solve) / min(paper.few_solve),  # wall time: the least is least disturbed
+                "solve": min(dual.few_solve) / min(paper.few_solve),  # shares of wall time: the least are least disturbed
                 "step": median(a / b for a, b in zip(dual.few, paper.few)),
             }
         )
@@ -76,7 +76,7 @@ def text_of(report: dict[str, Any]) -> str:
         + f", {'; '.join(report['compilers'])}, {machine['date']}",
         f"Per particle: ns of an iteration without what starts a step, ns of a step without its {ITERATIONS} iterations, million"
         " particle-iterations per second of the whole step and of its iterations alone; medians, and the least or most, of"
-        f" {report['rounds']} rounds; CPU time but for 'M/s solve'.",
+        f" {report['rounds']} rounds; CPU time.",
     ]
     for key in dict.fromkeys((row["material"], row["dims"]) for row in report["rows"]):
         rows = [row for row in report["rows"] if (row["material"], row["dims"]) == key]

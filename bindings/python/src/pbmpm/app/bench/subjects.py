@@ -77,8 +77,13 @@ Maker = Callable[[dict[str, Any]], Scene]
 MATERIALS: dict[str, tuple[dict[str, Any], dict[int, Maker]]] = {
     "liquid": ({"kind": "liquid", "bulk_modulus": BULK_MODULUS}, {2: _dam_break_2d, 3: _dam_break_3d}),
     "elastic": ({"kind": "elastic"}, {2: _falling_blocks_2d, 3: _falling_blocks_3d}),
+    "sand": ({"kind": "sand"}, {2: _dam_break_2d, 3: _dam_break_3d}),
+    "visco": ({"kind": "visco"}, {2: _dam_break_2d, 3: _dam_break_3d}),
 }
 """Per kind of matter its parameters, and what it does in each dimension."""
+
+QUICK_MATERIALS = ("liquid", "elastic")
+"""Measured unless others are asked for."""
 
 VARIANTS = ("paper", "dual", "dual-cells", "primal", "explicit")
 """Solvers with their options."""
