@@ -18,7 +18,7 @@ from pbmpm.app.report.chart import accuracy_figure
 from pbmpm.app.report.pareto import Point, cost_of, front_of
 from pbmpm.app.report.rows import cases_of, verdicts_of
 from pbmpm.app.report.verdict import GOOD, LEVELS, judge, round_levels
-from pbmpm.app.report.words import error_text, verdict_table
+from pbmpm.app.report.words import error_text, shortfalls, verdict_table
 
 
 def line(solver: str, factor: float, errors: list[float]) -> list[Point]:
@@ -127,7 +127,9 @@ def test_an_error_below_that_of_the_converged_solution_counts_as_that() -> None:
     assert [point.solver for point in verdict.front] == ["primal", "primal", "explicit"]
     # Costs are read from what was measured.
     assert verdict.comparisons[1].ratios == pytest.approx([20.0] * LEVELS)
-    assert judge(points, ["primal", "explicit"], converged=0.2).lowest == GOOD
+    lucky = judge([*points, *line("paper", 9.0, [0.5, 0.01])], ["primal", "explicit", "paper"], converged=0.2)
+    assert lucky.lowest == GOOD and lucky.alone_on_front and all(item.reached for item in lucky.comparisons)
+    assert not lucky.passed and "grid too coarse: converged solutions are not good" in shortfalls(lucky)
 
 
 def test_verdict_over_the_errors_below_the_one_that_is_called_good() -> None:

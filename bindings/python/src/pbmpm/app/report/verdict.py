@@ -82,6 +82,7 @@ class Verdict:
     best_error: float | None  #: of the accelerated solvers; None when none of their settings is stable
     highest: float  #: error that counts
     lowest: float | None  #: error that counts; None without a stable accelerated setting
+    too_coarse: bool  #: whether even converged solutions are not good: an error that is, is luck
     comparisons: tuple[Comparison, ...]
     levels: tuple[Level, ...]
 
@@ -102,8 +103,9 @@ class Verdict:
 
     @property
     def passed(self) -> bool:
-        """A good error reached, alone on the front, and typically as many times cheaper as wanted."""
-        return self.good_reached and self.alone_on_front and all(item.reached for item in self.comparisons)
+        """A good error reached and not by luck, alone on the front, and typically as many times cheaper as wanted."""
+        meant = self.good_reached and not self.too_coarse
+        return meant and self.alone_on_front and all(item.reached for item in self.comparisons)
 
     @property
     def always(self) -> bool:
@@ -141,6 +143,7 @@ def judge(
         best_error=best,
         highest=highest,
         lowest=errors[-1] if errors else None,
+        too_coarse=converged is not None and converged > highest,
         comparisons=tuple(_compare(accelerated, other, fronts.get(other), errors, other in cut_short) for other in WANTED),
         levels=tuple(
             Level(error, {name: cost_of(front, error) for name, front in fronts.items()})

@@ -65,6 +65,7 @@ def shortfalls(verdict: Verdict) -> list[str]:
     if verdict.best_error is None:
         return ["no accelerated setting is stable"]
     said = [] if verdict.good_reached else ["no accelerated setting is good"]
+    said += ["grid too coarse: converged solutions are not good"] if verdict.too_coarse else []
     others = [name for name in verdict.solvers_on_front if name not in ACCELERATED]
     if others:
         said.append(f"{' and '.join(others)} on the front too")

@@ -98,6 +98,7 @@ class Block3DCase(BlockCase):
     cells = (16,)
     particles_per_axis = 2
     rates = (30.0, 60.0)
+    patience = 4.0
     quick_rates = (60.0,)
     quick_iterations = (10,)
 
