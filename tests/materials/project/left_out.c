@@ -79,7 +79,7 @@ static void check_fall(int dimension, pbmpm_solver solver, int built)
 
 int main(int count, char **words)
 {
-    static const char *const names[] = {[PBMPM_LIQUID] = "liquid", [PBMPM_ELASTIC] = "elastic"};
+    static const char *const names[] = {[PBMPM_LIQUID] = "liquid", [PBMPM_ELASTIC] = "elastic", [PBMPM_SAND] = "sand", [PBMPM_VISCO] = "visco"};
     enum { KINDS = sizeof names / sizeof *names };
     int built = 0;
     while (count == 2 && built < KINDS && strcmp(names[built], words[1]) != 0) built++;
