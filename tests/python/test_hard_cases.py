@@ -15,7 +15,9 @@ import pytest
 import pbmpm
 from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Setting, find_case
 from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
+from pbmpm.app.hardcases.compatible import unremovable_strain
 from pbmpm.app.hardcases.energy import energy_density
+from pbmpm.app.hardcases.strain import strain_residual
 from pbmpm.app.stability.plan import Selection, plan
 
 #: The explicit solver is the one to compare with: it is expected to fail.
@@ -108,6 +110,20 @@ def test_energy_of_a_stretched_cube_is_that_of_the_formula(dimension: int) -> No
     assert energy_density(corotated, stretched) == pytest.approx(10 * 1 + 7.5 * 1)
     neo = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3, elastic_model=pbmpm.ElasticModel.NEO_HOOKEAN)
     assert energy_density(neo, stretched) == pytest.approx(5 * 3 - 10 * math.log(2) + 7.5 * math.log(2) ** 2)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_motion_removes_strain_that_all_particles_share_and_not_what_differs_in_a_cell(dimension: int) -> None:
+    """An even F = diag(2, 1, 1) is undone by u = -x/2. Of random F, entries in [-2, 2], a large part stays: the nodes of
+    a block of 4 cells have (4 + 2)^d displacements per axis, its particles 2^d * 4^d * d numbers."""
+    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1) as world:
+        world.fill(pbmpm.Box([0.0] * dimension, [0.2] * dimension), world.add_material(pbmpm.Elastic()), seed=1)
+        stretched = np.tile(np.diag([2.0, 1.0, 1.0][:dimension]), (len(world), 1, 1))
+        world.set(pbmpm.Field.DEFORMATION, stretched)
+        assert strain_residual(world) == pytest.approx(1.0)
+        assert unremovable_strain(world) == pytest.approx(0.0, abs=1e-5)
+        world.set(pbmpm.Field.DEFORMATION, np.random.default_rng(1).uniform(-2, 2, stretched.shape))
+        assert 0.3 * strain_residual(world) < unremovable_strain(world) < 0.8 * strain_residual(world)
 
 
 @pytest.mark.parametrize("model", list(pbmpm.ElasticModel))

@@ -7,7 +7,8 @@ import numpy.typing as npt
 
 import pbmpm
 
-from .case import ELASTIC, PAPER, SOLVERS, Check, HardCase, KnownFailure, Setting
+from .case import ELASTIC, EXPLICIT, PAPER, Check, HardCase, KnownFailure, Setting
+from .compatible import unremovable_strain
 from .watch import Watch, make_world
 
 CELL = 0.05  # [m]
@@ -56,8 +57,10 @@ def scramble(setting: Setting) -> list[Check]:
             world.set(pbmpm.Field.DEFORMATION, scrambled(setting.variant, len(world), d, setting.seed))
         watch = Watch(world)
         stats = watch.run(SCRAMBLE_SECONDS, setting.dt)
+        # F that differs between the particles of a cell cannot all be undone: what no motion removes is allowed.
+        floor = unremovable_strain(world) if setting.variant == SCRAMBLE_RANDOM else 0.0
         return [
-            Check("rms of |U V^T - F|", strain_residual(world), SCRAMBLE_RESIDUAL),
+            Check("rms of |U V^T - F|", strain_residual(world), floor + SCRAMBLE_RESIDUAL),
             Check("share of particles deleted", stats.deleted_total / watch.start_count, SCRAMBLE_LOST),
             *watch.checks(),
         ]
@@ -158,12 +161,12 @@ def degenerate(setting: Setting) -> list[Check]:
         ]
 
 
-_INCOMPATIBLE = KnownFailure(
-    "particles of one cell share one displacement gradient, so strains that differ between them cannot all be undone by "
-    "motion; only particles that have flown apart recover",
-    solvers=SOLVERS,
+_FLOWN_APART = KnownFailure(
+    "particles flown apart tremble, each alone: rms 0.08 (2D) and 1.8 (3D) above what no motion removes",
+    solvers=(PAPER,),
     variants=(SCRAMBLE_RANDOM,),
 )
+_UNSTABLE = KnownFailure("sound travels two cells per step at 60 Hz", solvers=(EXPLICIT,), variants=(SCRAMBLE_RANDOM,))
 _TREMBLING = KnownFailure(
     "with one iteration lone elastic particles tremble for ever when the relaxation is above 4/3",
     solvers=(PAPER,),
@@ -176,11 +179,12 @@ CASES = (
         "H05",
         "Elastic block with scrambled F or scrambled positions",
         "random vertices and flattened bodies of vertex block descent; invertible finite elements (Irving et al. 2004)",
-        "finite, F is a rotation to 0.05 after 3 s, below 1 % of particles deleted",
+        "finite, F is a rotation to 0.05 after 3 s (every F random: to 0.05 more than what no motion of the grid removes), below 1 % of"
+        " particles deleted",
         scramble,
         materials=(ELASTIC,),
         variants=(SCRAMBLE_RANDOM, "flat F", "zero F", "reflected F", SCRAMBLE_MOVED),
-        known_failures=(_INCOMPATIBLE, _TREMBLING),
+        known_failures=(_FLOWN_APART, _UNSTABLE, _TREMBLING),
     ),
     HardCase(
         "H06",
