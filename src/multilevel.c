@@ -43,14 +43,19 @@ static bool open_table(Multilevel *m, Memory *memory, size_t blocks)
 static int parents_of(const Multilevel *m) { return m->dimension == 3 ? 8 : 4; }
 static int children_of(const Multilevel *m) { return m->dimension == 3 ? 27 : 9; }
 
-static bool reserve_level(const Multilevel *m, Memory *memory, Level *level, int32_t blocks, int32_t finer)
+/* For the list of a level over `finer` blocks: all of their parents could be different ones. */
+static bool reserve_list(const Multilevel *m, Memory *memory, Level *level, int32_t finer)
 {
-    const size_t nodes = (size_t)blocks * (size_t)m->block_cells;
-    return array_reserve(memory, &level->coordinate, 3 * (size_t)blocks, sizeof(int32_t)) &&
-           array_reserve(memory, &level->child, (size_t)blocks * (size_t)children_of(m), sizeof(int32_t)) &&
-           array_reserve(memory, &level->parent, (size_t)finer * (size_t)parents_of(m), sizeof(int32_t)) &&
-           array_reserve(memory, &level->vector, nodes * (size_t)m->width, sizeof(float)) &&
-           array_reserve(memory, &level->inverse, nodes * (size_t)m->width, sizeof(float));
+    const size_t most = (size_t)finer * (size_t)parents_of(m);
+    return array_reserve(memory, &level->coordinate, 3 * most, sizeof(int32_t)) && array_reserve(memory, &level->parent, most, sizeof(int32_t));
+}
+
+/* The level is listed. */
+static bool reserve_level(const Multilevel *m, Memory *memory, Level *level)
+{
+    const size_t blocks = (size_t)level->blocks, floats = blocks * (size_t)m->block_cells * (size_t)m->width;
+    return array_reserve(memory, &level->child, blocks * (size_t)children_of(m), sizeof(int32_t)) &&
+           array_reserve(memory, &level->vector, floats, sizeof(float)) && array_reserve(memory, &level->inverse, floats, sizeof(float));
 }
 
 /* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. */
@@ -134,9 +139,10 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
     while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
-        const int32_t most = finer->blocks * parents_of(m);
-        if (!reserve_level(m, memory, level, most, finer->blocks) || !open_table(m, memory, (size_t)most)) return false;
+        const size_t most = (size_t)finer->blocks * (size_t)parents_of(m);
+        if (!reserve_list(m, memory, level, finer->blocks) || !open_table(m, memory, most)) return false;
         list_parents(m, level, finer);
+        if (!reserve_level(m, memory, level)) return false;
         list_children(m, level, finer);
         m->levels++;
     }
