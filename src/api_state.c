@@ -67,7 +67,9 @@ pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
 
 pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)
 {
-    if (shape) REQUIRE_SIZE(shape);
+    if (shape) {
+        REQUIRE_SIZE(shape);
+    }
     HOLD(world);
     const char *problem = shape ? shape_problem_among(shape, w->def.dimension, &w->baked) : NULL;
     if (problem) LET_GO(api_invalid(problem));

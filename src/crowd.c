@@ -43,11 +43,11 @@ void crowd_add(Crowd *crowd, int dimension, const Spot *spot, double volume)
                 crowd->volume[spot_node(crowd, spot, i, j, k)] += (float)(volume * spot->w[0][i] * spot->w[1][j] * spot->w[2][k]);
 }
 
-void crowd_measure(const World *world, Crowd *crowd)
+/* Adds the particles of the rows [begin, end). */
+static void measure_rows(const World *world, Crowd *crowd, uint32_t begin, uint32_t end)
 {
     const Particles *p = &world->particles;
-    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
-    for (uint32_t row = 0; row < p->count; row++) {
+    for (uint32_t row = begin; row < end; row++) {
         bool near = true;
         for (int a = 0; a < p->dimension; a++) {
             const int32_t from_low = p->cell[a][row] - crowd->low[a];
@@ -60,6 +60,26 @@ void crowd_measure(const World *world, Crowd *crowd)
         if (!crowd_find(crowd, p->dimension, place, &spot)) continue;
         crowd_add(crowd, p->dimension, &spot, (double)(p->mass[row] * world->materials.kernel[p->material[row]].inverse_density));
     }
+}
+
+/* Whether a block that is asleep can touch the nodes. */
+static bool is_block_near(const World *world, const Crowd *crowd, const SleepBlock *block)
+{
+    for (int a = 0; a < world->def.dimension; a++) {
+        const int32_t first = block->place[a] * K_BLOCK_AXIS + world->sleep.phase[a] - crowd->low[a];
+        if (first + K_BLOCK_AXIS <= 1 || first >= crowd->size[a] - 1) return false;
+    }
+    return true;
+}
+
+void crowd_measure(const World *world, Crowd *crowd)
+{
+    const SleepPiece *piece = world->sleep.piece.data;
+    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
+    for (uint32_t i = 0; i < world->sleep.pieces; i++)
+        if (is_block_near(world, crowd, sleep_list_block(&world->sleep.asleep, piece[i].block)))
+            measure_rows(world, crowd, piece[i].begin, piece[i].begin + piece[i].count);
+    measure_rows(world, crowd, world->sleep.rows, world->particles.count);
 }
 
 /* The share of a node's cell that obstacles leave open. */

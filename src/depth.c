@@ -1,39 +1,59 @@
 #include "depth.h"
 
 #include <math.h>
+#include <string.h>
 
-/* How far a block lies along gravity, in blocks times |g|. */
-static double block_depth(const World *world, int32_t block)
+/* A block with particles: how far it lies along gravity, in blocks times |g|, and how many they are. */
+typedef struct Layer {
+    double depth;
+    uint32_t particles;
+} Layer;
+
+/* Blocks that are asleep follow those of the grid. */
+static Layer layer_of(const World *world, int32_t i)
 {
-    double along = 0.0;
-    for (int a = 0; a < world->def.dimension; a++)
-        along += (double)world->settings.gravity[a] * ((const int32_t *)world->grid.coordinate.data)[3 * block + a];
-    return along;
+    const Grid *grid = &world->grid;
+    int32_t corner[3], place[3];
+    Layer layer = {.depth = 0.0};
+    if (i < grid->particle_blocks) {
+        const uint32_t *begin = grid->block_begin.data;
+        memcpy(place, (const int32_t *)grid->coordinate.data + 3 * i, sizeof place);
+        layer.particles = begin[i + 1] - begin[i];
+    } else {
+        const SleepBlock *block = sleep_list_block(&world->sleep.asleep, (uint32_t)(i - grid->particle_blocks));
+        sleep_place(&world->sleep, grid->anchor, grid->dimension, corner);
+        for (int a = 0; a < 3; a++) place[a] = block->place[a] - corner[a];
+        layer.particles = block->rows;
+    }
+    for (int a = 0; a < grid->dimension; a++) layer.depth += (double)world->settings.gravity[a] * place[a];
+    return layer;
 }
 
-double depth_along_gravity(const World *world)
+double depth_along_gravity(const World *world, bool asleep_too)
 {
     enum { BINS = 64, ROUNDS = 4 };
-    const uint32_t *begin = world->grid.block_begin.data;
-    const double trim = 0.02 * world->particles.count;
+    const int32_t blocks = world->grid.particle_blocks + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
+    const double particles = world->particles.count - (asleep_too ? 0 : world->sleep.rows);
+    const double trim = 0.02 * particles;
     double low = INFINITY, high = -INFINITY;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        low = fmin(low, block_depth(world, block));
-        high = fmax(high, block_depth(world, block));
+    for (int32_t block = 0; block < blocks; block++) {
+        low = fmin(low, layer_of(world, block).depth);
+        high = fmax(high, layer_of(world, block).depth);
     }
     for (int round = 0; round < ROUNDS && high > low; round++) {
         double count[BINS] = {0}, below = 0.0;
         const double width = (high - low) / BINS;
-        for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-            const double bin = (block_depth(world, block) - low) / width;
-            if (bin < 0.0) below += begin[block + 1] - begin[block];
-            if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += begin[block + 1] - begin[block];
+        for (int32_t block = 0; block < blocks; block++) {
+            const Layer layer = layer_of(world, block);
+            const double bin = (layer.depth - low) / width;
+            if (bin < 0.0) below += layer.particles;
+            if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += layer.particles;
         }
         int first = 0;
         double sum = below;
         while (first < BINS - 1 && sum + count[first] < trim) sum += count[first++];
         int last = first;
-        while (last < BINS - 1 && sum + count[last] < world->particles.count - trim) sum += count[last++];
+        while (last < BINS - 1 && sum + count[last] < particles - trim) sum += count[last++];
         high = low + (last + 1) * width;
         low = low + first * width;
     }
@@ -44,6 +64,6 @@ double matter_depth(const World *world)
 {
     double strength = 0.0;
     for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
-    if (strength > 0.0) return fmax(1.0, depth_along_gravity(world) / sqrt(strength));
+    if (strength > 0.0) return fmax(1.0, depth_along_gravity(world, false) / sqrt(strength));
     return pow((double)world->grid.particle_blocks * world->grid.block_cells, 1.0 / world->def.dimension);
 }

@@ -5,10 +5,10 @@
 #include "world.h"
 
 /* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms
- * of blocks, so that a stray particle far away does not count. */
-double depth_along_gravity(const World *world);
+ * of blocks, so that a stray particle far away does not count. `asleep_too`: of all particles; else of those in the grid. */
+double depth_along_gravity(const World *world, bool asleep_too);
 
-/* The same in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
+/* The same of those in the grid in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
 double matter_depth(const World *world);
 
 #endif

@@ -161,7 +161,7 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->energy_checks_failed = record->energy_checks_failed;
     stats->particles_asleep = world->sleep.rows + world->sleep.still_rows;
     stats->blocks_asleep = world->sleep.asleep.count;
-    stats->blocks_drowsy = (uint32_t)world->grid.still_blocks;
+    stats->blocks_drowsy = world->sleep.still_blocks;
     stats->blocks_woken = record->blocks_woken;
 }
 

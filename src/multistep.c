@@ -15,7 +15,8 @@ static bool is_on(const World *world)
 void multistep_expire(World *world)
 {
     Particles *p = &world->particles;
-    if (p->past_dt) particles_rest(p, particles_field(p, FIELD_PAST_DT));
+    const uint32_t first = world->sleep.rows; /* what sleeps has no past, see sleep.c */
+    if (p->past_dt) memset(p->past_dt + first, 0, (p->count - first) * sizeof *p->past_dt);
 }
 
 pbmpm_result multistep_prepare(World *world)

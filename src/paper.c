@@ -29,6 +29,10 @@ static LiquidState measure_liquid(const World *world)
             energy += (double)(p->mass[row] * speed2);
         }
     }
+    for (uint32_t i = 0; i < world->sleep.asleep.count; i++) {
+        mass += (double)sleep_list_block(&world->sleep.asleep, i)->liquid_mass;
+        volume += (double)sleep_list_block(&world->sleep.asleep, i)->liquid_volume;
+    }
     return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0};
 }
 
@@ -42,7 +46,7 @@ static double pressure_head(const World *world)
     if (strength == 0.0) return 0.0;
     const LiquidState liquid = measure_liquid(world);
     if (liquid.volume == 0.0) return 0.0;
-    const double stands = depth_along_gravity(world) * (double)world->def.cell_size;
+    const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
     const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
     return 3.0 * weight + 0.5 * liquid.speed2;
 }

@@ -247,6 +247,7 @@ static void commit(const Decision *d, uint32_t blocks)
         block->moved = 0;
     }
     sleep->still_rows = begin[world->grid.still_blocks] - sleep->rows;
+    sleep->still_blocks = (uint32_t)world->grid.still_blocks;
     sleep_list_index(&sleep->active);
 }
 
@@ -314,7 +315,7 @@ pbmpm_result sleep_build(World *world, float dt, bool with_volume)
     sleep_settle(world);
     grid_clear(grid);
     sleep->holds = false;
-    sleep->still_rows = 0;
+    sleep->still_rows = sleep->still_blocks = 0;
     if (!drop_anchor(world, anchor)) return PBMPM_OK;
     d.rows = sleep->rows;
     if (!grid_begin(grid, &world->memory, anchor) || !grid_add_rows(grid, &world->memory, &world->particles, d.rows, world->particles.count) ||
@@ -391,6 +392,8 @@ void sleep_judge(World *world, float dt)
             block->woken = 1;
             sleep->stirred = true;
             sleep->woken_blocks++;
+            sleep->still_rows -= block->rows;
+            sleep->still_blocks--;
         } else if (p->pressure) {
             const uint32_t first = begin[b] - sleep->rows;
             memcpy(p->pressure + begin[b], (const float *)sleep->pressure.data + first, (begin[b + 1] - begin[b]) * sizeof(float));

@@ -34,7 +34,7 @@ typedef struct SleepBlock {
     uint32_t woken;    /* to be awake in the next substep */
     uint32_t moved;    /* while it is decided: particles of it have a velocity */
     uint32_t rows;     /* particles */
-    uint32_t index;    /* while the list is changed: where it goes */
+    uint32_t index;    /* while the list is changed: where it goes; else 0 */
     uint32_t joined;   /* of those, how many have come since it fell asleep */
     float quiet;       /* awake: for how long it has been quiet [s] */
     float gained[3];   /* drowsy: velocity that it would have got lately [m/s] */
@@ -66,7 +66,7 @@ typedef struct Sleep {
     SleepList active; /* blocks of the last substep's grid, in its order: leaving, drowsy, awake */
     Array piece, piece_scratch; /* SleepPiece; in the order of the rows, they cover all that are asleep */
     uint32_t pieces;
-    uint32_t still_rows;  /* of the last substep: particles of leaving and drowsy blocks */
+    uint32_t still_rows, still_blocks; /* of the last substep: leaving and drowsy blocks that did not wake in it, and their particles */
     uint32_t woken_blocks; /* in this step */
     Array next, loud;     /* scratch of sleep_build(), per block in order of discovery: SleepBlock, float */
     Array pressure;       /* of still particles, before the solution */

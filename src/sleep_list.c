@@ -67,7 +67,7 @@ void sleep_free(Sleep *sleep, Memory *memory)
 void sleep_end(Sleep *sleep)
 {
     sleep->on = sleep->stirred = sleep->phased = sleep->holds = false;
-    sleep->rows = sleep->pieces = sleep->still_rows = sleep->woken_blocks = sleep->asleep.count = sleep->active.count = 0;
+    sleep->rows = sleep->pieces = sleep->still_rows = sleep->still_blocks = sleep->woken_blocks = sleep->asleep.count = sleep->active.count = 0;
 }
 
 void sleep_place(const Sleep *sleep, const int32_t cell[3], int dimension, int32_t place[3])

@@ -76,13 +76,15 @@ static void part_lists(Sleep *sleep)
     }
     for (uint32_t i = 0; i < sleep->pieces; i++) pieces[i].block = sleep_list_block(&sleep->asleep, pieces[i].block)->index;
     for (uint32_t i = 0; i < sleep->asleep.count; i++) {
-        const SleepBlock block = *sleep_list_block(&sleep->asleep, i);
+        SleepBlock block = *sleep_list_block(&sleep->asleep, i);
+        const uint32_t place = block.index;
+        block.index = 0;
         if (is_to_go(&block)) {
             SleepBlock *active = sleep_list_block(&sleep->active, sleep->active.count++);
             *active = (SleepBlock){.stage = block.woken ? SLEEP_AWAKE : SLEEP_DROWSY, .rows = block.rows, .joined = block.joined};
             memcpy(active->place, block.place, sizeof active->place);
         } else {
-            *sleep_list_block(&sleep->asleep, block.index) = block;
+            *sleep_list_block(&sleep->asleep, place) = block;
         }
     }
     sleep->asleep.count = kept;
@@ -178,6 +180,7 @@ void sleep_check_rows(World *world)
         const SleepBlock *block = sleep_list_block(&sleep->asleep, i);
         right = block->index == block->rows;
     }
+    for (uint32_t i = 0; i < sleep->asleep.count; i++) sleep_list_block(&sleep->asleep, i)->index = 0;
     for (uint32_t i = 0; i < sleep->active.count && right; i++) {
         const SleepBlock *block = sleep_list_block(&sleep->active, i);
         if (block->stage != SLEEP_LEAVING) break;

@@ -11,7 +11,7 @@ typedef struct Contents {
     uint32_t phased, stirred;
     uint32_t rows, still_rows, woken_blocks;
     uint32_t asleep, active, pieces;
-    uint32_t reserved; /* 0 */
+    uint32_t still_blocks;
     double dt;
 } Contents;
 
@@ -23,6 +23,7 @@ static void save_sleep(const World *world, SnapshotOut *out)
                                .stirred = sleep->stirred,
                                .rows = sleep->rows,
                                .still_rows = sleep->still_rows,
+                               .still_blocks = sleep->still_blocks,
                                .woken_blocks = sleep->woken_blocks,
                                .asleep = sleep->asleep.count,
                                .active = sleep->active.count,
@@ -95,6 +96,7 @@ static void load_sleep(World *world, SnapshotIn in)
     sleep->dt = contents.dt;
     sleep->rows = contents.rows;
     sleep->still_rows = contents.still_rows;
+    sleep->still_blocks = contents.still_blocks;
     sleep->woken_blocks = contents.woken_blocks;
     sleep->asleep.count = contents.asleep;
     sleep->active.count = contents.active;

@@ -41,6 +41,11 @@ class Meter:
         self.predicted_error_sum = 0.0
         self.stops: Counter[str] = Counter()
         self.energy_checks_failed = 0
+        self.awake_steps = 0
+        """Particle-steps of particles that were not asleep, among the timed steps."""
+        self.particle_steps = 0
+        self.blocks_woken = 0
+        self.asleep_now = 0
 
     def add(self, stats: pbmpm.Stats, seconds: float, cpu_seconds: float = 0.0) -> None:
         """Counts one step with its wall time and the CPU time of all threads [s]."""
@@ -52,11 +57,15 @@ class Meter:
         self.predicted_error_sum += stats.predicted_error
         self.stops[stats.stop.name.lower()] += 1
         self.energy_checks_failed += stats.energy_checks_failed
+        self.blocks_woken += stats.blocks_woken
+        self.asleep_now = stats.particles_asleep
         if self.steps <= self._to_skip:
             return
+        self.particle_steps += stats.particle_count
+        self.awake_steps += stats.particle_count - stats.particles_asleep
         self.step_seconds.append(seconds)
         self.cpu_seconds += cpu_seconds
-        self.work += stats.particle_count * stats.substeps * stats.iterations_used
+        self.work += (stats.particle_count - stats.particles_asleep) * stats.substeps * stats.iterations_used
         for phase in PHASES:
             self.phase_ms[phase] += getattr(stats, f"ms_{phase}")
 
@@ -101,6 +110,9 @@ class Meter:
             "predicted_error": self.mean_predicted_error,
             "stops": dict(self.stops),
             "energy_checks_failed": self.energy_checks_failed,
+            "particles_asleep": self.asleep_now,
+            "awake_share": self.awake_steps / self.particle_steps if self.particle_steps else None,
+            "blocks_woken": self.blocks_woken,
             "volume_error_rms_over_run": self.volume_error_rms,
             "volume_error_max_over_run": self.volume_error_max,
             "max_speed_over_run": self.max_speed,
