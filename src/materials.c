@@ -68,7 +68,7 @@ static const char *modulus_problem(const pbmpm_material_def *def)
 static const char *yield_problem(const pbmpm_material_def *def)
 {
     const bool plastic = def->kind == PBMPM_SAND || def->kind == PBMPM_VISCO;
-    if (plastic && def->elasticity_ratio < 0.1f) return "material.elasticity_ratio of sand and visco must be in [0.1, 1]";
+    if (plastic && def->elasticity_ratio < 0.01f) return "material.elasticity_ratio of sand and visco must be in [0.01, 1]";
     if (!in_range(def->friction_angle, 0.0, 1.4)) return "material.friction_angle must be in [0, 1.4] radians";
     if (!in_range(def->cohesion, 0.0, 0.5)) return "material.cohesion must be in [0, 0.5]";
     if (def->volume_correction > 1) return "material.volume_correction must be 0 or 1";

@@ -37,3 +37,10 @@ export void layout_of_args3(uniform int32 out[]) {
     out[n++] = sizeof(probe);
     KERNEL_ARGS_FIELDS(WRITE_FIELD)
 }
+export void yield_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[],
+                       uniform int count) {
+    yield_all(material, before, after, count);
+}
+export void cut_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[], uniform int count) {
+    cut_all(material, before, after, count);
+}

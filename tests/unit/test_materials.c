@@ -64,7 +64,7 @@ static void test_ranges(void)
         check_range(&def, (Range){&def.relaxation, 0.0f, 2.0f}, true);
         check_range(&def, (Range){&def.viscosity, 0.0f, 1.0f}, false);
         check_range(&def, (Range){&def.volume_feedback, 0.0f, 1.0f}, false);
-        check_range(&def, (Range){&def.elasticity_ratio, kind >= PBMPM_SAND ? 0.1f : 0.0f, 1.0f}, false);
+        check_range(&def, (Range){&def.elasticity_ratio, kind >= PBMPM_SAND ? 0.01f : 0.0f, 1.0f}, false);
         check_range(&def, (Range){&def.strain_min, 1e-3f, 1.0f}, false);
         check_range(&def, (Range){&def.strain_max, 1.0f, 1e4f}, false);
         check_range(&def, (Range){&def.condition_max, 10.0f, 1e6f}, false);

@@ -422,7 +422,7 @@ namespace Pbmpm
     /// per substep so that they part (unless volume_feedback is 0).
     ///
     /// Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
-    /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Theirs is the least elasticity_ratio of 0.1.
+    /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
     /// Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
     /// from the pressure at the start of the substep.
     ///

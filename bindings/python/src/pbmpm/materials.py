@@ -98,7 +98,7 @@ class Sand:
     Attributes:
         density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
         relaxation: share of the constraint error removed per iteration, in (0, 2).
-        elasticity_ratio: how stiff the shape is beside the volume, in [0.1, 1]. Paper's solver.
+        elasticity_ratio: how stiff the shape is beside the volume, in [0.01, 1]. Paper's solver.
         strain_policy: what happens beyond all measure of strain.
         strain_min: lower bound of the singular values of F, in [1e-3, 1].
         strain_max: upper bound, in [1, 1e4].
@@ -136,7 +136,7 @@ class Visco:
     Attributes:
         density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
         relaxation: share of the constraint error removed per iteration, in (0, 2).
-        elasticity_ratio: how stiff the shape is beside the volume, in [0.1, 1]. Paper's solver.
+        elasticity_ratio: how stiff the shape is beside the volume, in [0.01, 1]. Paper's solver.
         strain_policy: what happens beyond all measure of strain.
         strain_min: lower bound of the singular values of F, in [1e-3, 1].
         strain_max: upper bound, in [1, 1e4].

@@ -84,7 +84,7 @@ class SandPart(_SolidPart):
     """Grains with friction."""
 
     kind: Literal["sand"]
-    elasticity_ratio: Annotated[float, Field(ge=0.1, le=1)] = _SAND.elasticity_ratio
+    elasticity_ratio: Annotated[float, Field(ge=0.01, le=1)] = _SAND.elasticity_ratio
     friction_angle: Annotated[float, Field(ge=0, le=1.4)] = _SAND.friction_angle
     """[rad]"""
     cohesion: Annotated[float, Field(ge=0, le=0.5)] = _SAND.cohesion
@@ -95,7 +95,7 @@ class ViscoPart(_SolidPart):
     """A solid that flows where it is strained too far."""
 
     kind: Literal["visco"]
-    elasticity_ratio: Annotated[float, Field(ge=0.1, le=1)] = _VISCO.elasticity_ratio
+    elasticity_ratio: Annotated[float, Field(ge=0.01, le=1)] = _VISCO.elasticity_ratio
     yield_strain: Annotated[float, Field(ge=0, le=10)] = _VISCO.yield_strain
     flow_rate: Annotated[float, Field(ge=0, le=1e9)] = _VISCO.flow_rate
     """[1/s]"""

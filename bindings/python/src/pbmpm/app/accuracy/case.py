@@ -179,7 +179,7 @@ class Case(ABC):
     name: str
     title: str
     dimension: int
-    kind: Literal["liquid", "elastic", "mixed"]
+    kind: Literal["liquid", "elastic", "mixed", "granular"]
     truth: str
     """Source and units of what is right."""
     error_kinds: tuple[ErrorMeasure, ...]

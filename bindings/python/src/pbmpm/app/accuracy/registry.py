@@ -9,9 +9,10 @@ from .case import Case
 def all_cases() -> list[Case]:
     """One of each, at their default sizes."""
     from . import elastic
+    from .granular import GRANULAR_CASES
     from .liquid import LIQUID_CASES
 
-    return [make() for make in (*LIQUID_CASES, *getattr(elastic, "ELASTIC_CASES", ()))]
+    return [make() for make in (*LIQUID_CASES, *getattr(elastic, "ELASTIC_CASES", ()), *GRANULAR_CASES)]
 
 
 def find_cases(names: tuple[str, ...] | list[str]) -> list[Case]:
