@@ -487,12 +487,18 @@ static void test_a_hole_fills_up(void)
     const pool made = sleeping_pool();
     uint32_t removed, left;
     const pbmpm_shape whole = box_shape(1.0f, 0.2f, 0, 0.4f, 0.25f, 1), low = box_shape(1.0f, 0.05f, 0, 0.4f, 0.05f, 1);
+    const picture before = picture_of(made.world);
     OK(pbmpm_particles_remove_in(made.world, &whole, &removed));
     steps(&made, 240);
+    const picture after = picture_of(made.world);
+    float farthest;
+    count_changed(&before, &after, 1.0f, &farthest);
     OK(pbmpm_query_shape(made.world, &low, NULL, 0, &left));
     TEST_ASSERT_TRUE(removed > 400);
     /* 0.8 m by 0.1 m hold 128 particles. */
     TEST_ASSERT_TRUE(left > 96);
+    /* Blocks out of which something was taken end 0.6 m away; the others woke because nothing held them. */
+    TEST_ASSERT_TRUE(farthest > 0.9f);
 }
 
 /* ---- Threads, snapshots, memory ---- */
