@@ -7,8 +7,8 @@
  *
  * A block wakes when
  *   - a particle faster than sleep_speed comes into it, or more slow ones than a sixteenth of its own; or particles are added to it;
- *   - it is drowsy, and the solution would move its particles with a root mean square speed above sleep_speed, or would have given them
- *     together a velocity above sleep_speed in the last tenth of a second;
+ *   - it is drowsy, and the solution would give one of its particles a speed above sleep_speed, or would have given all of them
+ *     together a velocity above sleep_speed in the last 0.03 s;
  *   - a collider that moves, turns, is teleported, created or destroyed is or was within two cells of it;
  *   - a force, a drain or the reach of one that is created, set or destroyed touches it; a call sets or removes particles in it;
  *   - all of them: a change of settings other than the sleep_*, target_error and time_budget_ms, of a material or of the kill bounds;
@@ -17,7 +17,7 @@
  * Nothing else changes a block that sleeps, to the last bit. Blocks that touch a collider or a wall that measures impulses stay awake.
  *
  * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum, and matter that sleeps bears accelerations
- * up to sleep_speed per tenth of a second without moving. Results depend neither on the number of threads nor on when others look.
+ * up to sleep_speed per 0.03 s without moving. Results depend neither on the number of threads nor on when others look.
  * A snapshot holds who sleeps; one of a world without sleeping wakes all. */
 #ifndef PBMPM_SLEEP_H
 #define PBMPM_SLEEP_H

@@ -196,6 +196,29 @@ static class EffectTests
         }
     }
 
+    [Test]
+    static void WhatRestsSleepsUntilItIsWoken()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            var settings = world.Settings;
+            settings.Gravity = new Float3(0, 0, 0);
+            settings.Sleeping = 1;
+            settings.SleepTime = 0.1f;
+            world.Settings = settings;
+            Run(world, 20);
+            Expect.Equal((uint)world.ParticleCount, world.Stats.ParticlesAsleep, "particles asleep");
+            world.Wake(Shape.Sphere(new Float3(1, 1, 0), 0.1f));
+            Run(world, 1);
+            Expect.Equal(0u, world.Stats.ParticlesAsleep, "particles asleep after a call");
+            Run(world, 20);
+            Expect.Equal((uint)world.ParticleCount, world.Stats.ParticlesAsleep, "particles asleep again");
+            world.Wake();
+            Run(world, 1);
+            Expect.Equal(0u, world.Stats.ParticlesAsleep, "particles asleep after the other call");
+        }
+    }
+
     static double Lowest(FloatView positions)
     {
         var lowest = double.PositiveInfinity;

@@ -50,7 +50,7 @@ static class ParticleTests
         {
             var elastic = MaterialDef.Default;
             elastic.Kind = MaterialKind.Elastic;
-            world.AddMaterial(elastic);
+            world.AddParticles(world.AddMaterial(elastic), new[] { 0.3f, 0.3f, 0.3f }); // brings deformation gradients
             var settings = world.Settings;
             settings.Solver = Solver.Dual; // makes pressures
             world.Settings = settings;

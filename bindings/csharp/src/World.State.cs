@@ -3,7 +3,7 @@ using Pbmpm.Native;
 
 namespace Pbmpm
 {
-    // Snapshots, and steps in the background
+    // Snapshots, steps in the background, sleep
     public sealed unsafe partial class World
     {
         /// <summary>Bytes that a snapshot needs now.</summary>
@@ -66,6 +66,18 @@ namespace Pbmpm
         {
             if (fields == null) throw new ArgumentNullException(nameof(fields));
             fixed (Field* first = fields) Done(Methods.pbmpm_world_publish(Id, first, (uint)fields.Length));
+        }
+
+        /// <summary>Wakes all matter that sleeps.</summary>
+        public void Wake()
+        {
+            Done(Methods.pbmpm_world_wake(Id, null));
+        }
+
+        /// <summary>Wakes what sleeps within two cells of a shape.</summary>
+        public void Wake(Shape shape)
+        {
+            Done(Methods.pbmpm_world_wake(Id, &shape));
         }
     }
 }
