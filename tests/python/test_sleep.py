@@ -1,0 +1,69 @@
+"""What sleeping does to the result: a pool that sleeps against one that stays awake."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbmpm
+
+CELL = 0.1  # [m]
+DEPTH = 6  # cells
+RATE = 60
+
+
+def pool(solver: pbmpm.Solver, sleeping: bool) -> pbmpm.World:
+    """A pool 12 cells wide, at random places, in 3D."""
+    size = np.array([12, DEPTH, 12]) * CELL
+    world = pbmpm.World(3, CELL, capacity=20_000, domain=((0, 0, 0), size * (1, 3, 1)), threads=1)
+    world.gravity, world.solver, world.iterations = (0, -9.81, 0), solver, 10
+    world.sleeping = sleeping
+    world.fill(pbmpm.Box(size / 2, size / 2), world.add_material(pbmpm.Liquid()), seed=3)
+    return world
+
+
+def heights(world: pbmpm.World) -> tuple[float, float]:
+    """Of the centre of mass and of the surface [cells]."""
+    y = world.positions.array()[:, 1].astype(float) / CELL
+    return float(y.mean()), float(np.percentile(y, 99))
+
+
+def test_a_pool_asleep_stands_as_one_awake() -> None:
+    """Matter below sleep_speed = 0.05 m/s stops where it is. What a pool at rest stirs is slower and goes nowhere; that moved
+    the centre of mass by less than a fiftieth of a cell in 5 s, and the surface by less than a fifth."""
+    with pool(pbmpm.Solver.DUAL, True) as asleep, pool(pbmpm.Solver.DUAL, False) as awake:
+        for _ in range(5 * RATE):
+            asleep.step(1 / RATE)
+            awake.step(1 / RATE)
+        assert asleep.stats.particles_asleep == len(asleep)
+        assert awake.stats.particles_asleep == 0
+        for slept, moved, bound in zip(heights(asleep), heights(awake), (0.02, 0.2), strict=True):
+            assert slept == pytest.approx(moved, abs=bound)
+
+
+def test_one_drop_wakes_what_it_touches_and_no_more() -> None:
+    """Blocks beyond those that the drop stirs keep every bit; afterwards all sleep again."""
+    with pool(pbmpm.Solver.DUAL, True) as world:
+        for _ in range(5 * RATE):
+            world.step(1 / RATE)
+        before = places_by_id(world)
+        assert world.stats.particles_asleep == len(world)
+        (water,) = world.query_region(pbmpm.Box([0.6, 0.3, 0.6], [1, 1, 1]))
+        surface = heights(world)[1] * CELL
+        drop = world.add_particles(water.material, [[0.6, surface + 2 * CELL, 0.6]], [[0, -3, 0]])
+        woken = 0
+        for _ in range(3 * RATE):
+            world.step(1 / RATE)
+            woken += world.stats.blocks_woken
+        after = places_by_id(world)
+        after.pop(tuple(drop[0].tolist()))
+        assert woken > 0
+        assert world.stats.particles_asleep == len(world)
+        changed = np.array([before[key] for key in before if not np.array_equal(before[key], after[key])])
+        assert 0 < len(changed) < len(before) / 4
+        assert np.abs(changed[:, [0, 2]] - 0.6).max() < 4 * CELL + 4 * CELL  # its block and the next one
+
+
+def places_by_id(world: pbmpm.World) -> dict[tuple[int, int], np.ndarray]:
+    """The position of each particle."""
+    return {tuple(key): place for key, place in zip(world.ids.copy().tolist(), world.positions.copy(), strict=True)}
