@@ -86,7 +86,7 @@ def test_a_wrong_type_is_a_type_error(world: pbmpm.World, water: pbmpm.Material)
         world.fill((0, 0), water)
     with pytest.raises(TypeError, match="a Material is needed"):
         world.add_particles(water.parameters, [[1.0] * world.dimension])
-    with pytest.raises(TypeError, match="a Liquid or an Elastic is needed"):
+    with pytest.raises(TypeError, match="a Liquid, Elastic, Sand or Visco is needed"):
         world.add_material("water")
 
 
