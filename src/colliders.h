@@ -127,7 +127,12 @@ void contacts_book(const ContactFrame *frame, double dt);
 /* Takes the memory that contacts_push_out() books in. */
 pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory);
 
-/* Last resort: puts particles of the particle blocks [begin, end) that ended inside an obstacle back to its surface. */
+/* Before particles move: notes where those of the particle blocks [begin, end) are that may meet an obstacle, in a spare array, for
+ * contacts_push_out(). */
+void contacts_keep_places(const ContactFrame *frame, const Particles *particles, int32_t begin, int32_t end);
+
+/* Last resort: holds back particles of the particle blocks [begin, end) that passed through an obstacle, and puts those that ended
+ * inside one back to its surface. */
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);
 
 /* In place of that, for a block whose particles did not move. */

@@ -1,26 +1,19 @@
-/* Particles that ended inside an obstacle, and what putting them back gives it. */
+/* Particles that passed an obstacle or ended inside one, and what putting them back gives it. */
 #include <math.h>
 
 #include "colliders.h"
 #include "result.h"
 
-/* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
- * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
-static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
+/* Moves a particle by `way` [cells] and takes away its velocity into the surface with this normal. */
+static void put_back(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, const double way[3], const double normal[3],
+                     ImpulseSum *sum)
 {
-    double point[3] = {0}, normal[3];
-    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
-    double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
-    if (depth <= 0.0) return;
-    if (!o->wall) depth = fmin(depth, 1.0);
     float surface[3];
-    double way[3], gained[3] = {0}, inward = 0.0;
+    double point[3] = {0}, gained[3] = {0}, inward = 0.0;
+    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
     obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
     const double to_velocity = frame->cell_size / (double)dt;
-    for (int a = 0; a < p->dimension; a++) {
-        way[a] = depth * normal[a];
-        inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
-    }
+    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
     particles_shift(p, row, way);
     particles_forget(p, row);
     const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);
@@ -33,19 +26,144 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
     if (sum && inward < 0.0) impulse_add(sum, point, gained);
 }
 
-static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
+/* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
+ * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
+static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
+{
+    double point[3] = {0}, normal[3];
+    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
+    double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
+    if (depth <= 0.0) return;
+    if (!o->wall) depth = fmin(depth, 1.0);
+    double way[3] = {0};
+    for (int a = 0; a < p->dimension; a++) way[a] = depth * normal[a];
+    put_back(frame, o, p, row, dt, way, normal, sum);
+}
+
+/* ---- Particles that passed an obstacle ---- */
+
+/* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
+ * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
+ * tracing: J. Hart, "Sphere tracing", The Visual Computer 12, 1996). Shorter ways than these end inside, where they are noticed. */
+static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells] */
+static const double TOUCH = 1e-3;                                       /* [cells] */
+static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
+static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along */
+
+/* The longest way [cells] that needs no look; infinite for what cannot be passed. */
+static double longest_unseen(const ContactFrame *frame, const Obstacle *o)
+{
+    const Solid *s = &o->end;
+    if (o->wall || s->kind == PBMPM_PLANE) return INFINITY;
+    if (s->grid) return LONGEST_UNSEEN_BAKED;
+    double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
+    for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
+    return fmin(LONGEST_UNSEEN, half / frame->cell_size);
+}
+
+static bool is_in_reach(const ContactFrame *frame, const Obstacle *o, int32_t block, double way)
 {
     double centre[3];
     contacts_block_centre(frame, block, centre);
     const double half_diagonal = 0.5 * K_BLOCK_AXIS * sqrt((double)frame->grid->dimension);
-    return solid_least(&o->end, centre) / frame->cell_size <= half_diagonal + (double)((const float *)frame->grid->travel.data)[block];
+    return solid_least(&o->end, centre) / frame->cell_size <= half_diagonal + way;
+}
+
+/* Relative to the block's first node. */
+static float place_in_block(const ContactFrame *frame, const Particles *p, int32_t block, uint32_t row, int axis)
+{
+    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    return (float)(p->cell[axis][row] - frame->grid->anchor[axis] - corner[axis] * K_BLOCK_AXIS) + p->fraction[axis][row];
+}
+
+void contacts_keep_places(const ContactFrame *frame, const Particles *p, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    const uint32_t *rows = frame->grid->block_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        bool wanted = false;
+        for (int i = 0; i < colliders->obstacle_count && !wanted; i++) {
+            const Obstacle *o = &colliders->obstacle[i];
+            wanted = longest_unseen(frame, o) < INFINITY && is_in_reach(frame, o, block, frame->max_displacement);
+        }
+        for (int a = 0; wanted && a < p->dimension; a++) {
+            float *kept = particles_spare(p, CLASS_VECTOR, a);
+            for (uint32_t row = rows[block]; row < rows[block + 1]; row++) kept[row] = place_in_block(frame, p, block, row, a);
+        }
+    }
+}
+
+/* The share of the way [cells] from `from` [m] at which it runs into the solid, with the normal there; 1: it does not. */
+static double share_until_hit(const Solid *solid, const double from[3], const double way[3], double length, double cell_size, double normal[3])
+{
+    enum { STEPS = 48 };
+    double share = 0.0;
+    for (int i = 0; i < STEPS && share < 1.0; i++) {
+        double at[3], inward = 0.0;
+        for (int a = 0; a < 3; a++) at[a] = from[a] + share * way[a] * cell_size;
+        const double distance = solid_distance(solid, at, normal) / cell_size;
+        for (int a = 0; a < 3; a++) inward -= way[a] * normal[a];
+        if (distance <= TOUCH && inward > 0.0) return share;
+        if (inward <= 0.0 && !solid->grid) return 1.0; /* convex: it only gets further away */
+        share += fmax(distance, TOUCH) / length;
+    }
+    return 1.0;
+}
+
+/* What is missing from the way [cells] of a particle that started at `from` [m] so that it slides along the surface it runs into instead of
+ * passing through. False: nothing. */
+static bool slide(const ContactFrame *frame, const Obstacle *o, const double from[3], const double way[3], double back[3], double normal[3])
+{
+    double length = 0.0, inward = 0.0;
+    for (int a = 0; a < 3; a++) length += way[a] * way[a];
+    length = sqrt(length);
+    const double left = 1.0 - share_until_hit(&o->end, from, way, length, frame->cell_size, normal);
+    if (left <= 0.0) return false;
+    for (int a = 0; a < 3; a++) inward -= left * way[a] * normal[a];
+    for (int a = 0; a < 3; a++) back[a] = inward * normal[a];
+    return true;
+}
+
+static void hold_back(const ContactFrame *frame, const Obstacle *o, Particles *p, int32_t block, uint32_t row, double unseen, float dt, ImpulseSum *sum)
+{
+    double from[3] = {0}, way[3] = {0}, back[3], normal[3], length2 = 0.0;
+    float surface[3], carried2 = 0.0f;
+    for (int a = 0; a < p->dimension; a++) {
+        way[a] = (double)(place_in_block(frame, p, block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
+        from[a] = (particles_coordinate(p, row, a) - way[a]) * frame->cell_size;
+        length2 += way[a] * way[a];
+    }
+    if (o->moves) {
+        obstacle_motion(o, from, frame->cell_size, frame->max_displacement, surface);
+        length2 = 0.0;
+        for (int a = 0; a < p->dimension; a++) {
+            carried2 += surface[a] * surface[a];
+            from[a] += (double)surface[a] * frame->cell_size;
+            way[a] -= (double)surface[a];
+            length2 += way[a] * way[a];
+        }
+        if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return;
+    }
+    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, o, p, row, dt, back, normal, sum);
+}
+
+/* ---- Both ---- */
+
+static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
+{
+    return is_in_reach(frame, o, block, (double)((const float *)frame->grid->travel.data)[block]);
 }
 
 static void push_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
 {
     const uint32_t *begin = frame->grid->block_begin.data;
-    for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
-        if (particles->status[row] == K_ALIVE) push_particle(frame, o, particles, row, dt, sum);
+    const double unseen = longest_unseen(frame, o);
+    const bool watched = unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block];
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
+        if (particles->status[row] != K_ALIVE) continue;
+        if (watched) hold_back(frame, o, particles, block, row, unseen, dt, sum);
+        push_particle(frame, o, particles, row, dt, sum);
+    }
 }
 
 /* The note to book an obstacle's impulse in; null when all are taken. */

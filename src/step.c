@@ -113,6 +113,12 @@ static void push_out(void *context, int32_t begin, int32_t end)
     }
 }
 
+static void keep_places(void *context, int32_t begin, int32_t end)
+{
+    const PushJob *job = context;
+    contacts_keep_places(job->frame, &job->world->particles, begin, end);
+}
+
 /* Without particles only the obstacles move. */
 static pbmpm_result empty_substep(World *world, int part)
 {
@@ -171,8 +177,9 @@ static pbmpm_result substep(World *world, float dt, int part)
     /* Go. */
     contacts_book(&contacts, (double)dt);
     mirrors_book(&world->mirrors, &contacts, (double)dt);
-    solver_integrate(world);
     PushJob push = {world, &contacts, dt};
+    if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
+    solver_integrate(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
     contacts_book_push(&contacts, &world->particles, dt);
     forces_account(&world->forces, world->grid.node_blocks);

@@ -183,6 +183,48 @@ static void test_nothing_enters_an_obstacle(void)
     }
 }
 
+/* A ball flies at 4 cells per step at a wall a fifth of a cell thick, which comes towards it or stands still: all of it stays before the wall,
+ * and what it loses of its momentum the wall gets. */
+static void check_nothing_passes(int32_t dimension, pbmpm_solver solver, pbmpm_material_kind kind, float wall_speed)
+{
+    const float dt = 0.01f, half = 0.01f;
+    const pbmpm_world_id world = open_world(dimension);
+    pbmpm_settings settings = default_settings();
+    settings.solver = solver;
+    settings.iterations = 5;
+    OK(pbmpm_world_set_settings(world, &settings));
+    pbmpm_collider_def wall = default_collider(box_shape(0, 0, 0, half, 50, 50));
+    wall.kinematic = wall.measures_impulse = 1;
+    wall.friction = PBMPM_FRICTION_SLIP;
+    pbmpm_collider_id id;
+    OK(pbmpm_collider_create(world, &wall, &id));
+    fill_shape(world, create_material(world, kind), sphere_shape(-0.45f, 0.02f, 0, 0.25f), (const float[3]){40, 0, 0});
+    double given = 0, start = world_stats(world).momentum[0];
+    for (int i = 1; i <= 30; i++) {
+        const float x = -wall_speed * dt * (float)i;
+        if (wall_speed > 0) OK(pbmpm_collider_move(world, id, (const float[3]){x, 0, 0}, NULL));
+        OK(pbmpm_world_step(world, dt));
+        const pbmpm_view position = view_of(world, PBMPM_POSITION);
+        for (uint32_t p = 0; p < position.count; p++) TEST_ASSERT_TRUE(view_float(&position, p, 0) <= x - half + 1e-5f);
+        pbmpm_impulse impulse = {.size = sizeof impulse};
+        OK(pbmpm_collider_impulse(world, id, &impulse));
+        given += impulse.linear[0];
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5 * start, start, world_stats(world).momentum[0] + given);
+    TEST_ASSERT_TRUE(given > 0.9 * start);
+}
+
+static void test_nothing_passes_a_thin_wall(void)
+{
+    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_PAPER, PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL};
+    for (int i = 0; i < 3; i++) {
+        check_nothing_passes(2, solvers[i], PBMPM_LIQUID, 0);
+        check_nothing_passes(2, solvers[i], PBMPM_ELASTIC, 5);
+        check_nothing_passes(3, solvers[i], PBMPM_ELASTIC, 0);
+        check_nothing_passes(3, solvers[i], PBMPM_LIQUID, 5);
+    }
+}
+
 /* Particles under a new obstacle are pushed out over the next steps. */
 static void test_an_obstacle_on_top_of_matter_pushes_it_out(void)
 {
@@ -307,6 +349,7 @@ int main(void)
     RUN_TEST(test_move_is_reached_at_the_end_of_the_next_step);
     RUN_TEST(test_static_colliders_teleport_but_do_not_move);
     RUN_TEST(test_nothing_enters_an_obstacle);
+    RUN_TEST(test_nothing_passes_a_thin_wall);
     RUN_TEST(test_an_obstacle_on_top_of_matter_pushes_it_out);
     RUN_TEST(test_friction);
     RUN_TEST(test_a_moving_obstacle_takes_matter_along);

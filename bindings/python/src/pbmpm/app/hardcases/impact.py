@@ -6,7 +6,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import DUAL, ELASTIC, EXPLICIT, LIQUID, PRIMAL, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
+from .case import LIQUID, PRIMAL, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
 from .volume import PRESS_CELL, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
 from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
@@ -16,7 +16,8 @@ CELL = 0.1  # [m]
 BALL_CELLS = 6  # diameter
 WALL_HALF_SIZE = 60  # cells
 IMPACT_SECONDS = 1.0
-IMPACTS = {f"{speed:g} cells/step, wall of {wall} cells": (speed, wall) for wall in (2, 1) for speed in (0.5, 1, 5, 50)}
+WALLS = (2.0, 1.0, 0.2)  # cells
+IMPACTS = {f"{speed:g} cells/step, wall of {wall:g} cells": (speed, wall) for wall in WALLS for speed in (0.5, 1, 5, 50)}
 
 
 def hit_wall(setting: Setting) -> list[Check]:
@@ -178,23 +179,13 @@ def obstacles(setting: Setting) -> list[Check]:
     return OBSTACLES[setting.variant](setting)
 
 
-_THIN_WALL = (
-    "the displacements of nodes on both sides of a wall of one cell carry particles across it; walls of two cells hold at any speed;"
-    " of 112 particles (2D) and 912 (3D) there pass "
-)
-_THIN_5, _THIN_50 = (f"{speed} cells/step, wall of 1 cells" for speed in (5, 50))
 _KNOWN_IMPACTS = (
-    KnownFailure(_THIN_WALL + "6 and 1 of liquid, 18 and 4 of elastic matter", solvers=(DUAL,), variants=(_THIN_50,)),
-    KnownFailure(_THIN_WALL + "all at 50 cells per step", solvers=(PRIMAL,), variants=(_THIN_50,)),
-    KnownFailure(_THIN_WALL + "24 and 174 at 5", solvers=(PRIMAL,), materials=(ELASTIC,), variants=(_THIN_5,)),
-    KnownFailure(_THIN_WALL + "3 at 5", solvers=(PRIMAL,), materials=(LIQUID,), dimensions=(2,), variants=(_THIN_5,)),
-    KnownFailure(_THIN_WALL + "up to all", solvers=(EXPLICIT,), variants=(_THIN_5, _THIN_50)),
     KnownFailure(
         f"{UNFINISHED_LIQUID}: 0.1 %",
         solvers=(PRIMAL,),
         materials=(LIQUID,),
         dimensions=(3,),
-        variants=tuple(f"0.5 cells/step, wall of {wall} cells" for wall in (1, 2)),
+        variants=tuple(f"0.5 cells/step, wall of {wall:g} cells" for wall in WALLS),
     ),
 )
 
