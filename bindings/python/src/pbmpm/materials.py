@@ -58,22 +58,22 @@ class Liquid:
 
 
 @dataclass(frozen=True)
-class Elastic:
-    """Keeps its shape and its volume. Defaults are those of the C library.
+class Solid:
+    """What all matter with a deformation gradient F has: `Elastic`, `Sand` and `Visco`.
 
     Attributes:
         density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
         relaxation: share of the constraint error removed per iteration, in (0, 2).
-        elasticity_ratio: blend of keeping the shape (1) and keeping only the volume (0).
+        elasticity_ratio: blend of keeping the shape (1) and keeping only the volume; elastic bodies in [0, 1], sand and visco in
+            [0.01, 1]. Paper's solver.
         strain_policy: what happens beyond all measure of strain.
         strain_min: lower bound of the singular values of F, in [1e-3, 1].
         strain_max: upper bound, in [1, 1e4].
         condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
         rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]: how fast crushed matter grows
-            back.
-        elastic_model: how the stress follows from F. Not the paper's solver, as what follows.
-        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15].
-        poisson_ratio: in [0, 0.495].
+            back. Paper's solver.
+        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
+        poisson_ratio: in [0, 0.495]. Not the paper's solver.
     """
 
     density: float = _default("density")
@@ -84,81 +84,51 @@ class Elastic:
     strain_max: float = _default("strain_max")
     condition_max: float = _default("condition_max")
     rebound_max: float = _default("rebound_max")
-    elastic_model: ElasticModel = ElasticModel(_DEFAULTS.elastic_model)
     young_modulus: float = _default("young_modulus")
     poisson_ratio: float = _default("poisson_ratio")
 
 
 @dataclass(frozen=True)
-class Sand:
-    """Shears as far as friction lets it and bears no tension beyond its cohesion.
-
-    Below yield it is an elastic body. Defaults are those of the C library.
+class Elastic(Solid):
+    """Keeps its shape and its volume, with the parameters of all `Solid` matter. Defaults are those of the C library.
 
     Attributes:
-        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
-        relaxation: share of the constraint error removed per iteration, in (0, 2).
-        elasticity_ratio: how stiff the shape is beside the volume, in [0.01, 1]. Paper's solver.
-        strain_policy: what happens beyond all measure of strain.
-        strain_min: lower bound of the singular values of F, in [1e-3, 1].
-        strain_max: upper bound, in [1, 1e4].
-        condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
-        rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]. Paper's solver.
-        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
-        poisson_ratio: in [0, 0.495]. Not the paper's solver.
+        elastic_model: how the stress follows from F. Not the paper's solver.
+    """
+
+    elastic_model: ElasticModel = ElasticModel(_DEFAULTS.elastic_model)
+
+
+@dataclass(frozen=True)
+class Sand(Solid):
+    """Shears as far as friction lets it and bears no tension beyond its cohesion.
+
+    Below yield it is an elastic body, with the parameters of all `Solid` matter. Defaults are those of the C library.
+
+    Attributes:
         friction_angle: [rad], in [0, 1.4]; its tangent is the friction coefficient.
         cohesion: ln of the volume ratio up to which it bears tension, in [0, 0.5]; 0: dry.
         volume_correction: whether sand that has come apart closes up again before it bears pressure.
     """
 
-    density: float = _default("density")
-    relaxation: float = _default("relaxation")
-    elasticity_ratio: float = _default("elasticity_ratio")
-    strain_policy: StrainPolicy = StrainPolicy(_DEFAULTS.strain_policy)
-    strain_min: float = _default("strain_min")
-    strain_max: float = _default("strain_max")
-    condition_max: float = _default("condition_max")
-    rebound_max: float = _default("rebound_max")
-    young_modulus: float = _default("young_modulus")
-    poisson_ratio: float = _default("poisson_ratio")
     friction_angle: float = _default("friction_angle")
     cohesion: float = _default("cohesion")
     volume_correction: bool = bool(_DEFAULTS.volume_correction)
 
 
 @dataclass(frozen=True)
-class Visco:
+class Visco(Solid):
     """Flows where it is strained too far, at constant volume: clay, dough, mud.
 
-    Below yield it is an elastic body; beyond, a Bingham fluid with the viscosity mu / flow_rate [Pa s]. Defaults are those
-    of the C library.
+    Below yield it is an elastic body, with the parameters of all `Solid` matter; beyond, a Bingham fluid with the viscosity
+    mu / flow_rate [Pa s]. Defaults are those of the C library.
 
     Attributes:
-        density: rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6].
-        relaxation: share of the constraint error removed per iteration, in (0, 2).
-        elasticity_ratio: how stiff the shape is beside the volume, in [0.01, 1]. Paper's solver.
-        strain_policy: what happens beyond all measure of strain.
-        strain_min: lower bound of the singular values of F, in [1e-3, 1].
-        strain_max: upper bound, in [1, 1e4].
-        condition_max: largest condition number of F with StrainPolicy.DELETE, in [10, 1e6].
-        rebound_max: largest strain that the constraint asks for per iteration, in (0, 10]. Paper's solver.
-        young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
-        poisson_ratio: in [0, 0.495]. Not the paper's solver.
         yield_strain: largest norm of the deviator of the logarithmic strain that is borne, in [0, 10]. The yield stress in
             shear is sqrt(2) mu yield_strain.
         flow_rate: [1/s]; strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9].
     """
 
-    density: float = _default("density")
-    relaxation: float = _default("relaxation")
-    elasticity_ratio: float = _default("elasticity_ratio")
-    strain_policy: StrainPolicy = StrainPolicy(_DEFAULTS.strain_policy)
-    strain_min: float = _default("strain_min")
-    strain_max: float = _default("strain_max")
-    condition_max: float = _default("condition_max")
-    rebound_max: float = _default("rebound_max")
-    young_modulus: float = _default("young_modulus")
-    poisson_ratio: float = _default("poisson_ratio")
     yield_strain: float = _default("yield_strain")
     flow_rate: float = _default("flow_rate")
 

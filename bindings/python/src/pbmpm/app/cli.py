@@ -32,7 +32,7 @@ from .tune.command import tune
 @click.group(context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 110})
 @click.version_option(package_name="pbmpm", message="pbmpm %(version)s")
 def cli() -> None:
-    """Simulate liquids and elastic solids with the Position Based Material Point Method, and measure the result."""
+    """Simulate liquids, elastic bodies, sand and yielding matter with the Position Based Material Point Method, and measure the result."""
 
 
 cli.add_command(accuracy)

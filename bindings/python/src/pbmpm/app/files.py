@@ -8,7 +8,10 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @contextmanager
@@ -33,6 +36,16 @@ def _without_nan(data: Any) -> Any:
     if isinstance(data, (list, tuple)):
         return [_without_nan(value) for value in data]
     return None if isinstance(data, float) and not math.isfinite(data) else data
+
+
+def save_figure(figure: Figure, path: Path, dpi: int = 110) -> None:
+    """Writes a figure as PNG, complete or not at all, into a folder that is made when missing."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    from matplotlib.backends.backend_agg import FigureCanvasAgg  # slow to load; most commands draw nothing
+
+    FigureCanvasAgg(figure)  # a canvas without a window
+    with replace_when_complete(path) as temporary:
+        figure.savefig(temporary, format="png", dpi=dpi)
 
 
 def write_json(data: Any, path: Path) -> None:

@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from ..files import replace_when_complete
+from ..files import save_figure
 from .case import CurvePanel, ErrorMeasure
 from .sweep import CaseReport
 
@@ -38,10 +37,7 @@ def save_chart(report: CaseReport, machine: dict[str, Any], path: Path) -> None:
         f" {machine['date'][:10]}; crosses: not stable; figures: Hz x iterations",
         fontsize=10,
     )
-    FigureCanvasAgg(figure)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replace_when_complete(path) as temporary:
-        figure.savefig(temporary, format="png", dpi=100)
+    save_figure(figure, path, dpi=100)
 
 
 def _error_panel(axes: Axes, report: CaseReport, measure: ErrorMeasure) -> None:

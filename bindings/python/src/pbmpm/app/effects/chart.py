@@ -6,11 +6,10 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 
-from ..files import replace_when_complete
+from ..files import save_figure
 from .report import whole
 
 _BARE, _ON, _IDLE, _OFF = "#8a9bb0", "#1f6fb4", "#b03a48", "#d9b382"
@@ -42,10 +41,7 @@ def save_chart(report: dict[str, Any], path: Path) -> None:
         f" {machine['threads']} thread(s), {machine['date'][:10]}",
         fontsize=9,
     )
-    FigureCanvasAgg(figure)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replace_when_complete(path) as temporary:
-        figure.savefig(temporary, format="png", dpi=110)
+    save_figure(figure, path)
 
 
 def _colour(row: dict[str, Any]) -> str:

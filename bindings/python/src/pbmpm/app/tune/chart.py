@@ -8,11 +8,10 @@ from pathlib import Path
 from typing import Any
 
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
-from ..files import replace_when_complete
+from ..files import save_figure
 from ..simulation import RunSettings
 from .sweep import Result, Tuning
 
@@ -61,10 +60,7 @@ def save_chart(tuning: Tuning, machine: dict[str, Any], path: Path) -> None:
         f" {machine['threads']} threads, {machine['date'][:10]}. Crosses: not stable. Labels: substeps x iterations",
         fontsize=8,
     )
-    FigureCanvasAgg(figure)
-    path.parent.mkdir(parents=True, exist_ok=True)
-    with replace_when_complete(path) as temporary:
-        figure.savefig(temporary, format="png", dpi=110)
+    save_figure(figure, path)
 
 
 def _draw_settings(axes: Axes, results: list[Result]) -> None:
