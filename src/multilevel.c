@@ -195,13 +195,13 @@ static inline void load_halo(const TransferJob *job, int32_t block, float *halo,
         for (int k = 0; k < sz; k++)
             for (int j = 0; j < sy; j++) {
                 float *row = halo + (((tz + k) * HALO + ty + j) * HALO + tx) * width;
-                const float *from = source + (source ? (((fz + k) * K_BLOCK_AXIS + fy + j) * K_BLOCK_AXIS + fx) * width : 0);
+                const int from = (((fz + k) * K_BLOCK_AXIS + fy + j) * K_BLOCK_AXIS + fx) * width;
                 if (!source)
                     memset(row, 0, (size_t)sx * one);
                 else if (sx == 1)
-                    memcpy(row, from, one);
+                    memcpy(row, source + from, one);
                 else
-                    memcpy(row, from, line);
+                    memcpy(row, source + from, line);
             }
     }
 }
