@@ -240,12 +240,35 @@ def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.M
         rows.append(setting)
         return row_of(Priced(), setting, Measurement({"error": 0.04}, 1.0, 1.0, 0.0, True), None)
 
-    explorer = Explorer(Priced(), measure, 10.0)
+    explorer = Explorer(Priced(), measure, 10.0, 8)
     explorer.run()
     assert {(left.setting.rate_hz, left.setting.iterations) for left in explorer.left_out.values()} >= {(480.0, 20)}
     assert all(setting.work <= 10000.0 for setting in rows)
-    assert all(left.own == (left.setting in Priced().sweep(False)) for left in explorer.left_out.values())
+    assert set(explorer.cut_short()) >= {"paper", "dual"}
     assert "would take 11 s" in next(left.text() for left in explorer.left_out.values() if left.setting.rate_hz == 480.0)
+
+
+def test_search_on_several_grids_begins_with_the_same_courant_numbers(priced: Priced) -> None:
+    """Twice as many cells: the explicit solver at twice the rate, the paper's also, the dual as it was."""
+    start = priced.start(16)
+    explicit = [setting.rate_hz for setting in start if setting.solver == "explicit"]
+    dual = {setting.rate_hz for setting in start if setting.solver == "dual"}
+    paper = {setting.rate_hz for setting in start if setting.solver == "paper"}
+    assert (explicit, dual, paper) == ([960.0], {30.0, 480.0}, {60.0, 960.0})
+    assert all(setting.cells == 16 for setting in start) and len(set(start)) == len(start)
+    report = Sweep().search(priced, 100.0, (8, 16))
+    assert report.facts()["compared_cells"] == [8, 16]
+    assert {(setting.cells, setting.solver) for setting in report.settings} == {
+        (cells, solver) for cells in (8, 16) for solver in ("paper", "dual", "explicit")
+    }
+
+
+def test_cells_alone_choose_the_grids_of_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Stub, "finer", (32, 16))
+    assert Choice(cells=[24]).open and not Choice(cells=[24], rates=[60.0]).open
+    assert Choice(cells=[24]).grids(Stub()) == (24,)
+    assert Choice(finest=True).grids(Stub()) == (32,)
+    assert Choice().grids(Stub()) == () and Stub().compared_cells == (8, 32, 16)
 
 
 def test_ladders() -> None:
@@ -273,6 +296,27 @@ def test_saved_reports_are_put_together_the_last_of_a_case_counts(tmp_path: Path
     whole = merged(files, ["column", "drop", "couette"])
     assert [facts["case"] for facts in whole["cases"]] == ["column", "drop"]
     assert [(row["case"], row["error"]) for row in whole["rows"]] == [("column", 10), ("drop", 6)]
+
+
+def test_an_interrupted_sweep_goes_on_where_it_ended(tmp_path: Path) -> None:
+    """A file with one of two cases in it: its row stays as it is, even one that nobody could have measured."""
+    rows = tmp_path / "rows.json"
+    options = ("--solvers", "dual", "--rates", "30", "--iterations", "2", "--cells", 8, "--json", rows)
+    assert accuracy("taylor-green", "couette", *options).returncode == 0
+    report = json.loads(rows.read_text())
+    report["cases"] = report["cases"][:1]
+    report["rows"] = [{**report["rows"][0], "error": 0.125}]
+    rows.write_text(json.dumps(report))
+    assert accuracy("taylor-green", "couette", *options, "--resume").returncode == 0
+    found = json.loads(rows.read_text())
+    assert [(row["case"], row["error"] == 0.125) for row in found["rows"]] == [("taylor-green", True), ("couette", False)]
+    again = accuracy("taylor-green", *options, "--resume")
+    assert again.returncode == 0 and "couette" in again.stdout and json.loads(rows.read_text()) == found
+    other = accuracy("taylor-green", *options[:3], "60", *options[4:], "--resume")
+    assert other.returncode == 2 and "measured with other options" in other.stderr
+    assert json.loads(rows.read_text()) == found
+    nowhere = accuracy("taylor-green", "--resume", "--json", "-")
+    assert nowhere.returncode == 2 and "--resume needs a file" in nowhere.stderr
 
 
 def test_saved_reports_that_do_not_fit_are_refused(tmp_path: Path) -> None:

@@ -152,12 +152,16 @@ def test_errors_that_the_other_does_not_reach_are_infinitely_dear() -> None:
     assert paper.reached and not paper.always
 
 
-def test_what_a_solver_that_was_cut_short_does_not_reach_is_not_known() -> None:
+def test_what_a_solver_that_was_cut_short_does_not_reach_costs_at_least_its_best() -> None:
     """The explicit solver's stable settings were too dear to measure; of the paper's, those below 0.03."""
     points = [*line("primal", 1.0, [0.5, 0.001]), *line("paper", 4.0, [0.5, 0.03])]
     paper, explicit = judge(points, ["primal", "paper", "explicit"], cut_short=["paper", "explicit"]).comparisons
-    assert paper.ratios == pytest.approx([4.0] * len(paper.ratios)) and 0 < len(paper.ratios) < LEVELS
+    # Down to 0.03 four times dearer. At 0.005 the primal costs 200, the paper's best 4 / 0.03 = 133.
+    assert paper.at_least and len(paper.ratios) == LEVELS
+    assert paper.ratios[0] == pytest.approx(4.0) and paper.ratios[-1] == pytest.approx(133.3 / 200.0, rel=1e-3)
     assert not explicit.measured and not explicit.reached
+    whole = judge(points, ["primal", "paper", "explicit"]).comparisons[0]
+    assert whole.ratios[-1] == math.inf and not whole.at_least
 
 
 def test_verdict_where_the_other_is_never_stable() -> None:
@@ -196,6 +200,7 @@ def row(case: str, solver: str, cost: float | None, error: float | None, stable:
         "solver": solver,
         "rate_hz": 60.0,
         "iterations": 5,
+        "cells": 10,
         "cell_m": 0.1,
         "error": error,
         "errors": {"height": error},
@@ -226,45 +231,67 @@ def report() -> dict[str, Any]:
 
 
 def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
-    good, poor = verdicts_of(cases_of(report))
+    cases = cases_of(report)
+    good, poor = verdicts_of(cases)
     # The dual costs 4 at 0.05 and 8 at its best; the others 4 and 20 times as much.
-    assert [comparison.median for comparison in good[1].comparisons] == pytest.approx([4.0, 20.0])
-    assert good[1].passed and not poor[1].passed
-    text = verdict_table([good, poor])
-    assert re.search(r"^good .*5 % to 2.5 % +4x \(4x to 4x\) +20x \(20x to 20x\) +dual +reached$", text, re.M)
+    assert [comparison.median for comparison in good.verdict.comparisons] == pytest.approx([4.0, 20.0])
+    assert good.verdict.passed and not poor.verdict.passed
+    text = verdict_table(cases)
+    line = r"^good +10 +0\.1 .*5 % to 2.5 % +4x \(4x to 4x\) +20x \(20x to 20x\) +dual +reached$"
+    assert re.search(line, text, re.M)
     assert re.search(r"^poor .*0.1x .*below 3x.*not measured.*paper on the front too", text, re.M)
-    assert "1 of 2 cases" in text and "1 of them at every error" in text
+    assert "1 of 2 cases, on 1 of 2 grids" in text and "on 1 grids at every error" in text
 
 
-def test_only_the_own_grid_of_a_case_is_judged(report: dict[str, Any]) -> None:
-    """On a coarser grid the paper's solver is cheaper than all; that says nothing about the solvers."""
-    report["cases"][0]["own_cells"] = 32
-    for item in report["rows"]:
-        item["cells"] = 32
-    report["rows"].append({**row("good", "paper", 0.1, 0.02), "cells": 8})
-    assert cases_of(report)[0].verdict().passed
-    report["rows"][-1]["cells"] = 32
-    assert not cases_of(report)[0].verdict().passed
+def test_each_grid_is_judged_by_itself(report: dict[str, Any]) -> None:
+    """On a finer grid the explicit solver is cheap, on a coarser one, on which nothing is compared, the paper's: neither
+    says anything about the others."""
+    report["cases"][0]["compared_cells"] = [10, 20]
+    finer = [{**item, "cells": 20, "cell_m": 0.05} for item in report["rows"] if item["case"] == "good" and item["stable"]]
+    for item in finer:
+        item["ms_per_simulated_second"] *= 0.1 if item["solver"] == "explicit" else 2.0
+    report["rows"] += [*finer, {**row("good", "paper", 0.1, 0.02), "cells": 5}]
+    coarse, fine, _ = verdicts_of(cases_of(report))
+    assert [(judged.cells, judged.cell_m, judged.verdict.passed) for judged in (coarse, fine)] == [
+        (10, 0.1, True),
+        (20, 0.05, False),
+    ]
+    assert fine.verdict.comparisons[1].median == pytest.approx(1.0)
+    assert "1 of 2 cases, on 1 of 3 grids" in verdict_table(cases_of(report))
+
+
+def test_a_solver_that_was_cut_short_on_one_grid_counts_on_the_others(report: dict[str, Any]) -> None:
+    report["cases"][0]["cut_short"] = [[20, "explicit"]]
+    report["rows"] = [item for item in report["rows"] if item["solver"] != "explicit" or not item["stable"]]
+    assert verdicts_of(cases_of(report))[0].verdict.comparisons[1].measured
+    report["cases"][0]["cut_short"] = [[10, "explicit"]]
+    assert not verdicts_of(cases_of(report))[0].verdict.comparisons[1].measured
 
 
 def test_claims_have_no_verdict_and_the_page_says_so(report: dict[str, Any], tmp_path: Path) -> None:
     report["cases"][1]["searched"] = False
     report["cases"][0]["left_out"] = ["explicit, 99 Hz: would take 70 s to measure"]
-    assert [case.name for case, _ in verdicts_of(cases_of(report))] == ["good"]
+    assert [judged.case.name for judged in verdicts_of(cases_of(report))] == ["good"]
     page = tmp_path / "page.html"
     save_accuracy_page(report, "pbmpm accuracy", "", page)
     text = page.read_text(encoding="utf-8")
-    assert "without a verdict: poor" in text and text.count("Verdict: ") == 1
+    assert "without a verdict: poor" in text and text.count("Verdict at 10 cells: ") == 1
     assert "would take 70 s to measure" in text
 
 
+def test_a_case_that_is_not_compared_says_why(report: dict[str, Any]) -> None:
+    report["cases"][1]["not_compared"] = "it measures something else"
+    text = verdict_table(cases_of(report))
+    assert "poor: no verdict: it measures something else" in text and "of 1 cases" in text
+
+
 def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, Any]) -> None:
-    case, verdict = verdicts_of(cases_of(report))[0]
-    crosses = [trace for trace in accuracy_figure(case).data if trace.name and "not stable" in trace.name]
+    judged = verdicts_of(cases_of(report))[0]
+    crosses = [trace for trace in accuracy_figure(judged.case).data if trace.name and "not stable" in trace.name]
     assert [len(trace.x) for trace in crosses] == [2]
     # The one without an error is drawn above all others.
     assert max(crosses[0].y) == 2 * 3.0
-    assert min(point.cost for point in verdict.front) == 2.0
+    assert min(point.cost for point in judged.verdict.front) == 2.0
 
 
 def test_chart_shows_every_error_of_a_case_but_one_at_a_time(report: dict[str, Any]) -> None:

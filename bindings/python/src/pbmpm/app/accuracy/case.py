@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal, get_args
 
@@ -198,6 +198,11 @@ class Case(ABC):
     searched = True
     """Whether the full sweep goes on to search around the fronts. Claims, predictions and invariances have no front: nobody
     looks for the cheapest way to a claim."""
+    not_compared = ""
+    """Why a case that is no claim, prediction or invariance gives no verdict about costs."""
+    finer: Mapping[int, float] = {}
+    """Further grids on which the solvers are compared, beside the own one, since how cheap a solver is depends on the grid;
+    for each, times the time for the search that it gets."""
 
     @abstractmethod
     def sweep(self, quick: bool) -> list[Setting]:
@@ -228,8 +233,32 @@ class Case(ABC):
 
     @property
     def own_cells(self) -> int:
-        """The grid on which solvers are compared; others only show what the grid adds."""
+        """The grid of the sweep; others in it only show what the grid adds."""
         return self.sweep(False)[0].cells
+
+    @property
+    def compared_cells(self) -> tuple[int, ...]:
+        """The grids on which solvers are compared, the own one first; none for cases without a verdict."""
+        return (self.own_cells, *self.finer) if self.searched else ()
+
+    def search_share(self, cells: int) -> float:
+        """Times the time for the search that a grid gets."""
+        return self.patience * self.finer.get(cells, 1.0)
+
+    def start(self, cells: int) -> list[Setting]:
+        """Where the search on a grid begins: the sweep of the own grid, carried over to this one.
+
+        The explicit solver keeps its Courant numbers: its rates go with the cells. So do those of the paper's solver,
+        whose stiffness goes with the square of rate times cell size.
+        """
+        scale = {"explicit": cells / self.own_cells, "paper": cells / self.own_cells}
+        return [
+            replace(setting, cells=cells, rate_hz=float(round(setting.rate_hz * scale[setting.solver])))
+            if setting.solver in scale and cells != self.own_cells
+            else replace(setting, cells=cells)
+            for setting in self.sweep(False)
+            if setting.cells == self.own_cells
+        ]
 
     @property
     def headline(self) -> ErrorMeasure:

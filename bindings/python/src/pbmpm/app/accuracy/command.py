@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import InputError
 from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, emit_json, own_command, own_options
+
+
+if TYPE_CHECKING:
+    from .sweep import CaseReport
 
 
 class VariantList(click.ParamType):
@@ -35,14 +40,15 @@ class VariantList(click.ParamType):
 @click.option("--solvers", type=VariantList(), help="Solvers with their options, as paper,dual,dual-cells-flip0.9,primal-bdf2.")
 @click.option("--rates", type=NumberList(float, 1e5), help="Steps per second.")
 @click.option("--iterations", type=NumberList(int, 1000), help="Iterations per substep.")
-@click.option("--cells", type=NumberList(int, 1024), help="Cells over the length of the case.")
+@click.option("--cells", type=NumberList(int, 1024), help="Cells over the length of the case; alone: search on these grids.")
+@click.option("--finest", is_flag=True, help="Search only on the finest of the grids on which a case compares solvers.")
 @click.option("--substeps", type=click.IntRange(1, 256), default=1, show_default=True, help="Substeps per step.")
 @click.option(
     "--seconds",
     type=click.FloatRange(1.0),
     default=30.0,
     show_default=True,
-    help="Processor time per case for the search around the fronts. Not with --quick or with chosen settings.",
+    help="Processor time per case and grid for the search around the fronts. Not with --quick or with chosen settings.",
 )
 @click.option("--quick", is_flag=True, help="Few settings, for a first look.")
 @click.option(
@@ -57,6 +63,9 @@ class VariantList(click.ParamType):
     multiple=True,
     type=click.Path(path_type=Path, dir_okay=False, exists=True),
     help="Show what --json wrote instead of measuring; can be given more than once.",
+)
+@click.option(
+    "--resume", is_flag=True, help="Keep the cases that the file of --json holds already; it is written after each case."
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
 @click.option("--chart", type=click.Path(path_type=Path, file_okay=False), help="Folder for a PNG per case.")
@@ -73,15 +82,13 @@ def accuracy(
 ) -> None:
     """Compare CASEs with experiments and theory: error against milliseconds, over rates, iterations, solvers and cells.
 
-    Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers; what
-    is not given is as each case has it. Exit code 1 when a setting is not stable; it stays in all tables and charts,
+    Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers, on
+    each grid on which the case compares them; what is not given is as each case has it. Exit code 1 when a setting is not stable; it stays in all tables and charts,
     marked. Costs are processor time with one thread, else wall time. At the end the verdict: how many times cheaper the
-    dual and primal solvers are than the paper's and the explicit one at equal error.
+    dual and primal solvers are than the paper's and the explicit one at equal error, grid by grid.
     """
-    from .chart import save_chart
     from .registry import find_cases
     from .saved import merged
-    from .sweep import report_of
 
     cases = find_cases(names)
     if only_list:
@@ -93,49 +100,69 @@ def accuracy(
             raise InputError("--chart needs the curves, which --json does not keep: measure, or use --html")
         whole = merged(saved, [case.name for case in cases])
     else:
-        reports = _measured(cases, options, json_target != "-")
-        whole = report_of(reports, options["threads"])
-        for report in reports if chart is not None else []:
-            save_chart(report, whole["machine"], chart / f"{report.case.name}.png")
+        whole = _measured(cases, options, json_target, chart)
     _show(whole, names, json_target, html)
 
 
-def _measured(cases: list[Any], options: dict[str, Any], aloud: bool) -> list[Any]:
-    """Runs the cases; ``aloud``: prints each one's table as soon as it is there."""
-    from .sweep import Choice, Sweep
+def _measured(cases: list[Any], options: dict[str, Any], json_target: str | None, chart: Path | None) -> dict[str, Any]:
+    """Measures the cases, or those of them that an interrupted sweep has not; a file is written after each, and each one's
+    table and picture as soon as they are there."""
+    from .chart import save_chart
+    from .registry import all_cases
+    from .saved import begun, together
+    from .sweep import report_of
     from .table import legend, table
+
+    to_file, resume = json_target not in (None, "-"), options.pop("resume")
+    if resume and not to_file:
+        raise InputError("--resume needs a file of --json to go on with")
+    asked, order = dict(options), list(dict.fromkeys(case.name for case in [*cases, *all_cases()]))
+    whole = begun(Path(str(json_target)), asked) if resume else None
+    done = {facts["case"] for facts in whole["cases"]} if whole else set()
+    for report in _reports([case for case in cases if case.name not in done], options):
+        new = report_of([report], asked["threads"], asked)
+        whole = together([whole, new] if whole else [new], order)
+        emit_json(whole, json_target if to_file else None)
+        case = report.case
+        if chart is not None:
+            save_chart(report, whole["machine"], chart / f"{case.name}.png")
+        if json_target != "-":
+            click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
+    assert whole is not None
+    return whole
+
+
+def _reports(cases: list[Any], options: dict[str, Any]) -> Iterator[CaseReport]:
+    """Runs the cases as the options say."""
+    from .sweep import Choice, Sweep
 
     wanted = options.pop("converged")
     converged = not options["quick"] if wanted is None else wanted
     seconds = options.pop("seconds")
     choice = Choice(variants=options.pop("solvers"), **options)
-    sweep, reports = Sweep(converged), []
+    sweep = Sweep(converged)
     for case in cases:
         if case.searched and choice.open:
-            report = sweep.search(case, seconds * case.patience)
-        else:
-            settings = choice.settings(case)
-            if not settings:
-                raise InputError(f"{case.name}: no setting is left to measure")
-            report = sweep.run(case, settings)
-        reports.append(report)
-        if aloud:
-            click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
-    return reports
+            yield sweep.search(case, seconds, choice.grids(case))
+            continue
+        settings = choice.settings(case)
+        if not settings:
+            raise InputError(f"{case.name}: no setting is left to measure")
+        yield sweep.run(case, settings)
 
 
 def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None, html: Path | None) -> None:
     """Rows, page and verdicts; ends the program with an exit code of its own when a setting is not stable."""
-    from ..report.rows import cases_of, verdicts_of
+    from ..report.rows import cases_of
     from ..report.words import verdict_table
 
     emit_json(whole, json_target)
     if html is not None:
         from ..report.accuracy_page import save_accuracy_page
 
-        options_kept = own_options(("--html", "--json", "--chart", "--from"), names)
+        options_kept = own_options(("--html", "--json", "--chart", "--from"), (*names, "--resume"))
         save_accuracy_page(whole, own_command(), options_kept, html)
     if json_target != "-":
-        click.echo(f"\n{verdict_table(verdicts_of(cases_of(whole)))}")
+        click.echo(f"\n{verdict_table(cases_of(whole))}")
     if not all(row["stable"] for row in whole["rows"]):
         sys.exit(EXIT_CHECK_FAILED)

@@ -19,14 +19,16 @@ from typing import Any
 
 from ..report.pareto import Point, front_of
 from ..report.rows import point_of
-from ..report.verdict import DECADE, good_error
+from ..report.verdict import ACCELERATED, DECADE, good_error
 from .case import Case, Setting, parse_variant
 
 ITERATIONS = (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200)
 _EXPLICIT_STEP = 2.0 ** (1.0 / 3.0)  # between rates of the explicit solver: its cost is all that they change
 _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more
-_LONGEST_SHARE = 0.25  # of a case's time that one setting may take; those of the case's own sweep may take it all
+_LONGEST_SHARE = 0.25  # of the time that one setting may take; those with which the search begins may take it all
+
+_ACCELERATED_SHARE = 0.05  # of the time of a further grid that a setting of ours may take from the search at its start
 
 
 @dataclass(frozen=True)
@@ -36,9 +38,6 @@ class LeftOut:
     setting: Setting
     seconds: float
     """Predicted for the measurement, from another one of the same solver."""
-
-    own: bool = False
-    """Whether it is on the case's own grid and of its own sweep: without it, what its solver reaches is not known."""
 
     def text(self) -> str:
         """For people."""
@@ -54,29 +53,31 @@ class Explorer:
     """Measures a setting and gives its row."""
     seconds: float
     """Processor time for the search."""
+    cells: int
+    """The grid that is searched."""
     rows: dict[Setting, dict[str, Any]] = field(default_factory=dict)
     left_out: dict[Setting, LeftOut] = field(default_factory=dict)
-    _spent: dict[Setting, float] = field(default_factory=dict)
+    spent: dict[Setting, float] = field(default_factory=dict)
+    """Processor time that measuring each took [s]."""
     _points: dict[str, dict[Setting, Point]] = field(default_factory=dict)
-    """Stable settings on the own grid, by solver."""
+    """Stable settings, by solver."""
     _around: dict[Setting, list[Setting]] = field(default_factory=dict)
     """Neighbours."""
     _variants: dict[str, list[str]] = field(default_factory=dict)
 
     def run(self) -> None:
-        """Measures the case's sweep on its own grid, then around the fronts, then the other grids."""
-        own = self.case.sweep(False)
-        for setting in sorted(own, key=lambda item: item.work):
-            if setting.cells == self.case.own_cells:
-                self._try(setting, 1.0)
+        """Measures where the case says that the search begins, then around the fronts. Of the own grid all settings are
+        measured as long as there is time; on others those of the accelerated solvers must not take it from the search."""
+        start = self.case.start(self.cells)
+        own_grid = self.cells == self.case.own_cells
+        for setting in sorted(start, key=lambda item: item.work):
+            if own_grid or setting.solver not in ACCELERATED or self.affordable(setting, _ACCELERATED_SHARE):
+                self.attempt(setting, 1.0)
         self._variants = {
-            solver: list(dict.fromkeys(item.variant for item in own if item.solver == solver))
-            for solver in dict.fromkeys(item.solver for item in own)
+            solver: list(dict.fromkeys(item.variant for item in start if item.solver == solver))
+            for solver in dict.fromkeys(item.solver for item in start)
         }
         self._search()
-        for setting in own:
-            if setting.cells != self.case.own_cells:
-                self._try(setting)
 
     def _search(self) -> None:
         while True:
@@ -84,10 +85,16 @@ class Explorer:
             for solver in sorted(self._variants, key=self._spent_on):
                 following = next(self._candidates(solver), None)
                 if following is not None and self._spent_on(solver) < self.seconds / len(self._variants):
-                    self._try(following)
+                    self.attempt(following)
                     break
             else:
                 return
+
+    def cut_short(self) -> list[str]:
+        """The solvers that time did not suffice for: settings were left out, or the search had not ended. What they do not
+        reach may still be within their reach."""
+        left = {setting.solver for setting in self.left_out if setting.cells == self.cells}
+        return [name for name in self._variants if name in left or next(self._candidates(name), None) is not None]
 
     def worthwhile(self) -> list[Setting]:
         """The settings on the fronts of the solvers, as far as their errors matter for the verdict."""
@@ -97,19 +104,19 @@ class Explorer:
         """Whether measuring a setting takes no more than this share of the case's time."""
         return setting is not None and self._expected_seconds(setting) <= share * self.seconds
 
-    def _try(self, setting: Setting, share: float = _LONGEST_SHARE) -> None:
+    def attempt(self, setting: Setting, share: float = _LONGEST_SHARE) -> None:
+        """Measures a setting, unless that would take more than this share of the time: then it is left out."""
         if not self.affordable(setting, share):
-            own = share == 1.0
-            self.left_out[setting] = LeftOut(setting, self._expected_seconds(setting), own)
+            self.left_out[setting] = LeftOut(setting, self._expected_seconds(setting))
             return
         begin = time.process_time()
         row = self.rows[setting] = self.measure(setting)
-        self._spent[setting] = time.process_time() - begin
-        if setting.cells == self.case.own_cells and counts(row):
+        self.spent[setting] = time.process_time() - begin
+        if setting.cells == self.cells and counts(row):
             self._points.setdefault(setting.solver, {})[setting] = point_of(row)
 
     def _spent_on(self, solver: str) -> float:
-        return sum(seconds for setting, seconds in self._spent.items() if setting.solver == solver)
+        return sum(seconds for setting, seconds in self.spent.items() if setting.solver == solver)
 
     def _expected_seconds(self, setting: Setting) -> float:
         """What measuring a setting will take, judged by the one of the same solver and grid with the most similar work;
@@ -118,14 +125,14 @@ class Explorer:
         def unlike(item: Setting) -> float:
             return abs(math.log(item.work / setting.work))
 
-        like = [item for item in self._spent if (item.solver, item.cells) == (setting.solver, setting.cells)]
+        like = [item for item in self.spent if (item.solver, item.cells) == (setting.solver, setting.cells)]
         if not like:
             return 0.0
         nearest = min(like, key=unlike)
-        return self._spent[nearest] * setting.work / nearest.work
+        return self.spent[nearest] * setting.work / nearest.work
 
     def _front(self, solver: str) -> list[Setting]:
-        """Of one solver on the case's own grid, from somewhat above the error that is called good to the least that the
+        """Of one solver on the grid that is searched, from somewhat above the error that is called good to the least that the
         verdict looks at and one below it; when none is that good, the best one."""
         points = self._points.get(solver, {})
         settings = {id(point): setting for setting, point in points.items()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -17,6 +17,8 @@ from .stability import DEFINITION
 
 TIMINGS = 2
 """Measurements of the settings on a front."""
+STEADY_SECONDS = 5.0
+"""A measurement that took this long is not repeated."""
 
 
 @dataclass(frozen=True)
@@ -28,23 +30,31 @@ class Choice:
     rates: list[float] | None = None
     iterations: list[int] | None = None
     cells: list[int] | None = None
+    finest: bool = False
+    """Only the finest of the grids on which a case compares solvers."""
     substeps: int = 1
     threads: int = 1
 
+    def grids(self, case: Case) -> tuple[int, ...]:
+        """On which to search; empty: as the case has it."""
+        if self.cells is not None:
+            return tuple(self.cells)
+        return (max(case.compared_cells),) if self.finest else ()
+
     @property
     def open(self) -> bool:
-        """Whether everything is left to the case."""
+        """Whether rates and iterations are left to the search."""
         return not self.quick and self._plain
 
     @property
     def _plain(self) -> bool:
-        asked = (self.variants, self.rates, self.iterations, self.cells)
+        asked = (self.variants, self.rates, self.iterations)
         return all(values is None for values in asked) and (self.substeps, self.threads) == (1, 1)
 
     def settings(self, case: Case) -> list[Setting]:
         """The case's own sweep, or all combinations of what was asked for with what the sweep holds for the rest."""
         own = case.sweep(self.quick)
-        if self._plain:
+        if self._plain and self.cells is None:
             return own
         implicit = [setting for setting in own if setting.solver != "explicit"]
         made = []
@@ -76,6 +86,10 @@ class CaseReport:
     rows: list[dict[str, Any]]
     left_out: list[LeftOut] = field(default_factory=list)
     """Settings that would have taken too long."""
+    cut_short: list[tuple[int, str]] = field(default_factory=list)
+    """Grids and solvers whose search had to end for want of time."""
+    grids: tuple[int, ...] = ()
+    """On which the solvers are compared [cells]; empty: as the case has it."""
 
     def facts(self) -> dict[str, Any]:
         """What a report says about the case, once."""
@@ -91,9 +105,10 @@ class CaseReport:
             "notes": case.notes,
             "errors": [vars(measure) for measure in case.error_kinds],
             "searched": case.searched,
-            "own_cells": case.own_cells,
+            "not_compared": case.not_compared,
+            "compared_cells": list(self.grids or case.compared_cells),
             "left_out": [left.text() for left in self.left_out],
-            "cut_short": sorted({left.setting.solver for left in self.left_out if left.own}),
+            "cut_short": self.cut_short,
         }
 
 
@@ -116,13 +131,18 @@ class Sweep:
                 bar.update(setting.work)
         return CaseReport(case, settings, measurements, rows)
 
-    def search(self, case: Case, seconds: float) -> CaseReport:
-        """The case's own sweep and what lies around the fronts of its solvers, for about ``seconds`` of processor time.
+    def search(self, case: Case, seconds: float, grids: Sequence[int] = ()) -> CaseReport:
+        """The case's own sweep and what lies around the fronts of its solvers, for about ``seconds`` of processor time per
+        grid, or as many times that as the case says: on the grids on which the case compares solvers, or on ``grids``.
 
         Settings on the fronts are measured TIMINGS times in all, and the cheapest counts: other programs only ever add to
-        a cost. They alone get their distance from the converged solution.
+        a cost, though less to the mean of a run that took STEADY_SECONDS. They alone get their distance from the converged
+        solution.
         """
         measurements: dict[Setting, Measurement] = {}
+        rows: dict[Setting, dict[str, Any]] = {}
+        left_out: list[LeftOut] = []
+        cut_short: list[tuple[int, str]] = []
         with progress_bar(None, "settings", case.name) as bar:
 
             def measure(setting: Setting) -> dict[str, Any]:
@@ -131,24 +151,30 @@ class Sweep:
                 bar.update(1)
                 return row_of(case, setting, measurements[setting], None)
 
-            explorer = Explorer(case, measure, seconds)
-            explorer.run()
-            for setting in explorer.worthwhile():
-                bar.set_postfix_str(f"again: {setting.text()}")
-                found = measurements[setting]
-                costs = [found.ms_per_simulated_second]
-                costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
-                found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
-                reference = self._reference(case, setting) if explorer.affordable(case.converged(setting)) else None
-                explorer.rows[setting] = row_of(case, setting, found, reference)
-        settings = sorted(explorer.rows, key=lambda item: (item.variant, item.cells, item.rate_hz, item.iterations))
-        return CaseReport(
-            case,
-            settings,
-            [measurements[setting] for setting in settings],
-            [explorer.rows[setting] for setting in settings],
-            list(explorer.left_out.values()),
-        )
+            for cells in grids or case.compared_cells:
+                explorer = Explorer(case, measure, seconds * case.search_share(cells), cells)
+                explorer.run()
+                cut_short += [(cells, solver) for solver in explorer.cut_short()]
+                for setting in explorer.worthwhile():
+                    bar.set_postfix_str(f"again: {setting.text()}")
+                    explorer.rows[setting] = self._again(explorer, setting, measurements[setting])
+                for setting in [] if grids else _beside(case, cells):
+                    explorer.attempt(setting)
+                rows |= explorer.rows
+                left_out += explorer.left_out.values()
+        settings = sorted(rows, key=lambda item: (item.variant, item.cells, item.rate_hz, item.iterations))
+        found = [measurements[setting] for setting in settings]
+        return CaseReport(case, settings, found, [rows[setting] for setting in settings], left_out, cut_short, tuple(grids))
+
+    def _again(self, explorer: Explorer, setting: Setting, found: Measurement) -> dict[str, Any]:
+        """The row of a setting on a front: timed again, with its distance from the converged solution where there is time."""
+        case = explorer.case
+        costs = [found.ms_per_simulated_second]
+        if explorer.spent[setting] < STEADY_SECONDS:
+            costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
+        found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
+        reference = self._reference(case, setting) if explorer.affordable(case.converged(setting)) else None
+        return row_of(case, setting, found, reference)
 
     def _reference(self, case: Case, setting: Setting) -> Measurement | None:
         target = case.converged(setting) if self.with_converged else None
@@ -158,6 +184,11 @@ class Sweep:
         if key not in self._converged:
             self._converged[key] = case.measure(target)
         return self._converged[key]
+
+
+def _beside(case: Case, cells: int) -> list[Setting]:
+    """The settings of the sweep on grids on which nothing is compared; they go with the own grid."""
+    return [item for item in case.sweep(False) if item.cells not in case.compared_cells] if cells == case.own_cells else []
 
 
 def row_of(case: Case, setting: Setting, measurement: Measurement, converged: Measurement | None) -> dict[str, Any]:
@@ -201,11 +232,12 @@ def _solver_error(case: Case, measurement: Measurement, converged: Measurement |
     return case.distance(measurement.observed, converged.observed)
 
 
-def report_of(reports: list[CaseReport], threads: int) -> dict[str, Any]:
-    """The whole report: all rows in one list, each case's facts, and the machine."""
+def report_of(reports: list[CaseReport], threads: int, asked: dict[str, Any]) -> dict[str, Any]:
+    """The whole report: all rows in one list, each case's facts, what was asked for, and the machine."""
     return {
         "rows": [row for report in reports for row in report.rows],
         "cases": [report.facts() for report in reports],
+        "asked": asked,
         "stable_means": DEFINITION,
         "versions": versions(),
         "machine": machine_facts(pbmpm.isa(), threads),

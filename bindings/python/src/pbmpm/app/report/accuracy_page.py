@@ -10,8 +10,7 @@ from plotly.offline import get_plotlyjs
 from . import words
 from .chart import accuracy_figure
 from .page import save_page
-from .rows import CaseRows, cases_of, setting_of, verdicts_of
-from .verdict import Verdict
+from .rows import CaseRows, GridVerdict, cases_of, setting_of, verdicts_of
 
 TITLE = "What accuracy costs"
 
@@ -26,7 +25,6 @@ def save_accuracy_page(report: dict[str, Any], command: str, options: str, path:
         path: the page.
     """
     cases = cases_of(report)
-    verdicts = verdicts_of(cases)
     save_page(
         "accuracy.html.j2",
         path,
@@ -37,31 +35,20 @@ def save_accuracy_page(report: dict[str, Any], command: str, options: str, path:
         stable_means=report["stable_means"],
         headings=words.HEADINGS,
         meaning=words.MEANING,
-        counted=words.counted(verdicts),
+        counted=words.counted(verdicts_of(cases)),
         not_compared=words.not_compared(cases),
-        cases=[_section(case, case.verdict(), options) for case in cases],
+        cases=[_section(case, options) for case in cases],
     )
 
 
-def _section(case: CaseRows, verdict: Verdict, options: str) -> dict[str, Any]:
-    unit = case.measure["unit"]
+def _section(case: CaseRows, options: str) -> dict[str, Any]:
     figure = accuracy_figure(case)
     return {
         "name": case.name,
         "facts": case.facts,
         "chart": figure.to_html(full_html=False, include_plotlyjs=False, config={"displaylogo": False}),
         "compared": case.compared,
-        "passed": verdict.passed,
-        "verdict_cells": words.verdict_cells(case, verdict),
-        "verdict_text": f"Verdict: {words.verdict_text(verdict)}",
-        "solvers": case.solvers,
-        "levels": [
-            (words.error_text(level.error, unit), [words.cost_text(level.costs[solver]) for solver in case.solvers])
-            for level in verdict.levels
-        ],
-        "front": [
-            (point.setting, words.cost_text(point.cost), words.error_text(point.error, unit)) for point in verdict.front
-        ],
+        "grids": [_grid(judged) for judged in case.verdicts()],
         "headings": [
             "setting",
             "ms per simulated second",
@@ -75,6 +62,26 @@ def _section(case: CaseRows, verdict: Verdict, options: str) -> dict[str, Any]:
         "measures": [_measure_text(measure) for measure in case.facts["errors"]],
         "command": f"pbmpm accuracy {case.name} {options}".strip(),
         "left_out": _left_out(case),
+    }
+
+
+def _grid(judged: GridVerdict) -> dict[str, Any]:
+    """What was found on one grid: the verdict, what errors cost, the front."""
+    case, verdict, unit = judged.case, judged.verdict, judged.case.measure["unit"]
+    solvers = list(verdict.levels[0].costs) if verdict.levels else []
+    return {
+        "title": f"{judged.cells} cells of {judged.cell_m:.3g} m",
+        "passed": verdict.passed,
+        "verdict_cells": words.verdict_cells(judged),
+        "verdict_text": f"Verdict at {judged.cells} cells: {words.verdict_text(verdict)}",
+        "solvers": solvers,
+        "levels": [
+            (words.error_text(level.error, unit), [words.cost_text(level.costs[solver]) for solver in solvers])
+            for level in verdict.levels
+        ],
+        "front": [
+            (point.setting, words.cost_text(point.cost), words.error_text(point.error, unit)) for point in verdict.front
+        ],
     }
 
 
@@ -120,8 +127,9 @@ def _left_out(case: CaseRows) -> list[str]:
             f"{len(without)} settings broke before an error could be measured: crosses at the chart's upper edge."
         )
     missing = [solver for solver in ("paper", "dual", "primal", "explicit") if solver not in case.solvers]
-    if case.facts.get("own_cells") is not None and any(row["cells"] != case.facts["own_cells"] for row in case.rows):
-        lines.append(f"Front and verdict: only the grid of {case.facts['own_cells']} cells.")
+    others = sorted({row["cells"] for row in case.rows} - set(case.grids))
+    if others:
+        lines.append(f"No verdict on {', '.join(map(str, others))} cells: there only what the grid adds was measured.")
     if missing:
         lines.append(f"Not in this sweep: {', '.join(missing)}.")
     return lines or ["Nothing that is known."]

@@ -53,17 +53,41 @@ class CaseRows:
     @property
     def compared(self) -> bool:
         """Whether the case compares costs; claims, predictions and invariances do not."""
-        return bool(self.facts.get("searched", True))
+        return bool(self.facts.get("searched", True)) and not self.facts.get("not_compared")
 
-    def verdict(self) -> Verdict:
-        """What the stable rows on the case's own grid say about the solvers; all rows, where none is on that grid."""
-        own = self.facts.get("own_cells")
-        has_own = own is not None and any(row["cells"] == own for row in self.rows)
-        rows = [row for row in self.stable if not has_own or row["cells"] == own]
+    @property
+    def grids(self) -> list[int]:
+        """The grids on which solvers are compared, as far as there are rows for them; where there are none, those of all
+        rows. Coarse ones first."""
+        measured = {row["cells"] for row in self.rows}
+        return sorted(measured & set(self.facts.get("compared_cells", ())) or measured)
+
+    def verdicts(self) -> list[GridVerdict]:
+        """What the stable rows say about the solvers, for each grid by itself."""
+        return [GridVerdict(self, cells, self._verdict(cells)) for cells in self.grids]
+
+    def _verdict(self, cells: int) -> Verdict:
+        rows = [row for row in self.stable if row["cells"] == cells]
+        solvers = {row["solver"] for row in self.rows if row["cells"] == cells}
         left = [row.get("converged_error") for row in rows if row["solver"] in ACCELERATED]
         converged = min((error for error in left if error is not None), default=None)
         points, good = [point_of(row) for row in rows], self.measure.get("tolerance")
-        return judge(points, self.solvers, good, converged, self.facts.get("cut_short", ()))
+        cut_short = [solver for grid, solver in self.facts.get("cut_short", ()) if grid == cells]
+        return judge(points, [name for name in self.solvers if name in solvers], good, converged, cut_short)
+
+
+@dataclass(frozen=True)
+class GridVerdict:
+    """The verdict of a case on one of its grids."""
+
+    case: CaseRows
+    cells: int
+    verdict: Verdict
+
+    @property
+    def cell_m(self) -> float:
+        """Grid spacing [m]."""
+        return next(float(row["cell_m"]) for row in self.case.rows if row["cells"] == self.cells)
 
 
 def point_of(row: dict[str, Any]) -> Point:
@@ -87,6 +111,6 @@ def cases_of(report: dict[str, Any]) -> list[CaseRows]:
     ]
 
 
-def verdicts_of(cases: Iterable[CaseRows]) -> list[tuple[CaseRows, Verdict]]:
-    """Each case that compares costs, with its verdict."""
-    return [(case, case.verdict()) for case in cases if case.compared]
+def verdicts_of(cases: Iterable[CaseRows]) -> list[GridVerdict]:
+    """The verdicts of the cases that compare costs, grid by grid."""
+    return [verdict for case in cases if case.compared for verdict in case.verdicts()]

@@ -2,13 +2,14 @@
 
 Accelerated are the dual and the primal solver. One rule for all cases:
 
-- Only settings on the case's own grid count: on a coarser one everything is cheaper, and how fine a grid has to be is
-  another question.
+- Each grid is judged by itself: on a coarser one everything is cheaper, and how fine a grid has to be is another
+  question. What a solver costs at an error depends on the grid, so a verdict is about the grid that it names.
 - Errors that count lie within a decade: from the one that the case calls good (GOOD where it names none) down to a tenth
   of it, or to what the grid and the time step leave to a converged solution, whichever is higher: that is the floor. Cheap
   answers that are worse than good are no answers. An error below the floor counts as the floor: it is luck, a figure that
   passes through the truth on its way to another value. Where the accelerated solvers do not get down to the floor, the
   ratios are taken as far down as they get.
+- A solver that was not searched to the end, and does not get to an error, costs there at least what its best setting does.
 - At LEVELS errors, evenly in logarithms, the cost of each solver is read from its own front, and the ratios of the other's
   cost to that of the accelerated solvers are taken; the other's is infinite where it does not get so far. The verdict is
   about the median of these ratios; the lowest and highest are told beside it.
@@ -48,6 +49,7 @@ class Comparison:
     measured: bool  #: whether the sweep holds the other solver, and enough of it to compare
     best_error: float | None = None  #: that the other reaches; None when none of its settings is stable
     ratios: tuple[float, ...] = ()  #: its cost over that of the accelerated, from the largest error down; may be infinite
+    at_least: bool = False  #: whether ratios are bounds from below, where a search had to end before it got so far
 
     @property
     def median(self) -> float | None:
@@ -123,12 +125,12 @@ def judge(
     """The verdict over the stable points of a case.
 
     Args:
-        measured: on the case's own grid.
+        measured: all on the same grid.
         solvers: all that were tried, stable or not.
         good: the error that the case calls good; None when it calls none so.
         converged: the least error that converged solutions of the accelerated solvers have; None when it is not known.
-        cut_short: solvers of which settings were left out that would have taken too long: what they do not reach, nobody
-            knows, so they are compared where they are known alone.
+        cut_short: solvers whose search had to end for want of time. What they do not reach they may still reach, but not
+            for less than their best setting costs, as far as anybody knows: the ratio is at least that.
     """
     highest = good_error(good)
     floor = min(max(highest / DECADE, converged or 0.0), highest)
@@ -165,13 +167,17 @@ def _errors_that_count(highest: float, floor: float, best: float | None) -> list
 def _compare(
     accelerated: list[Point], other: str, front: list[Point] | None, errors: list[float], cut_short: bool
 ) -> Comparison:
-    ratios = []
+    ratios, bounded = [], False
     for error in errors if front is not None else []:
         own, others = cost_of(accelerated, error), cost_of(front or [], error)
-        if own is not None and not (cut_short and others is None):
+        if own is None:
+            continue
+        if others is None and cut_short:
+            others, bounded = front[-1].cost if front else None, True
+        if others is not None or not cut_short:
             ratios.append(math.inf if others is None else others / own)
     measured = front is not None and not (cut_short and errors and not ratios)
-    return Comparison(other, WANTED[other], measured, front[-1].error if front else None, tuple(ratios))
+    return Comparison(other, WANTED[other], measured, front[-1].error if front else None, tuple(ratios), bounded)
 
 
 def round_levels(errors: Sequence[float]) -> list[float]:

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .rows import CaseRows
+from .rows import CaseRows, GridVerdict, verdicts_of
 from .verdict import ACCELERATED, GOOD, LEVELS, NOT_REACHED, WANTED, Comparison, Verdict
 
 HEADINGS = (
     "case",
+    "cells",
+    "cell [m]",
     "error",
     "best accelerated",
     "compared over",
@@ -43,7 +45,7 @@ def comparison_text(comparison: Comparison, unit: str) -> str:
         return f"{NOT_REACHED}: never stable"
     if math.isinf(min(comparison.ratios)):
         return f"{NOT_REACHED}: ends at {error_text(comparison.best_error, unit)}"
-    typical = _ratio_text(comparison.median)
+    typical = ("at least " if comparison.at_least else "") + _ratio_text(comparison.median)
     spread = f" ({_ratio_text(min(comparison.ratios))} to {_ratio_text(max(comparison.ratios))})"
     mark = "" if comparison.reached else f", below {comparison.wanted:g}x"
     return f"{typical}{spread}{mark}"
@@ -81,11 +83,13 @@ def verdict_text(verdict: Verdict) -> str:
     return "; ".join(shortfalls(verdict)) or "reached"
 
 
-def verdict_cells(case: CaseRows, verdict: Verdict) -> list[str]:
+def verdict_cells(judged: GridVerdict) -> list[str]:
     """One line of the table of verdicts."""
-    unit = case.measure["unit"]
+    case, verdict, unit = judged.case, judged.verdict, judged.case.measure["unit"]
     return [
         case.name,
+        str(judged.cells),
+        f"{judged.cell_m:.3g}",
         case.measure["name"],
         error_text(verdict.best_error, unit),
         range_text(verdict, unit),
@@ -95,34 +99,39 @@ def verdict_cells(case: CaseRows, verdict: Verdict) -> list[str]:
     ]
 
 
-def verdict_table(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
+def verdict_table(cases: Sequence[CaseRows]) -> str:
     """All verdicts as text, with what they mean."""
-    rows = [list(HEADINGS), *(verdict_cells(case, verdict) for case, verdict in verdicts)]
+    verdicts = verdicts_of(cases)
+    rows = [list(HEADINGS), *(verdict_cells(judged) for judged in verdicts)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(HEADINGS))]
     lines = ["  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    return "\n".join([f"How many times cheaper the accelerated solvers are. {MEANING}", *lines, counted(verdicts)])
+    said = [f"How many times cheaper the accelerated solvers are. {MEANING}", *lines, counted(verdicts)]
+    return "\n".join(said + not_compared(cases))
 
 
 MEANING = (
-    "Accelerated: dual and primal. Compared on the case's own grid over the errors that count: from the one that the case calls"
+    "Accelerated: dual and primal. Compared grid by grid over the errors that count: from the one that the case calls"
     f" good ({100 * GOOD:g} % where it names none) down to a tenth of it or to what grid and time step leave to a"
     f" converged solution, whichever is higher; at {LEVELS} of them, interpolated in logarithms along each solver's front. The"
-    " first figure is the median, in brackets the range."
+    " first figure is the median, in brackets the range; at least: time did not suffice to search that solver to the end."
 )
 
 
-def not_compared(cases: Sequence[CaseRows]) -> str:
-    """The cases without a verdict; empty when there are none."""
-    names = [case.name for case in cases if not case.compared]
-    return f"No comparison of costs, so without a verdict: {', '.join(names)}." if names else ""
+def not_compared(cases: Sequence[CaseRows]) -> list[str]:
+    """The cases without a verdict, and why."""
+    said = [f"{case.name}: no verdict: {case.facts['not_compared']}" for case in cases if case.facts.get("not_compared")]
+    claims = [case.name for case in cases if not case.compared and not case.facts.get("not_compared")]
+    return said + ([f"No comparison of costs, so without a verdict: {', '.join(claims)}."] if claims else [])
 
 
-def counted(verdicts: Sequence[tuple[CaseRows, Verdict]]) -> str:
+def counted(verdicts: Sequence[GridVerdict]) -> str:
     """How many cases are passed, and what that means."""
-    passed = sum(verdict.passed for _, verdict in verdicts)
-    always = sum(verdict.always for _, verdict in verdicts)
+    cases = {judged.case.name for judged in verdicts}
+    passed = {judged.case.name for judged in verdicts if judged.verdict.passed}
+    grids = sum(judged.verdict.passed for judged in verdicts)
+    always = sum(judged.verdict.always for judged in verdicts)
     wanted = " and ".join(f"{factor:g} times cheaper than the {other} solver" for other, factor in WANTED.items())
     return (
-        f"{passed} of {len(verdicts)} cases: accelerated solvers alone on the front, and typically {wanted} or not reached by"
-        f" it; {always} of them at every error that counts."
+        f"{len(passed)} of {len(cases)} cases, on {grids} of {len(verdicts)} grids: accelerated solvers alone on the front, and"
+        f" typically {wanted} or not reached by it; on {always} grids at every error that counts."
     )

@@ -26,6 +26,7 @@ class AxialBar(ElasticCase):
     title = "Axial vibration of a bar"
     length_name = "bar"
     cells = (64, 32, 16)
+    finer = {640: 4.0}
     bar: Bar = STIFF_BAR
     error_kinds = (
         ErrorMeasure("frequency", "discretisation", "%", "frequency against that of the exact motion", 0.02),
@@ -71,6 +72,7 @@ class ClassicAxialBar(AxialBar):
     name = "axial-bar-soft"
     title = "Axial vibration of the soft bar of the literature"
     cells = (50, 25)
+    finer = {500: 4.0}
     bar = CLASSIC_BAR
     rates = (2.0, 10.0)
     slowest_hz = 1.0
@@ -85,6 +87,7 @@ class AxialBar3DCase(AxialBar):
     title = "Axial vibration of a bar in 3D"
     dimension = 3
     cells = (32,)
+    finer = {}
     bar = replace(STIFF_BAR, solid=replace(STIFF_BAR.solid, dimension=3))
     rates = (60.0, 240.0)
     iterations = (5, 20)

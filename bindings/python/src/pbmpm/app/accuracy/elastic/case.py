@@ -72,6 +72,11 @@ class ElasticCase(Case):
         rates = {count: round(slowest / math.sqrt(relaxation * count)) for count in (1, 5, 20)}
         return [Setting("paper", float(rate), count, cells) for count, rate in rates.items()]
 
+    def start(self, cells: int) -> list[Setting]:
+        """On other grids than the own one without the dual solver, which stiff bodies of many cells are no matter for."""
+        made = super().start(cells)
+        return made if cells == self.own_cells or self.kind != "elastic" else [item for item in made if item.solver != "dual"]
+
     @property
     @abstractmethod
     def solid(self) -> Solid:

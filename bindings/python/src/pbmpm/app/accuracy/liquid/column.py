@@ -79,6 +79,7 @@ class Column(Case):
         ErrorMeasure("rest_speed", "discretisation", "m/s", "root mean square speed of the water at rest"),
     )
     length_name = "height of the column"
+    finer = {64: 2.0}
     notes = (
         "Averages over the last of five seconds. The dual solver solves for the pressure; else it is that of the volume"
         " ratio J, K (1 - J), with the paper's solver K_eff (1/J - 1) / J. Rows of the paper's solver also tell what its"
