@@ -294,6 +294,13 @@ def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, A
     assert min(point.cost for point in judged.verdict.front) == 2.0
 
 
+def test_chart_has_a_front_for_each_grid(report: dict[str, Any]) -> None:
+    report["rows"].append({**row("good", "paper", 0.1, 0.001), "cells": 5})
+    lines = [trace for trace in accuracy_figure(cases_of(report)[0]).data if trace.mode == "lines"]
+    assert [trace.name for trace in lines] == ["front at 5 cells", "front at 10 cells"]
+    assert (lines[0].x, min(lines[1].x)) == ((0.1,), 2.0)
+
+
 def test_chart_shows_every_error_of_a_case_but_one_at_a_time(report: dict[str, Any]) -> None:
     case = cases_of(report)[0]
     case.facts["errors"].append({"name": "speed", "kind": "solver", "unit": "m/s", "meaning": "off"})

@@ -83,9 +83,10 @@ def accuracy(
     """Compare CASEs with experiments and theory: error against milliseconds, over rates, iterations, solvers and cells.
 
     Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers, on
-    each grid on which the case compares them; what is not given is as each case has it. Exit code 1 when a setting is not stable; it stays in all tables and charts,
-    marked. Costs are processor time with one thread, else wall time. At the end the verdict: how many times cheaper the
-    dual and primal solvers are than the paper's and the explicit one at equal error, grid by grid.
+    each grid on which the case compares them; what is not given is as each case has it. Exit code 1 when a setting is not
+    stable; it stays in all tables and charts, marked. Costs are processor time with one thread, else wall time. At the end
+    the verdict: how many times cheaper the dual and primal solvers are than the paper's and the explicit one at equal
+    error, grid by grid.
     """
     from .registry import find_cases
     from .saved import merged

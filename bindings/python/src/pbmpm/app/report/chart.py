@@ -18,7 +18,7 @@ SOLVER_COLOURS = {"paper": "#c8781e", "dual": "#1f6fb4", "primal": "#1d8a5b", "e
 _OTHER_COLOUR = "#555555"
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "pentagon", "hexagon", "star", "triangle-down")
 _LIMIT_COLOUR = "#b03a48"
-_FRONT_COLOUR = "rgba(40, 40, 40, 0.35)"
+_FRONT_COLOURS = ("rgba(40, 40, 40, 0.35)", "rgba(31, 111, 180, 0.3)", "rgba(200, 120, 30, 0.3)")  # of the grids, coarse first
 _BROKEN_HEADROOM = 2.0  # how far above the highest error settings are drawn that have none, as a factor
 _AXIS = {
     "type": "log",
@@ -31,8 +31,8 @@ _AXIS = {
 
 
 def accuracy_figure(case: CaseRows) -> go.Figure:
-    """Dots: settings; crosses: not stable; grey line: the front over all solvers; dashed: the error called good. A menu
-    switches between the errors of the case."""
+    """Dots: settings; crosses: not stable; wide lines: the front over all solvers on each grid; dashed: the error called
+    good. A menu switches between the errors of the case."""
     views = views_of(case)
     traces = [_traces(view) for view in views]
     for number, group in enumerate(traces):
@@ -96,13 +96,13 @@ def _real_time_text() -> dict[str, Any]:
 
 
 def _traces(view: View) -> list[go.Scatter]:
-    """The front, and for each solver with its options and cell size the dots and the crosses."""
+    """The fronts, and for each solver with its options and cell size the dots and the crosses."""
     rows = [(row, error) for row, error in zip(view.rows, view.errors, strict=True) if _has_place(row, error)]
     ceiling = _BROKEN_HEADROOM * max((_drawn(error) for _, error in rows if error is not None), default=1.0)
     groups: dict[str, list[tuple[dict[str, Any], float | None]]] = {}
     for row, error in rows:
         groups.setdefault(f"{row.get('variant', row['solver'])}, cell {row['cell_m']:.3g} m", []).append((row, error))
-    traces = [_front(view.front())]
+    traces = [_front(view.front(cells), f"front at {cells} cells", shade) for cells, shade in zip(view.grids, _FRONT_COLOURS)]
     for number, (name, members) in enumerate(groups.items()):
         symbol = _SYMBOLS[number % len(_SYMBOLS)]
         for stable in (True, False):
@@ -150,12 +150,12 @@ def _hover(row: dict[str, Any], error: float | None, unit: str) -> str:
     return "<br>".join([*lines, *(f"not stable: {reason}" for reason in row.get("reasons", []))])
 
 
-def _front(front: Sequence[Point]) -> go.Scatter:
+def _front(front: Sequence[Point], name: str, colour: str) -> go.Scatter:
     return go.Scatter(
         x=[point.cost for point in front],
         y=[point.error for point in front],
         mode="lines",
-        name="front over all solvers",
-        line={"color": _FRONT_COLOUR, "width": 6},
+        name=name,
+        line={"color": colour, "width": 6},
         hoverinfo="skip",
     )

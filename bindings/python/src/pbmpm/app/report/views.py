@@ -20,18 +20,19 @@ class View:
     tolerance: float | None  #: the error that the case calls good
     rows: list[dict[str, Any]]
     errors: list[float | None]  #: of the rows
+    grids: list[int]  #: on which solvers are compared [cells]
 
     @property
     def title(self) -> str:
         """For the axis."""
         return self.name if self.unit in ("%", "1", "") else f"{self.name} [{self.unit}]"
 
-    def front(self) -> list[Point]:
-        """The stable settings that no other beats."""
+    def front(self, cells: int) -> list[Point]:
+        """The stable settings on a grid that no other beats."""
         return front_of(
             Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(error, SMALLEST_ERROR))
             for row, error in zip(self.rows, self.errors, strict=True)
-            if row["stable"] and error is not None and row["ms_per_simulated_second"] is not None
+            if row["cells"] == cells and row["stable"] and error is not None and row["ms_per_simulated_second"] is not None
         )
 
 
@@ -44,10 +45,11 @@ def views_of(case: CaseRows) -> list[View]:
             measure.get("tolerance"),
             case.rows,
             [row["errors"].get(measure["name"]) for row in case.rows],
+            case.grids,
         )
         for measure in case.facts["errors"]
     ]
     distances = [row.get("solver_error") for row in case.rows]
     if any(distance is not None for distance in distances):
-        views.append(View(CONVERGED_NAME, case.measure["unit"], None, case.rows, distances))
+        views.append(View(CONVERGED_NAME, case.measure["unit"], None, case.rows, distances, case.grids))
     return [view for view in views if any(error is not None for error in view.errors)] or views[:1]

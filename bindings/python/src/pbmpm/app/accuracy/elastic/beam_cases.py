@@ -100,6 +100,7 @@ class CantileverCase(ElasticCase):
     title = "Cantilever under its own weight"
     length_name = "height of the beam"
     cells = (12, 8, 4)
+    finer = {16: 1.0}
     load, slenderness = 0.4285, 4.0
     error_kinds = (
         ErrorMeasure(
@@ -158,6 +159,7 @@ class LargeCantileverCase(CantileverCase):
 
     name = "cantilever-large"
     title = "Slender cantilever, large deflection"
+    finer = {}
     load, slenderness = 1.0, 8.0
     patience = 3.0
 
@@ -169,6 +171,7 @@ class Cantilever3DCase(CantileverCase):
     title = "Cantilever under its own weight in 3D"
     dimension = 3
     cells = (6,)
+    finer = {}
     quick_rates = (60.0,)
     iterations = (5, 20)
     quick_iterations = (20,)

@@ -63,7 +63,6 @@ class DamBreak(Case):
         ErrorMeasure("height_rms", "model", "1", "RMS of H - H_exp", 0.10),
     )
     length_name = "width of the column"
-    finer = {48: 3.0}
     notes = (
         "The experiment's gate opens slowly, so a right front leads by a shift of about 0.2. Timing: the run in the long"
         " tank. Stability: also a run in a tank four widths long, until the water rests."
