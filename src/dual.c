@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "depth.h"
+#include "dual_error.h"
 #include "guess.h"
 #include "result.h"
 
@@ -36,6 +36,7 @@ pbmpm_result dual_prepare(World *world)
         ok = array_reserve(&world->memory, &dual->cells, CELL_ARRAYS * nodes, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
+    ok = ok && dual_error_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     const pbmpm_result result = guess_prepare(world);
     return result == PBMPM_OK ? particles_enable_pressure(&world->particles, &world->memory) : result;
@@ -46,6 +47,7 @@ void dual_free(World *world)
     DualState *dual = &world->dual;
     Array *arrays[] = {&dual->node_push, &dual->change2, &dual->uphill, &dual->cells, &dual->cell_change2, &dual->cell_uphill};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
+    dual_error_free(world);
 }
 
 static float smallest_relaxation(const World *world)
@@ -100,18 +102,6 @@ static double sum_blocks(const Array *array, int32_t blocks)
     double sum = 0.0;
     for (int32_t block = 0; block < blocks; block++) sum += (double)value[block];
     return sum;
-}
-
-/* Displacement errors [cells] per residual. An error of the multipliers in the slowest mode of matter n cells deep, of eigenvalue
- * a = (pi / 4n)^2, moves nodes by sqrt(a) times as much, and the next iteration changes w (a + 1/L) of it. */
-static double error_per_residual(const World *world)
-{
-    double softest = 0.0;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot))
-            softest = fmax(softest, (double)world->materials.kernel[slot].inverse_stiffness);
-    const double root = 3.14159265358979 / (4.0 * matter_depth(world));
-    return root / ((double)smallest_relaxation(world) * (root * root + softest));
 }
 
 /* Displacements from the multipliers, extrapolated by args.momentum. */
@@ -188,20 +178,27 @@ void dual_solve(World *world, const ContactFrame *contacts)
     bind(world);
     bind_cells(world);
     const double mass = fmax(start(world, contacts), 1e-300);
-    const double error = error_per_residual(world);
+    DualModes modes = dual_modes_of(world, (double)smallest_relaxation(world));
+    const bool watched = world->settings.target_error > 0.0f; /* else the last displacements alone are compared */
     double t = 1.0;
     bool more = true;
+    if (watched) dual_compare_displacements(world);
     while (more) {
         const Change change = iterate(world);
         record->iterations_used++;
         record->residual = sqrt(change.change2 / mass);
-        more = solver_may_go_on(world, error * record->residual);
+        more = solver_may_go_on(world, dual_predicted_error(&modes, record->residual));
         const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
         const bool restart = change.uphill > 0.0;
-        world->args.momentum = restart || !more ? 0.0f : (float)((t - 1.0) / next);
+        const double momentum = restart || !more ? 0.0 : (t - 1.0) / next;
         t = restart ? 1.0 : next;
+        if (!more && !watched) dual_compare_displacements(world);
+        world->args.momentum = (float)momentum;
         push(world, contacts, in_cells(world));
+        if (!more || watched) dual_find_response(&modes, record->residual, sqrt(dual_compare_displacements(world) / mass), momentum);
     }
+    /* What ended the iterations stands as it was found. */
+    if (record->stop != PBMPM_STOP_ERROR) record->predicted_error = dual_predicted_error(&modes, record->residual);
 }
 
 /* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */

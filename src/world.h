@@ -40,6 +40,7 @@ typedef struct StepRecord {
 /* What the dual solver keeps. */
 typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_change2, cell_uphill; /* see KernelArgs */
+    Array kept, moved2; /* displacements and, per node block, what they changed; see dual_error.h */
 } DualState;
 
 /* What the guess of the pressure keeps. */

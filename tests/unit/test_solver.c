@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "dual.h"
+#include "dual_error.h"
 #include "random.h"
 #include "solver.h"
 
@@ -198,6 +199,44 @@ static void test_stop_rules(void)
     world_destroy(world);
 }
 
+/* ---- The error that the dual solver predicts ---- */
+
+/* Residuals of modes with known eigenvalues, of a liquid without and with a modulus: the truth lies between the bounds whose mean is predicted. */
+static void test_the_predicted_error_lies_between_its_bounds(void)
+{
+    Random random = {5};
+    for (int i = 0; i < 1000; i++) {
+        const double slowest = random_size(&random, 1e-3, 0.3), w = random_in(&random, 0.5, 1.9);
+        double residual2 = 0.0, moved2 = 0.0, error2 = 0.0;
+        for (int mode = 0; mode < 4; mode++) {
+            const double root = slowest * (mode == 0 ? 1.0 : random_in(&random, 1.0, 1.0 / slowest)), r = random_size(&random, 1e-3, 1.0);
+            residual2 += r * r;
+            moved2 += root * root * r * r;
+            error2 += r * r / (w * w * root * root);
+        }
+        DualModes modes = {.slowest = slowest, .relaxation = w, .response = slowest};
+        const double residual = sqrt(residual2), most = dual_predicted_error(&modes, residual), momentum = random_in(&random, 0.0, 0.9);
+        dual_find_response(&modes, residual, sqrt(moved2) / (1.0 - momentum), momentum);
+        const double predicted = dual_predicted_error(&modes, residual), least = predicted * predicted / most;
+        NEAR(residual2 / (w * sqrt(moved2)), least);
+        TEST_ASSERT_TRUE(least <= sqrt(error2) * (1.0 + 1e-9) && sqrt(error2) <= most * (1.0 + 1e-9));
+    }
+}
+
+/* All in one mode: the error is exact, with any modulus. A residual that moves nothing counts as if it were in the slowest mode. */
+static void test_the_predicted_error_of_one_mode(void)
+{
+    DualModes modes = {.slowest = 0.05, .relaxation = 1.5, .softness = 0.01, .response = 0.05};
+    const double error = 0.05 / (1.5 * (0.05 * 0.05 + 0.01));
+    NEAR(error, dual_predicted_error(&modes, 1.0));
+    dual_find_response(&modes, 2.0, 2.0 * 0.05, 0.0);
+    NEAR(3.0 * error, dual_predicted_error(&modes, 3.0));
+    dual_find_response(&modes, 2.0, 0.0, 0.0);
+    NEAR(error, dual_predicted_error(&modes, 1.0));
+    dual_find_response(&modes, 0.0, 0.0, 0.5); /* nothing is left to do */
+    TEST_ASSERT_TRUE(dual_predicted_error(&modes, 0.0) == 0.0);
+}
+
 /* ---- Pressures of particles ---- */
 
 /* They exist once asked for, start at 0, and move with their particles. */
@@ -245,6 +284,8 @@ int main(void)
     RUN_TEST(test_what_the_dual_solver_holds);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
     RUN_TEST(test_stop_rules);
+    RUN_TEST(test_the_predicted_error_lies_between_its_bounds);
+    RUN_TEST(test_the_predicted_error_of_one_mode);
     RUN_TEST(test_pressures_follow_their_particles);
     return UNITY_END();
 }

@@ -14,7 +14,7 @@ from ..case import ErrorMeasure, Measurement, Setting
 from .bar import CLASSIC_BAR, STIFF_BAR, Bar
 from .beam import Cantilever, TurekHronBeam, loaded_beam
 from .case import ElasticCase, integrator_of, relative
-from .prediction import EXACT_ITERATIONS, FACTOR, ROUNDING, Bodies, compare
+from .prediction import ERROR_KINDS, EXACT_ITERATIONS, ROUNDING, Bodies, compare
 from .signal import Swing
 from .theory import Solid, discrete_frequency
 
@@ -193,12 +193,7 @@ class PredictionCase(CantileverCase):
     iterations = (2, 5, 10, 20)
     variants = ("dual", "primal")
     steps = 60
-    error_kinds = (
-        ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
-        ErrorMeasure(
-            "true_error", "solver", "cells", "median of the steps: distance from the same step solved to the end"
-        ),
-    )
+    error_kinds = ERROR_KINDS
     notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
 
     def __init__(self) -> None:
@@ -218,16 +213,7 @@ class PredictionCase(CantileverCase):
             stage, ids, _ = cantilever.build(settings)
             return stage.world, [(stage.material, ids)]
 
-        found = compare(make, setting.run_settings(), self.steps)
-        wrong = None if found.share is None else 1.0 - found.share
-        return Measurement(
-            errors={"wrong": wrong, "true_error": float(np.median(found.true))},
-            ms_per_simulated_second=found.ms_per_simulated_second,
-            iterations_used=found.iterations_used,
-            predicted_error=float(found.predicted.mean()),
-            stable=True,
-            extra={"median_ratio": found.median_ratio, "steps": self.steps},
-        )
+        return compare(make, setting.run_settings(), self.steps).measurement()
 
 
 class TurekHronCase(ElasticCase):

@@ -16,6 +16,7 @@ import pbmpm
 
 from ...meter import stepping_clock
 from ...simulation import RunSettings
+from ..case import ErrorMeasure, Measurement
 
 FACTOR = 3.0
 """Prediction and truth agree when neither is more than this many times the other."""
@@ -26,6 +27,15 @@ EXACT_ITERATIONS = 1000
 ROUNDING = 2e-6
 """Errors below this [cells] are not judged: positions are rounded to about 1e-7 of a cell and sums of displacements to
 some times that."""
+
+ERROR_KINDS = (
+    ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
+    ErrorMeasure("true_error", "solver", "cells", "median of the steps: distance from the same step solved to the end"),
+    ErrorMeasure("ratio_low", "solver", "times", "predicted over true: of a tenth of the steps it is less"),
+    ErrorMeasure("ratio_mid", "solver", "times", "predicted over true: median"),
+    ErrorMeasure("ratio_high", "solver", "times", "predicted over true: of a tenth of the steps it is more"),
+)
+"""How well errors are predicted, and how the ratio of prediction and truth is distributed."""
 
 Bodies = list[tuple[pbmpm.Material, np.ndarray]]
 """Materials with the identifiers of their particles."""
@@ -44,18 +54,35 @@ class Agreement:
     iterations_used: float  #: per step, mean
 
     @property
-    def share(self) -> float | None:
-        """Of the judged steps: how many were predicted within FACTOR; None when none was judged."""
+    def ratios(self) -> np.ndarray:
+        """Predicted over true, of the steps that are judged."""
         judged = np.maximum(self.true, self.predicted) > ROUNDING
-        if not judged.any():
-            return None
-        ratio = self.predicted[judged] / np.maximum(self.true[judged], 1e-12)
-        return float(np.mean((ratio >= 1.0 / FACTOR) & (ratio <= FACTOR)))
+        return self.predicted[judged] / np.maximum(self.true[judged], 1e-12)
 
     @property
-    def median_ratio(self) -> float:
-        """Predicted over true."""
-        return float(np.median(self.predicted / np.maximum(self.true, 1e-12)))
+    def share(self) -> float | None:
+        """Of the judged steps: how many were predicted within FACTOR; None when none was judged."""
+        ratios = self.ratios
+        return float(np.mean((ratios >= 1.0 / FACTOR) & (ratios <= FACTOR))) if len(ratios) else None
+
+    def measurement(self) -> Measurement:
+        """Of a case whose measures are ERROR_KINDS."""
+        ratios, share = self.ratios, self.share
+        low, mid, high = np.percentile(ratios, (10, 50, 90)).tolist() if len(ratios) else (None, None, None)
+        return Measurement(
+            errors={
+                "wrong": None if share is None else 1.0 - share,
+                "true_error": float(np.median(self.true)),
+                "ratio_low": low,
+                "ratio_mid": mid,
+                "ratio_high": high,
+            },
+            ms_per_simulated_second=self.ms_per_simulated_second,
+            iterations_used=self.iterations_used,
+            predicted_error=float(self.predicted.mean()),
+            stable=True,
+            extra={"steps": len(self.true)},
+        )
 
 
 def compare(make: Make, settings: RunSettings, steps: int, exact_iterations: int = EXACT_ITERATIONS) -> Agreement:

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-
-import numpy as np
+from dataclasses import replace
 
 import pbmpm
 
 from ...scene import Scene
 from ...simulation import RunSettings, Simulation
-from ..case import Case, ErrorMeasure, Measurement, Setting, settings_of
-from ..elastic.prediction import EXACT_ITERATIONS, FACTOR, ROUNDING, Bodies, compare
+from ..case import Case, Measurement, Setting, settings_of
+from ..elastic.prediction import ERROR_KINDS, EXACT_ITERATIONS, ROUNDING, Agreement, Bodies, compare
 from .column import Column
 from .common import WATER
 from .dam_break import DamBreak
@@ -24,10 +23,7 @@ class _Prediction(Case):
     kind = "liquid"
     searched = False
     truth = f"the same step from the same state with {EXACT_ITERATIONS} iterations"
-    error_kinds = (
-        ErrorMeasure("wrong", "solver", "%", f"share of the steps predicted wrong by more than {FACTOR:g} times", 0.2),
-        ErrorMeasure("true_error", "solver", "cells", "median of the steps: distance from the same step solved to the end"),
-    )
+    error_kinds = ERROR_KINDS
     length = 1.0
     notes = f"Steps whose true and predicted error are below {ROUNDING:g} cells are not judged: that is rounding."
     seconds = 0.8
@@ -35,7 +31,7 @@ class _Prediction(Case):
     def sweep(self, quick: bool) -> list[Setting]:
         if quick:
             return settings_of(("dual",), (60,), (5, 20), (16,))
-        return settings_of(("dual", "dual-cells"), (60, 240), (5, 10, 20, 50), (16,))
+        return settings_of(("dual", "dual-cells"), (60, 120, 240), (5, 10, 20, 50), (16,))
 
     def converged(self, setting: Setting) -> Setting | None:
         return None
@@ -44,23 +40,21 @@ class _Prediction(Case):
     def scene(self, setting: Setting) -> Scene:
         """What is stepped."""
 
-    def measure(self, setting: Setting) -> Measurement:
+    def world(self, setting: Setting, target_error: float = 0.0) -> pbmpm.World:
+        """The world before its first step."""
+        return Simulation(self.scene(setting), replace(setting.run_settings(), target_error=target_error)).world
+
+    def agreement(self, setting: Setting, steps: int) -> Agreement:
+        """Of the first steps."""
+
         def make(settings: RunSettings) -> tuple[pbmpm.World, Bodies]:
             simulation = Simulation(self.scene(setting), settings)
             return simulation.world, [(simulation.materials[WATER], simulation.world.ids.copy())]
 
-        found = compare(make, setting.run_settings(), max(1, round(self.seconds * setting.rate_hz)))
-        return Measurement(
-            errors={
-                "wrong": None if found.share is None else 1.0 - found.share,
-                "true_error": float(np.median(found.true)),
-            },
-            ms_per_simulated_second=found.ms_per_simulated_second,
-            iterations_used=found.iterations_used,
-            predicted_error=float(found.predicted.mean()),
-            stable=True,
-            extra={"median_ratio": found.median_ratio, "steps": len(found.true)},
-        )
+        return compare(make, setting.run_settings(), steps)
+
+    def measure(self, setting: Setting) -> Measurement:
+        return self.agreement(setting, max(1, round(self.seconds * setting.rate_hz))).measurement()
 
 
 class ColumnPrediction(_Prediction):

@@ -1,0 +1,82 @@
+#include "dual_error.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "depth.h"
+
+enum { BLOCK_GRAIN = 8 };
+
+bool dual_error_prepare(World *world)
+{
+    DualState *dual = &world->dual;
+    const size_t blocks = (size_t)world->grid.node_blocks, nodes = blocks * (size_t)world->grid.block_cells;
+    return array_reserve(&world->memory, &dual->kept, nodes * K_NODE_WIDTH, sizeof(float)) &&
+           array_reserve(&world->memory, &dual->moved2, blocks, sizeof(double));
+}
+
+void dual_error_free(World *world)
+{
+    array_free(&world->memory, &world->dual.kept);
+    array_free(&world->memory, &world->dual.moved2);
+}
+
+/* Waves of the pressure with the wave number k per cell have a = (k / 2)^2. The slowest in matter n cells deep that rests on something is a
+ * quarter wave over its depth; where nothing weighs, both ends of matter are alike, and it is half a wave. */
+static double slowest_mode(const World *world)
+{
+    const float *g = world->settings.gravity;
+    const bool weightless = g[0] == 0.0f && g[1] == 0.0f && g[2] == 0.0f;
+    return 3.14159265358979 * (weightless ? 0.5 : 0.25) / matter_depth(world);
+}
+
+DualModes dual_modes_of(const World *world, double relaxation)
+{
+    DualModes modes = {.slowest = slowest_mode(world), .relaxation = relaxation};
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot))
+            modes.softness = fmax(modes.softness, (double)world->materials.kernel[slot].inverse_stiffness);
+    modes.response = modes.slowest;
+    return modes;
+}
+
+/* Error per residual in a mode. */
+static double share_of(const DualModes *modes, double root) { return root / (modes->relaxation * (root * root + modes->softness)); }
+
+double dual_predicted_error(const DualModes *modes, double residual)
+{
+    return sqrt(share_of(modes, modes->slowest) * share_of(modes, fmax(modes->response, modes->slowest))) * residual;
+}
+
+void dual_find_response(DualModes *modes, double residual, double moved, double momentum)
+{
+    if (residual > 0.0) modes->response = (1.0 - momentum) * moved / residual;
+}
+
+static void compare_blocks(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    const size_t floats = (size_t)world->grid.block_cells * K_NODE_WIDTH;
+    double *moved2 = world->dual.moved2.data;
+    for (int32_t block = begin; block < end; block++) {
+        const float *node = (const float *)world->grid.node.data + (size_t)block * floats;
+        float *kept = (float *)world->dual.kept.data + (size_t)block * floats;
+        float sum = 0.0f;
+        for (size_t i = 0; i < floats; i += K_NODE_WIDTH) {
+            const float x = node[i] - kept[i], y = node[i + 1] - kept[i + 1], z = node[i + 2] - kept[i + 2];
+            sum += node[i + 3] * (x * x + y * y + z * z);
+        }
+        moved2[block] = (double)sum;
+        memcpy(kept, node, floats * sizeof *kept);
+    }
+}
+
+/* The sums of the blocks are added in order, so they do not depend on the number of threads. */
+double dual_compare_displacements(World *world)
+{
+    const double *moved2 = world->dual.moved2.data;
+    double sum = 0.0;
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, compare_blocks, world);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) sum += moved2[block];
+    return sum;
+}
