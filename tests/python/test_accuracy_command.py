@@ -13,7 +13,7 @@ import pytest
 from PIL import Image
 
 from pbmpm.app.accuracy.case import Case, ErrorMeasure, Measurement, Setting, parse_variant, settings_of
-from pbmpm.app.accuracy.explore import Explorer, next_iterations, next_rate
+from pbmpm.app.accuracy.explore import Explorer, LeftOut, next_iterations, next_rate
 from pbmpm.app.accuracy.registry import all_cases, find_cases
 from pbmpm.app.accuracy.saved import merged
 from pbmpm.app.accuracy.sweep import TIMINGS, Choice, Sweep, row_of
@@ -269,6 +269,18 @@ def test_cells_alone_choose_the_grids_of_the_search(monkeypatch: pytest.MonkeyPa
     assert Choice(cells=[24]).grids(Stub()) == (24,)
     assert Choice(finest=True).grids(Stub()) == (32,)
     assert Choice().grids(Stub()) == () and Stub().compared_cells == (8, 32, 16)
+
+
+def test_a_search_that_has_an_end_is_not_cut_short(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On a clock that stands still all neighbours get tried; one setting left out is enough to be short of time."""
+    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: 0.0)
+    case = Priced()
+    explorer = Explorer(case, lambda setting: row_of(case, setting, case.measure(setting), None), 10.0, 8)
+    explorer.run()
+    assert explorer.cut_short() == []
+    dear = replace(explorer.case.start(8)[-1], rate_hz=1e5)
+    explorer.left_out[dear] = LeftOut(dear, 100.0)
+    assert explorer.cut_short() == ["explicit"]
 
 
 def test_ladders() -> None:
