@@ -145,6 +145,7 @@ struct KernelArgs {
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
+    K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */
     K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */
     K_PTR(float) cell_pressure;
     K_PTR(float) cell_pressure_old;

@@ -38,6 +38,12 @@ export void cells_begin2(uniform struct KernelArgs *uniform args, uniform int be
 export void cells_mean2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_mean_blocks(*args, begin, end);
 }
+export void solids_begin2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    solids_begin_blocks(*args, begin, end);
+}
+export void solids_mean2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    solids_mean_blocks(*args, begin, end);
+}
 export void cells_push2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_push_blocks(*args, begin, end);
 }

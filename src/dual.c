@@ -6,11 +6,22 @@
 #include "dual_error.h"
 #include "guess.h"
 #include "result.h"
+#include "rounds.h"
 
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
 enum { CELL_ARRAYS = 5 };
 
 static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
+
+/* Whether liquids share the world with solids. These then take part in the guess of the pressure, which would push them as if they had no
+ * stiffness, and take rounds by themselves. */
+static bool shares_world(const World *world)
+{
+    bool solids = false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        solids = solids || (world->particles.of_material[slot] > 0 && material_is_solid(&world->materials, slot));
+    return solids && solver_holds_liquid(world);
+}
 
 /* How many of the iterations go into the guess: enough to reach through a pool, and at least half are left. A single one is worth much in a pool
  * and does harm in free flight. */
@@ -24,6 +35,11 @@ static int guess_iterations(const World *world)
     return half < MOST ? half : MOST;
 }
 
+/* How many iterations a substep has that are no guess. */
+static int own_iterations(const World *world) { return world->settings.iterations - guess_iterations(world); }
+
+static bool takes_rounds(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
+
 pbmpm_result dual_prepare(World *world)
 {
     DualState *dual = &world->dual;
@@ -36,6 +52,7 @@ pbmpm_result dual_prepare(World *world)
         ok = array_reserve(&world->memory, &dual->cells, CELL_ARRAYS * nodes, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
+    if (ok && takes_rounds(world)) ok = array_reserve(&world->memory, &dual->cell_strain, nodes, sizeof(float)) && rounds_reserve(world);
     ok = ok && dual_error_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     const pbmpm_result result = guess_prepare(world);
@@ -45,7 +62,9 @@ pbmpm_result dual_prepare(World *world)
 void dual_free(World *world)
 {
     DualState *dual = &world->dual;
-    Array *arrays[] = {&dual->node_push, &dual->change2, &dual->uphill, &dual->cells, &dual->cell_change2, &dual->cell_uphill};
+    RoundsState *rounds = &dual->rounds;
+    Array *arrays[] = {&dual->node_push,   &dual->change2,     &dual->uphill,  &dual->cells,     &dual->cell_strain,
+                       &dual->cell_change2, &dual->cell_uphill, &rounds->solid, &rounds->touched, &rounds->mark};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     dual_error_free(world);
 }
@@ -69,6 +88,7 @@ static void bind_cells(World *world)
     a->cell_softness = cells + 2 * nodes;
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
+    a->cell_strain = takes_rounds(world) ? world->dual.cell_strain.data : NULL;
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
     a->cell_relaxation = smallest_relaxation(world);
@@ -139,6 +159,10 @@ static double start(World *world, const ContactFrame *contacts)
     if (cells) {
         solver_over_particles(world, kernels->cells_begin);
         solver_over_nodes(world, kernels->cells_mean, NULL);
+        if (world->args.cell_strain) {
+            solver_over_particles(world, kernels->solids_begin);
+            solver_over_nodes(world, kernels->solids_mean, NULL);
+        }
     } else {
         solver_over_particles(world, kernels->dual_begin);
     }
@@ -172,15 +196,25 @@ static Change iterate(World *world)
     return (Change){sum_blocks(&dual->change2, blocks) + cells.change2, sum_blocks(&dual->uphill, blocks) + cells.uphill};
 }
 
-void dual_solve(World *world, const ContactFrame *contacts)
+Acceleration acceleration_begin(World *world)
+{
+    world->args.momentum = 0.0f;
+    return (Acceleration){world, 1.0};
+}
+
+void acceleration_next(Acceleration *acceleration, bool uphill, bool more)
+{
+    const double t = acceleration->t, next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
+    acceleration->world->args.momentum = uphill || !more ? 0.0f : (float)((t - 1.0) / next);
+    acceleration->t = uphill ? 1.0 : next;
+}
+
+static void iterate_all(World *world, const ContactFrame *contacts, double mass)
 {
     StepRecord *record = &world->record;
-    bind(world);
-    bind_cells(world);
-    const double mass = fmax(start(world, contacts), 1e-300);
     DualModes modes = dual_modes_of(world, (double)smallest_relaxation(world));
     const bool watched = world->settings.target_error > 0.0f; /* else the last displacements alone are compared */
-    double t = 1.0;
+    Acceleration acceleration = acceleration_begin(world);
     bool more = true;
     if (watched) dual_compare_displacements(world);
     while (more) {
@@ -188,17 +222,38 @@ void dual_solve(World *world, const ContactFrame *contacts)
         record->iterations_used++;
         record->residual = sqrt(change.change2 / mass);
         more = solver_may_go_on(world, dual_predicted_error(&modes, record->residual));
-        const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
-        const bool restart = change.uphill > 0.0;
-        const double momentum = restart || !more ? 0.0 : (t - 1.0) / next;
-        t = restart ? 1.0 : next;
+        acceleration_next(&acceleration, change.uphill > 0.0, more);
+        const double momentum = (double)world->args.momentum;
         if (!more && !watched) dual_compare_displacements(world);
-        world->args.momentum = (float)momentum;
         push(world, contacts, in_cells(world));
         if (!more || watched) dual_find_response(&modes, record->residual, sqrt(dual_compare_displacements(world) / mass), momentum);
     }
     /* What ended the iterations stands as it was found. */
     if (record->stop != PBMPM_STOP_ERROR) record->predicted_error = dual_predicted_error(&modes, record->residual);
+}
+
+/* c (2 mu + lambda) of the stiffest solid, as it is asked for. */
+static double stiffest(const World *world)
+{
+    double most = 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->particles.of_material[slot] > 0 && material_is_solid(&world->materials, slot))
+            most = fmax(most, 2.0 * (double)material->shear + (double)material->dilation);
+    }
+    return most;
+}
+
+void dual_solve(World *world, const ContactFrame *contacts)
+{
+    bind(world);
+    bind_cells(world);
+    const double mass = fmax(start(world, contacts), 1e-300);
+    const int rounds = takes_rounds(world) ? rounds_wanted(stiffest(world), own_iterations(world)) : 0;
+    if (rounds > 0) rounds_begin(world);
+    rounds_run(world, contacts, (rounds + 1) / 2);
+    iterate_all(world, contacts, mass);
+    rounds_run(world, contacts, rounds / 2);
 }
 
 /* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */
@@ -210,18 +265,19 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
     return 4.0 * cells * cells / (double)def->density * (2.0 * shear + lambda);
 }
 
-/* A stress takes about as many iterations as sound takes cells per substep: n iterations get a stiffness of (n / 2.5)^2 to about a tenth
- * (bars and blocks); asked for more, a body by itself may gain energy. Bodies in a liquid hold together better if they are asked for more, and
- * best above about (4 n)^2. */
+/* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
+ * are asked for more, and best above about (4 n)^2. */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
-    const double held = (world->settings.iterations - guess_iterations(world)) / 2.5;
-    return fmin(1.0, held * held / stiffness_of(world, def, substep));
+    const double stiffness = stiffness_of(world, def, substep), iterations = own_iterations(world);
+    const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, own_iterations(world)) : 0.0;
+    const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
+    return fmin(1.0, held * held / stiffness);
 }
 
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
     if (!solver_holds_liquid(world)) return dual_stiffness_share(world, def, substep);
-    const double asked = 4.0 * (world->settings.iterations - guess_iterations(world));
+    const double asked = 4.0 * own_iterations(world);
     return fmin(1.0, asked * asked / stiffness_of(world, def, substep));
 }

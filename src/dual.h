@@ -12,6 +12,21 @@ void dual_free(World *world);
 
 void dual_solve(World *world, const ContactFrame *contacts);
 
+/* A stress takes about as many iterations as sound takes cells per substep, which is half the root of the stiffness c (2 mu + lambda): n iterations
+ * get a stiffness of (n / 2.5)^2 to about a tenth (bars and blocks). */
+#define DUAL_ITERATIONS_PER_ROOT 2.5
+
+/* Nesterov's extrapolation, restarted where it goes uphill. */
+typedef struct Acceleration {
+    World *world;
+    double t;
+} Acceleration;
+
+Acceleration acceleration_begin(World *world);
+
+/* Sets args.momentum for the push that follows: 0 after the last iteration. */
+void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
+
 /* The share of an elastic material's stiffness that the iterations of a substep can hold, and the share that they are asked for. */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);

@@ -76,7 +76,7 @@ static void respond(const Guess *g, float *of)
     a->cell_pressure = a->cell_pressure_old = of;
     solver_over_particles(world, world->kernels->cells_push);
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);
-    mirrors_apply(&world->mirrors, &world->grid);
+    mirrors_apply(&world->mirrors, &world->grid, NULL);
     pool_for(world->pool, world->grid.node_blocks, 4, hold_nodes, &contacts);
     a->cell_pressure = pressure;
     a->cell_pressure_old = pressure_old;
@@ -154,7 +154,8 @@ double guess_measure(World *world, const ContactFrame *contacts)
     const float share = growth_share(world);
     trace(&g);
     for (size_t i = 0; i < g.cells; i++) {
-        const float r = fminf(share * a->cell_growth[i], GUESS_GROWTH_MAX) - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        const float growth = fminf(share * a->cell_growth[i], GUESS_GROWTH_MAX) + (a->cell_strain ? a->cell_strain[i] : 0.0f);
+        const float r = growth - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
         g.mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g.residual[i] = r * g.mask[i];
     }

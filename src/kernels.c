@@ -10,6 +10,8 @@
     DO(push_nodes, suffix)                                                                                              \
     DO(cells_begin, suffix)                                                                                             \
     DO(cells_mean, suffix)                                                                                              \
+    DO(solids_begin, suffix)                                                                                            \
+    DO(solids_mean, suffix)                                                                                             \
     DO(cells_push, suffix)                                                                                              \
     DO(cells_trace, suffix)                                                                                             \
     DO(cells_update, suffix)                                                                                            \

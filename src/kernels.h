@@ -20,6 +20,8 @@ typedef struct Kernels {
     Kernel *push_nodes;    /* node blocks: displacement from the multipliers */
     Kernel *cells_begin;   /* particle blocks: dual solver with pressures in cells, what the cells hold */
     Kernel *cells_mean;    /* node blocks: means of the cells */
+    Kernel *solids_begin;  /* particle blocks: what the cells hold of solids, for the guess */
+    Kernel *solids_mean;   /* node blocks: adds it to the means */
     Kernel *cells_push;    /* particle blocks: pressures to nodes */
     Kernel *cells_trace;   /* particle blocks: G2P, traces of D to cells */
     Kernel *cells_update;  /* node blocks: proximal step of the cells */

@@ -145,12 +145,30 @@ void mirrors_book(const Mirrors *mirrors, const ContactFrame *frame, double dt)
     }
 }
 
-void mirrors_apply(const Mirrors *mirrors, const Grid *grid)
+void mirrors_close(const Mirrors *mirrors, const Grid *grid, uint8_t *mark)
 {
+    const uint32_t cells = (uint32_t)grid->block_cells;
+    for (bool grown = true; grown;) { /* an image of an image lies behind another wall */
+        grown = false;
+        for (int axis = 0; axis < grid->dimension; axis++) {
+            const MirrorPair *pair = mirrors->pair[axis].data;
+            for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
+                uint8_t *image = mark + pair[i].image / cells, *real = mark + pair[i].real / cells;
+                grown = grown || *image != *real;
+                *image = *real = *image | *real;
+            }
+        }
+    }
+}
+
+void mirrors_apply(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark)
+{
+    const uint32_t cells = (uint32_t)grid->block_cells;
     float *node = grid->node.data;
     for (int axis = 0; axis < grid->dimension; axis++) { /* one axis after the other: an edge has the image of an image */
         const MirrorPair *pair = mirrors->pair[axis].data;
         for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
+            if (mark && !mark[pair[i].real / cells]) continue;
             float *image = node + (size_t)pair[i].image * K_NODE_WIDTH, *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
             const float share = image[3] / (image[3] + real[3]), before[6] = {image[0], image[1], image[2], real[0], real[1], real[2]};
             for (int a = 0; a < grid->dimension; a++) {

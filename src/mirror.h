@@ -37,7 +37,10 @@ bool mirrors_measure(Mirrors *mirrors, Memory *memory, bool measures);
 /* Adds what the last reflection gave to the walls, in a substep of `dt` seconds. */
 void mirrors_book(const Mirrors *mirrors, const ContactFrame *frame, double dt);
 
-/* Makes the nodes of all pairs each other's reflection. */
-void mirrors_apply(const Mirrors *mirrors, const Grid *grid);
+/* Makes the nodes of all pairs each other's reflection; with `mark`, not null, those with a node in a marked block. */
+void mirrors_apply(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark);
+
+/* Marks the blocks with the other nodes of the pairs in marked blocks. */
+void mirrors_close(const Mirrors *mirrors, const Grid *grid, uint8_t *mark);
 
 #endif

@@ -141,7 +141,7 @@ static void obey_contacts(void *context, int32_t begin, int32_t end) { contacts_
 void solver_obey(World *world, const ContactFrame *contacts)
 {
     ContactFrame frame = *contacts;
-    mirrors_apply(&world->mirrors, &world->grid);
+    mirrors_apply(&world->mirrors, &world->grid, NULL);
     pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, obey_contacts, &frame);
 }
 

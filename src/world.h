@@ -37,10 +37,18 @@ typedef struct StepRecord {
     float travel; /* the largest displacement in it [cells] */
 } StepRecord;
 
+/* Blocks with solids and those of the nodes that they touch; see rounds.h. */
+typedef struct RoundsState {
+    Array solid, touched; /* int32_t: their numbers */
+    Array mark;           /* uint8_t per node block: touched */
+    int32_t solids, touches;
+} RoundsState;
+
 /* What the dual solver keeps. */
 typedef struct DualState {
-    Array node_push, change2, uphill, cells, cell_change2, cell_uphill; /* see KernelArgs */
+    Array node_push, change2, uphill, cells, cell_strain, cell_change2, cell_uphill; /* see KernelArgs */
     Array kept, moved2; /* displacements and, per node block, what they changed; see dual_error.h */
+    RoundsState rounds;
 } DualState;
 
 /* What the guess of the pressure keeps. */

@@ -11,7 +11,12 @@ enum { CENTRE_ROUNDINGS = 12 }; /* a weight: 3 differences, 3 products; with mas
 
 static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
 
-/* Sums over the particles of liquids of h m times up to four quantities, and how many they are. */
+/* Whose particles a sum is over. */
+typedef enum Whose { LIQUIDS, SOLIDS, ALL } Whose;
+
+static bool counts(Whose whose, const RefParticle *p) { return whose == ALL || (whose == LIQUIDS) == (p->material.kind == K_LIQUID); }
+
+/* Sums over particles of h m times up to four quantities, and how many they are. */
 typedef struct CellSum {
     double value[4], size[4];
     int terms;
@@ -19,14 +24,14 @@ typedef struct CellSum {
 
 typedef void Quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4]);
 
-static CellSum *sum_cells(const DualStage *stage, Quantities *quantities, const RefGrid *extent)
+static CellSum *sum_cells(const DualStage *stage, Whose whose, Quantities *quantities, const RefGrid *extent)
 {
     CellSum *sums = calloc(node_count(extent), sizeof *sums);
     for (uint32_t i = 0; i < stage->scene.world->particles.count; i++) {
         const RefParticle p = scene_particle(&stage->scene, i);
         const RefCentres centres = reference_centres(extent->dimension, &p);
         double value[4] = {0};
-        if (p.material.kind != K_LIQUID) continue;
+        if (!counts(whose, &p)) continue;
         quantities(stage, i, &p, value);
         for (int c = 0; c < centres.count; c++) {
             CellSum *sum = &sums[reference_index(extent, centres.cell[c])];
@@ -52,12 +57,13 @@ static void first_quantities(const DualStage *stage, uint32_t row, const RefPart
     value[3] = 0.5 * scale * (double)world->particles.pressure[row];
 }
 
-void cells_check_begin(DualStage *stage)
+/* Runs a kernel that leaves four sums per cell in the tiles. */
+static void check_sums(DualStage *stage, Kernel *kernel, Whose whose, Quantities *quantities)
 {
     Scene *scene = &stage->scene;
-    scene_run_particles(scene, scene->kernels->cells_begin);
+    scene_run_particles(scene, kernel);
     RefGrid sizes, sum = scene_tiles(scene, &sizes);
-    CellSum *expected = sum_cells(stage, first_quantities, &sum);
+    CellSum *expected = sum_cells(stage, whose, quantities, &sum);
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double actual[4] = {sum.node[i].u[0], sum.node[i].u[1], sum.node[i].u[2], sum.node[i].mass};
         for (int k = 0; k < 4; k++) {
@@ -69,6 +75,8 @@ void cells_check_begin(DualStage *stage)
     reference_grid_free(&sum);
     reference_grid_free(&sizes);
 }
+
+void cells_check_begin(DualStage *stage) { check_sums(stage, stage->scene.kernels->cells_begin, LIQUIDS, first_quantities); }
 
 /* Growth is that of the mean J, between nothing and 0.3; softness and first pressure are means. A cell adds up to 8 tiles. */
 void cells_check_mean(DualStage *stage)
@@ -95,9 +103,72 @@ void cells_check_mean(DualStage *stage)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
 }
 
+/* ---- What solids add for the guess ---- */
+
+/* 1 / (c K J^2) with the bulk modulus K = lambda + 2 mu / d, from the definition of the material. */
+static void solid_quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
+{
+    const World *world = stage->scene.world;
+    const pbmpm_material_def *def = &world->materials.def[world->particles.material[row]];
+    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
+    const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
+    const double bulk = reference_scale(&stage->scene.step, (double)def->density) * (lambda + 2.0 * shear / stage->scene.step.dimension);
+    const double ratio = fmax(p->volume_ratio, (double)K_LIQUID_RATIO_MIN);
+    value[0] = 1.0;
+    value[1] = ratio;
+    value[2] = 1.0 / (bulk * ratio * ratio);
+    value[3] = 0.0;
+}
+
+/* Liquids and solids count by their masses; a pressure is that of the liquid share. */
+void cells_check_solids(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    KernelArgs *a = &scene->world->args;
+    check_sums(stage, scene->kernels->solids_begin, SOLIDS, solid_quantities);
+    RefGrid sizes, sum = scene_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cell_mass);
+    RefGrid growth = scene_scalars_of(scene, a->cell_growth), soft = scene_scalars_of(scene, a->cell_softness);
+    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
+    scene_run_nodes(scene, scene->kernels->solids_mean);
+    RefGrid all_mass = scene_scalars_of(scene, a->cell_mass), strain = scene_scalars_of(scene, a->cell_strain);
+    RefGrid less = scene_scalars_of(scene, a->cell_growth), softness = scene_scalars_of(scene, a->cell_softness);
+    RefGrid start = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    const double each = 24.0 * UNIT_ROUNDOFF;
+    for (size_t i = 0; i < node_count(&sum); i++) {
+        const double solid = sum.node[i].u[0], liquid = mass.node[i].mass, m = solid + liquid;
+        check_near(m, all_mass.node[i].mass, each * m, "mass of a cell with solids", (long)i);
+        check_true(start.node[i].mass == old.node[i].mass, "the first pressure is the one before as well", (long)i);
+        if (!(m > 1e-30)) continue;
+        const double ratio = solid > 1e-30 ? sum.node[i].u[1] / solid : 1.0, wanted = fmin(fmax(1.0 / ratio - 1.0, 0.0), REF_GROWTH_MAX);
+        check_near(solid / m * wanted, strain.node[i].mass, each * solid / m * (1.0 + 1.0 / ratio) + FLUSHED, "strain of a cell", (long)i);
+        check_near(liquid / m * growth.node[i].mass, less.node[i].mass, each, "growth of a cell with solids", (long)i);
+        const double mixed = (liquid * soft.node[i].mass + sum.node[i].u[2]) / m;
+        check_near(mixed, softness.node[i].mass, each * mixed + FLUSHED, "softness of a cell with solids", (long)i);
+        const double first = liquid / m * pressure.node[i].mass;
+        check_near(first, start.node[i].mass, each * first + FLUSHED, "first pressure of a cell with solids", (long)i);
+    }
+    RefGrid *const all[] = {&sizes, &sum, &mass, &growth, &soft, &pressure, &all_mass, &strain, &less, &softness, &start, &old};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
+}
+
 /* ---- Pressures to nodes ---- */
 
-/* Particles take the extrapolated pressure at their place; the stress of elastic ones is extrapolated here as well. */
+/* A solid that takes part in the guess has S = p I, both now and before. */
+static void check_isotropic(const DualStage *stage, uint32_t row, double expected, double bound)
+{
+    const int n = stage->scene.step.dimension;
+    double S[9], Y[9];
+    dual_multiplier(stage, row, S);
+    dual_extrapolated(stage, row, Y);
+    for (int k = 0; k < n * n; k++) {
+        const int at = k / n * 3 + k % n;
+        const bool diagonal = k / n == k % n;
+        check_near(diagonal ? expected : 0.0, S[at], diagonal ? bound : 0.0, "multiplier of a solid in the guess", (long)row);
+        check_true(Y[at] == S[at], "it is the one before as well", (long)row);
+    }
+}
+
+/* Particles take the extrapolated pressure at their place; the stress of elastic ones that do not is extrapolated here as well. */
 void cells_check_push(DualStage *stage)
 {
     Scene *scene = &stage->scene;
@@ -112,16 +183,18 @@ void cells_check_push(DualStage *stage)
         const RefParticle p = scene_particle(scene, i);
         const RefCentres centres = reference_centres(n, &p);
         double Y[9] = {0}, S[9], expected = 0.0, bound = 0.0, error = 0.0;
-        for (int c = 0; c < centres.count && p.material.kind == K_LIQUID; c++) {
+        const bool liquid = p.material.kind == K_LIQUID;
+        for (int c = 0; c < centres.count && (liquid || a->cell_strain); c++) {
             const int64_t at = reference_index(&sum, centres.cell[c]);
             const double now = pressure.node[at].mass, change = momentum * (now - old.node[at].mass);
             expected += centres.weight[c] * (now + change);
             bound += (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * (fabs(now) + 2.0 * fabs(change)) + FLUSHED;
         }
-        if (p.material.kind == K_LIQUID) {
+        if (liquid) {
             check_near(expected, (double)a->pressure[i], bound, "pressure of a particle", (long)i);
             for (int k = 0; k < n; k++) Y[k * 4] = (double)a->pressure[i];
         } else {
+            if (a->cell_strain) check_isotropic(stage, i, expected, bound);
             dual_extrapolated(stage, i, Y);
         }
         dual_multiplier(stage, i, S);
@@ -152,23 +225,40 @@ static void trace_of(const DualStage *stage, uint32_t row, const RefParticle *p,
     value[1] = nodes_now->dimension * bound_gather(nodes_now, p).D;
 }
 
-/* Sums of h m tr D; elastic particles take their next step in the same kernel. */
-void cells_check_trace(DualStage *stage)
+/* Sums of h m tr D, of the displacements `nodes`. */
+static void check_traces(DualStage *stage, Whose whose, const RefGrid *nodes)
 {
-    Scene *scene = &stage->scene;
-    RefGrid nodes = scene_nodes(scene);
-    dual_check_multipliers(stage, scene->kernels->cells_trace, false);
-    RefGrid sizes, sum = scene_scalar_tiles(scene, &sizes);
-    nodes_now = &nodes;
-    CellSum *expected = sum_cells(stage, trace_of, &sum);
+    RefGrid sizes, sum = scene_scalar_tiles(&stage->scene, &sizes);
+    nodes_now = nodes;
+    CellSum *expected = sum_cells(stage, whose, trace_of, &sum);
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double rounded = (CENTRE_ROUNDINGS + expected[i].terms) * UNIT_ROUNDOFF * expected[i].size[0];
         check_near(expected[i].value[0], sum.node[i].mass, expected[i].value[1] + rounded + FLUSHED, "trace of a cell", (long)i);
     }
     free(expected);
-    reference_grid_free(&nodes);
     reference_grid_free(&sum);
     reference_grid_free(&sizes);
+}
+
+/* Elastic particles take their next step in the same kernel. */
+void cells_check_trace(DualStage *stage)
+{
+    RefGrid nodes = scene_nodes(&stage->scene);
+    dual_check_multipliers(stage, stage->scene.kernels->cells_trace, false);
+    check_traces(stage, LIQUIDS, &nodes);
+    reference_grid_free(&nodes);
+}
+
+/* In the guess they count as liquids do, and take no step. */
+void cells_check_guess_trace(DualStage *stage)
+{
+    Scene *scene = &stage->scene;
+    RefGrid nodes = scene_nodes(scene);
+    scene->world->args.probing = 1;
+    scene_run_particles(scene, scene->kernels->cells_trace);
+    scene->world->args.probing = 0;
+    check_traces(stage, ALL, &nodes);
+    reference_grid_free(&nodes);
 }
 
 /* ---- Proximal step ---- */

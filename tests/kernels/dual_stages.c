@@ -41,6 +41,7 @@ static void bind(DualStage *stage)
     float **const cells[] = {&a->cell_mass,         &a->cell_growth,  &a->cell_softness, &a->cell_pressure,
                              &a->cell_pressure_old, &a->cell_change2, &a->cell_uphill};
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) *cells[i] = memory[used++] = filled(nodes, NAN);
+    stage->strain = memory[used++] = filled(nodes, NAN);
     a->cell_relaxation = 1.3f;
     a->momentum = 0.0f;
 }

@@ -5,13 +5,14 @@
 #include "dual_reference.h"
 #include "scene.h"
 
-enum { DUAL_ARRAYS = 23 };
+enum { DUAL_ARRAYS = 24 };
 
 /* A scene bound to arrays of the test's own, filled with what must not be read: NaN. */
 typedef struct DualStage {
     Scene scene;
     float *memory[DUAL_ARRAYS];
     RefGrid base; /* the predictor */
+    float *strain; /* for args.cell_strain, which is null: solids take no part in the guess */
 } DualStage;
 
 /* Opens a scene, sets its particles' pressures [Pa] at random and runs the kernels up to the predictor. */
@@ -40,8 +41,10 @@ void dual_check_iterate(DualStage *stage);
 /* Pressures in cells. */
 void cells_check_begin(DualStage *stage);
 void cells_check_mean(DualStage *stage);
+void cells_check_solids(DualStage *stage);
 void cells_check_push(DualStage *stage);
 void cells_check_trace(DualStage *stage);
+void cells_check_guess_trace(DualStage *stage);
 void cells_check_update(DualStage *stage);
 
 /* Node displacements after a push: the predictor and the scatter of all extrapolated multipliers, with nothing kept in between. */

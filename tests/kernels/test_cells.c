@@ -55,6 +55,28 @@ static void check_rounds(DualStage *stage)
     }
 }
 
+/* The guess of a world with liquids and solids. */
+static void check_guess(DualStage *stage)
+{
+    cells_check_begin(stage);
+    cells_check_mean(stage);
+    stage->scene.world->args.cell_strain = stage->strain;
+    cells_check_solids(stage);
+    cells_check_push(stage);
+    push_nodes(stage);
+    cells_check_guess_trace(stage);
+}
+
+static void test_solids_in_the_guess(void)
+{
+    SceneSpec spec = liquid_scene("cells: solids in the guess");
+    dual_check_spec(&spec, 3, check_guess);
+    spec.material[0] = scene_material(PBMPM_SAND);
+    dual_check_spec(&spec, 1, check_guess);
+    spec_crowded(&spec);
+    dual_check_spec(&spec, 1, check_guess);
+}
+
 static void test_mixed_materials(void)
 {
     const SceneSpec spec = liquid_scene("cells: mixed materials");
@@ -99,6 +121,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_mixed_materials);
+    RUN_TEST(test_solids_in_the_guess);
     RUN_TEST(test_single_particles_far_apart);
     RUN_TEST(test_crowded_cells);
     RUN_TEST(test_all_densities);

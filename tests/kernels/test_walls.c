@@ -209,7 +209,7 @@ static void check_images(int dimension, double shift)
     TEST_ASSERT_TRUE(mirrors_any(&world->mirrors));
     shake(&scene, &random);
     RefGrid before = scene_nodes(&scene);
-    mirrors_apply(&world->mirrors, &world->grid);
+    mirrors_apply(&world->mirrors, &world->grid, NULL);
     RefGrid after = scene_nodes(&scene);
     check_subject("images", cpu_isa(), dimension);
     check_reflections(&scene, &domain, &after);
@@ -221,7 +221,7 @@ static void check_images(int dimension, double shift)
             energy += after.node[i].mass * before.node[i].u[a] * before.node[i].u[a];
         }
     check_near(0.0, along, 8.0 * UNIT_ROUNDOFF * energy, "orthogonal", 0);
-    mirrors_apply(&world->mirrors, &world->grid);
+    mirrors_apply(&world->mirrors, &world->grid, NULL);
     RefGrid again = scene_nodes(&scene);
     for (size_t i = 0; i < count; i++)
         for (int a = 0; a < dimension; a++) check_near(after.node[i].u[a], again.node[i].u[a], 8.0 * UNIT_ROUNDOFF, "a second time", (long)i);
@@ -235,6 +235,47 @@ static void test_images_are_an_orthogonal_projection(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int k = 0; k < 4; k++) check_images(dimension, 0.25 * k);
+}
+
+/* Marked blocks hold both nodes of a pair, and their images alone are made, the same as if all were. */
+static void check_marked_images(int dimension)
+{
+    Random random = {6};
+    Scene scene = full_box(cpu_isa(), dimension, 0.0, 2);
+    World *world = scene.world;
+    const Grid *grid = &world->grid;
+    const Domain domain = mirror_domain(&world->domain, dimension, CELL);
+    const size_t block_floats = (size_t)grid->block_cells * K_NODE_WIDTH, floats = (size_t)grid->node_blocks * block_floats;
+    predict(&scene);
+    TEST_ASSERT_TRUE(mirrors_find(&world->mirrors, &world->memory, grid, &domain, CELL));
+    shake(&scene, &random);
+    float *node = grid->node.data, *start = malloc(floats * sizeof *start), *marked = malloc(floats * sizeof *marked);
+    uint8_t *mark = calloc((size_t)grid->node_blocks, 1);
+    TEST_ASSERT_TRUE(start && marked && mark);
+    memcpy(start, node, floats * sizeof *start);
+    mark[0] = 1;
+    mirrors_close(&world->mirrors, grid, mark);
+    mirrors_apply(&world->mirrors, grid, mark);
+    memcpy(marked, node, floats * sizeof *marked);
+    memcpy(node, start, floats * sizeof *start);
+    mirrors_apply(&world->mirrors, grid, NULL);
+    int32_t touched = 0, changed = 0;
+    for (int32_t block = 0; block < grid->node_blocks; block++) {
+        const size_t first = (size_t)block * block_floats;
+        touched += mark[block];
+        changed += memcmp(start + first, marked + first, block_floats * sizeof *start) != 0;
+        TEST_ASSERT_EQUAL_MEMORY(mark[block] ? node + first : start + first, marked + first, block_floats * sizeof *start);
+    }
+    TEST_ASSERT_TRUE(changed > 0 && touched < grid->node_blocks);
+    free(start);
+    free(marked);
+    free(mark);
+    scene_close(&scene);
+}
+
+static void test_images_of_marked_blocks(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++) check_marked_images(dimension);
 }
 
 /* On the next grid line or midpoint inside, less than half a cell away. */
@@ -262,6 +303,7 @@ int main(void)
     RUN_TEST(test_the_open_share_ends_at_the_support);
     RUN_TEST(test_a_full_box_has_its_density);
     RUN_TEST(test_images_are_an_orthogonal_projection);
+    RUN_TEST(test_images_of_marked_blocks);
     RUN_TEST(test_where_walls_with_images_stand);
     return UNITY_END();
 }

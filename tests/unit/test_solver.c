@@ -8,6 +8,7 @@
 #include "dual.h"
 #include "dual_error.h"
 #include "random.h"
+#include "rounds.h"
 #include "solver.h"
 
 void setUp(void) {}
@@ -138,6 +139,33 @@ static void test_what_the_dual_solver_holds(void)
     TEST_ASSERT_TRUE(dual_stiffness_share(world, &def, 1.0 / 60) > 3.9 * once && once < 1.0);
     def.young_modulus = 1.0f;
     TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_share(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
+/* Sound crosses half a root of the stiffness cells per substep; a body takes that many iterations 2.5 / 0.5 times, and at most 16 rounds more
+ * than all matter does. A world without liquid takes none. */
+static void test_rounds_of_solids_among_liquids(void)
+{
+    TEST_ASSERT_EQUAL_INT(0, rounds_wanted(0.0, 3));
+    TEST_ASSERT_EQUAL_INT(0, rounds_wanted(1.44, 3));
+    TEST_ASSERT_EQUAL_INT(7, rounds_wanted(16.0, 3));
+    TEST_ASSERT_EQUAL_INT(2, rounds_wanted(16.0, 8));
+    TEST_ASSERT_EQUAL_INT(16, rounds_wanted(1e9, 3));
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def body = material_defaults(), water = material_defaults();
+    pbmpm_material_id solid, liquid;
+    body.kind = PBMPM_ELASTIC;
+    body.young_modulus = 1e9f;
+    world->settings.iterations = 5;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &body, 1, &solid));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
+    world->particles.of_material[solid.index] = 1;
+    const double alone = dual_stiffness_share(world, &body, 1.0 / 60);
+    world->particles.of_material[liquid.index] = 1;
+    NEAR(19.0 * 19.0 / 9.0 * alone, dual_stiffness_share(world, &body, 1.0 / 60)); /* 3 iterations and 16 rounds */
+    world->settings.pressure = PBMPM_PRESSURE_CELLS;
+    NEAR(alone, dual_stiffness_share(world, &body, 1.0 / 60));
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
 
@@ -282,6 +310,7 @@ int main(void)
     RUN_TEST(test_moduli_stay_finite);
     RUN_TEST(test_moduli_of_elastic_bodies);
     RUN_TEST(test_what_the_dual_solver_holds);
+    RUN_TEST(test_rounds_of_solids_among_liquids);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
     RUN_TEST(test_stop_rules);
     RUN_TEST(test_the_predicted_error_lies_between_its_bounds);

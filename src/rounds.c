@@ -1,0 +1,101 @@
+#include "rounds.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { MOST_ROUNDS = 16, BLOCK_GRAIN = 2 };
+
+int rounds_wanted(double stiffness, int iterations)
+{
+    const double wanted = ceil(DUAL_ITERATIONS_PER_ROOT * sqrt(stiffness)) - iterations;
+    return (int)fmax(0.0, fmin(wanted, MOST_ROUNDS));
+}
+
+bool rounds_reserve(World *world)
+{
+    RoundsState *rounds = &world->dual.rounds;
+    const size_t blocks = (size_t)world->grid.node_blocks;
+    return array_reserve(&world->memory, &rounds->solid, blocks, sizeof(int32_t)) &&
+           array_reserve(&world->memory, &rounds->touched, blocks, sizeof(int32_t)) &&
+           array_reserve(&world->memory, &rounds->mark, blocks, sizeof(uint8_t));
+}
+
+static bool holds_solid(const World *world, int32_t block)
+{
+    const uint32_t *block_run = world->grid.block_run.data;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind != K_LIQUID) return true;
+    return false;
+}
+
+void rounds_begin(World *world)
+{
+    const Grid *grid = &world->grid;
+    RoundsState *rounds = &world->dual.rounds;
+    uint8_t *mark = rounds->mark.data;
+    int32_t *solid = rounds->solid.data, *touched = rounds->touched.data;
+    rounds->solids = rounds->touches = 0;
+    memset(mark, 0, (size_t)grid->node_blocks);
+    for (int32_t block = 0; block < grid->particle_blocks; block++) {
+        if (!holds_solid(world, block)) continue;
+        const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
+        solid[rounds->solids++] = block;
+        for (int n = 0; n < grid->neighbours; n++)
+            if (neighbour[n] >= 0) mark[neighbour[n]] = 1;
+    }
+    mirrors_close(&world->mirrors, grid, mark);
+    for (int32_t block = 0; block < grid->node_blocks; block++)
+        if (mark[block]) touched[rounds->touches++] = block;
+}
+
+typedef struct ListJob {
+    World *world;
+    Kernel *kernel; /* null: only contacts */
+    const ContactFrame *contacts; /* or null */
+    const int32_t *list;
+} ListJob;
+
+static void run_list(void *context, int32_t begin, int32_t end)
+{
+    const ListJob *job = context;
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t block = job->list[i];
+        if (job->kernel) job->kernel(&job->world->args, block, block + 1);
+        if (job->contacts) contacts_apply(job->contacts, block, block + 1);
+    }
+}
+
+static void push_touched(World *world, const ContactFrame *contacts)
+{
+    const RoundsState *rounds = &world->dual.rounds;
+    const bool mirrored = mirrors_any(&world->mirrors);
+    ListJob job = {world, world->kernels->push_nodes, mirrored ? NULL : contacts, rounds->touched.data};
+    pool_for(world->pool, rounds->touches, BLOCK_GRAIN, run_list, &job);
+    if (!mirrored) return;
+    mirrors_apply(&world->mirrors, &world->grid, rounds->mark.data);
+    job = (ListJob){world, NULL, contacts, rounds->touched.data};
+    pool_for(world->pool, rounds->touches, BLOCK_GRAIN, run_list, &job);
+}
+
+static double uphill_of(const World *world)
+{
+    const RoundsState *rounds = &world->dual.rounds;
+    const float *uphill = world->dual.uphill.data;
+    const int32_t *solid = rounds->solid.data;
+    double sum = 0.0;
+    for (int32_t i = 0; i < rounds->solids; i++) sum += (double)uphill[solid[i]];
+    return sum;
+}
+
+void rounds_run(World *world, const ContactFrame *contacts, int rounds)
+{
+    Acceleration acceleration = acceleration_begin(world);
+    bool more = rounds > 0 && world->dual.rounds.solids > 0;
+    for (int round = 1; more; round++) {
+        ListJob job = {world, world->kernels->dual_iterate, NULL, world->dual.rounds.solid.data};
+        pool_for(world->pool, world->dual.rounds.solids, BLOCK_GRAIN, run_list, &job);
+        more = round < rounds && !solver_time_is_up(world);
+        acceleration_next(&acceleration, uphill_of(world) > 0.0, more);
+        push_touched(world, contacts);
+    }
+}
