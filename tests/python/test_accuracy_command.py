@@ -138,6 +138,8 @@ def test_failed_settings_stay_in_rows_and_table() -> None:
     assert [row["stable"] for row in report.rows] == [False] * 4 + [True] * 5
     assert table(report).count("FAILED: it blew up at 1 s") == 4
     assert "error [%], discretisation: what is left" in legend(report)
+    # Nobody searched, so nobody knows what the solvers reach.
+    assert report.facts()["cut_short"] == [(8, "dual"), (8, "explicit"), (8, "paper")]
 
 
 def test_errors_are_split_by_the_converged_solution_which_is_computed_once() -> None:

@@ -120,7 +120,8 @@ class Sweep:
     _converged: dict[tuple[str, Setting], Measurement] = field(default_factory=dict)
 
     def run(self, case: Case, settings: list[Setting]) -> CaseReport:
-        """One row per setting, in their order. Rows keep what failed, marked."""
+        """One row per setting, in their order. Rows keep what failed, marked. Nobody searched: what a solver does not reach
+        with these settings it may reach with others."""
         measurements, rows = [], []
         with progress_bar(sum(item.work for item in settings), "work", case.name) as bar:
             for setting in settings:
@@ -129,7 +130,8 @@ class Sweep:
                 measurements.append(measurement)
                 rows.append(row_of(case, setting, measurement, self._reference(case, setting)))
                 bar.update(setting.work)
-        return CaseReport(case, settings, measurements, rows)
+        tried = {(setting.cells, setting.solver) for setting in settings if case.searched}
+        return CaseReport(case, settings, measurements, rows, cut_short=sorted(tried))
 
     def search(self, case: Case, seconds: float, grids: Sequence[int] = ()) -> CaseReport:
         """The case's own sweep and what lies around the fronts of its solvers, for about ``seconds`` of processor time per
