@@ -144,7 +144,51 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
     return o;
 }
 
-void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts)
+/* How far [cells] apart a box and a plane may be of which it stands on one: nothing fits between them. */
+static const double STANDS = 0.1;
+
+/* Whether the face of a box on this side of its axis lies on a plane or behind it. */
+static bool stands_on(const Solid *box, int axis, double side, const Solid *plane, double cell_size)
+{
+    double facing = 0.0, above = 0.0;
+    for (int a = 0; a < box->dimension; a++) {
+        const double outward = side * box->rotation[3 * a + axis];
+        facing += plane->normal[a] * outward;
+        above += plane->normal[a] * (box->position[a] + outward * box->half_extents[axis] - plane->position[a]);
+    }
+    return facing < -1.0 + 1e-6 && above < STANDS * cell_size;
+}
+
+static void lengthen(Solid *box, int axis, double side, double by)
+{
+    for (int a = 0; a < box->dimension; a++) box->position[a] += side * 0.5 * by * box->rotation[3 * a + axis];
+    box->half_extents[axis] += 0.5 * by;
+}
+
+/* What gets into a box that stands on a plane must not be let out through the face on the plane, which would put it back into the box: matter
+ * would seep along below. So the box goes on behind the plane, farther than it is wide. */
+static void go_on_behind(Obstacle *box, const Obstacle *plane, double cell_size)
+{
+    double size = 0.0;
+    for (int a = 0; a < box->start.dimension; a++) size += 2.0 * box->start.half_extents[a];
+    for (int axis = 0; axis < box->start.dimension; axis++) {
+        for (double side = -1.0; side < 2.0; side += 2.0) {
+            if (!stands_on(&box->start, axis, side, &plane->start, cell_size)) continue;
+            if (!stands_on(&box->end, axis, side, &plane->end, cell_size)) continue;
+            lengthen(&box->start, axis, side, size);
+            lengthen(&box->end, axis, side, size);
+        }
+    }
+}
+
+static void close_below(Obstacle *obstacle, int count, double cell_size)
+{
+    for (int b = 0; b < count; b++)
+        for (int p = 0; p < count && obstacle[b].start.kind == PBMPM_BOX; p++)
+            if (obstacle[p].start.kind == PBMPM_PLANE) go_on_behind(&obstacle[b], &obstacle[p], cell_size);
+}
+
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, double cell_size, int part, int parts)
 {
     int count = 0;
     colliders->measures = domain->enabled && domain->measures;
@@ -160,6 +204,7 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         colliders->obstacle[count++] = domain_wall(domain, dimension, axis, true);
     }
     colliders->obstacle_count = count;
+    close_below(colliders->obstacle, count, cell_size);
 }
 
 void colliders_end_step(Colliders *colliders)

@@ -72,14 +72,14 @@ bool collider_moves(const Collider *collider);
 /* A live collider during part `part` of `parts` of a step. */
 Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts);
 
-/* The obstacles of part `part` of `parts` of a step. */
+/* The obstacles of part `part` of `parts` of a step. Boxes that stand on a plane or a wall go on behind it. */
 typedef struct Domain {
     bool enabled;
     bool measures; /* its walls' impulses */
     double low[3], high[3]; /* [m] */
     float friction;
 } Domain;
-void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts);
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, double cell_size, int part, int parts);
 /* After the last part: the targets are reached. */
 void colliders_end_step(Colliders *colliders);
 

@@ -123,7 +123,7 @@ static void keep_places(void *context, int32_t begin, int32_t end)
 static pbmpm_result empty_substep(World *world, int part)
 {
     grid_clear(&world->grid);
-    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, (double)world->def.cell_size, part, world->settings.substeps);
     return PBMPM_OK;
 }
 
@@ -161,7 +161,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     if (mirrored && (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size) ||
                      !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
-    colliders_begin_substep(&world->colliders, &domain, world->def.dimension, part, world->settings.substeps);
+    colliders_begin_substep(&world->colliders, &domain, world->def.dimension, (double)world->def.cell_size, part, world->settings.substeps);
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
     if (result != PBMPM_OK) return result;

@@ -119,7 +119,7 @@ static void predict(Scene *scene)
     const uint32_t mode = float_mode_enter();
     solver_predict(world);
     float_mode_leave(mode);
-    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, 0, 1);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, (double)world->def.cell_size, 0, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&contacts, &world->memory, world->pool));
     contacts_open_volume(&contacts, world->pool, true);
 }

@@ -203,7 +203,7 @@ static void node_point(const Setting *s, int32_t block, int node, double point[3
 
 static void find_and_apply(Setting *s, int part, int parts)
 {
-    colliders_begin_substep(&s->colliders, &s->domain, s->grid.dimension, part, parts);
+    colliders_begin_substep(&s->colliders, &s->domain, s->grid.dimension, CELL_SIZE, part, parts);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&s->frame, &s->memory, s->pool));
     contacts_apply(&s->frame, 0, s->grid.node_blocks);
 }
@@ -433,7 +433,7 @@ static void test_failing_search(void)
         setting_open(&s, 3, 3);
         add_collider(&s, &plane, PBMPM_FRICTION_COULOMB);
         set_nodes(&s, (const float[3]){0, -1, 0});
-        colliders_begin_substep(&s.colliders, &s.domain, 3, 0, 1);
+        colliders_begin_substep(&s.colliders, &s.domain, 3, CELL_SIZE, 0, 1);
         s.books.fail_at = s.books.calls + fail;
         result = contacts_find(&s.frame, &s.memory, s.pool);
         if (result != PBMPM_OK) {
