@@ -338,6 +338,40 @@ static void test_walls_hold_matter_in(void)
     check_walls_hold(3, PBMPM_ELASTIC);
 }
 
+/* Water beside a box that stands on the floor of the domain does not seep below it, and what gets onto the floor stays out. */
+static void check_nothing_seeps_below(int32_t dimension, pbmpm_solver solver)
+{
+    pbmpm_world_def def = default_world(dimension, 0.1f, 8192);
+    def.domain_enabled = 1;
+    def.domain_max[0] = 1.6f;
+    def.domain_max[1] = 1.0f;
+    def.domain_max[2] = 0.4f;
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.solver = solver;
+    settings.iterations = 10;
+    OK(pbmpm_world_set_settings(world, &settings));
+    set_gravity(world, 0, -9.81f, 0);
+    const pbmpm_shape box = box_shape(0.8f, 0.2f, 0.2f, 0.3f, 0.2f, 0.2f);
+    create_collider(world, box, false);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    fill_shape(world, water, box_shape(0.25f, 0.3f, 0.2f, 0.25f, 0.3f, 0.2f), at_rest);
+    fill_shape(world, water, box_shape(1.35f, 0.3f, 0.2f, 0.25f, 0.3f, 0.2f), at_rest);
+    for (int i = 0; i < 240; i++) OK(pbmpm_world_step(world, 1.0f / 120));
+    const pbmpm_view position = view_of(world, PBMPM_POSITION);
+    for (uint32_t p = 0; p < position.count; p++)
+        TEST_ASSERT_TRUE(fabsf(view_float(&position, p, 0) - 0.8f) > 0.3f - 1e-5f || view_float(&position, p, 1) > 0.4f - 1e-5f);
+    OK(pbmpm_world_destroy(world));
+}
+
+static void test_nothing_seeps_below_a_box(void)
+{
+    check_nothing_seeps_below(2, PBMPM_SOLVER_PAPER);
+    check_nothing_seeps_below(2, PBMPM_SOLVER_DUAL);
+    check_nothing_seeps_below(3, PBMPM_SOLVER_DUAL);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -355,5 +389,6 @@ int main(void)
     RUN_TEST(test_a_moving_obstacle_takes_matter_along);
     RUN_TEST(test_the_speed_of_an_obstacle_is_clamped);
     RUN_TEST(test_walls_hold_matter_in);
+    RUN_TEST(test_nothing_seeps_below_a_box);
     return UNITY_END();
 }

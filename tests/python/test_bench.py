@@ -9,10 +9,23 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from click.testing import CliRunner
 
 from pbmpm.app.bench import lake
+from pbmpm.app.bench.command import bench
 from pbmpm.app.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
 from pbmpm.app.bench.measure import Costs, measure, pieces
+from pbmpm.app.bench.pool import (
+    AWAKE_STEPS,
+    PACES,
+    PATIENCE,
+    PoolCosts,
+    measure_pool,
+    pool_pieces,
+    pool_row,
+    pool_scene,
+    pool_text,
+)
 from pbmpm.app.bench.report import ratios_of, row_of
 from pbmpm.app.bench.subjects import ITERATIONS, MATERIALS, VARIANTS, applies, scene_of
 from pbmpm.app.scene import load_scene
@@ -153,3 +166,38 @@ def test_what_a_jelly_costs_over_its_share() -> None:
     assert row["jelly"] == {"particles": 10, "ms_per_step_min": pytest.approx(2.0)}
     assert lake_text([row]).startswith("dual: lake of 1000 particles 100.00 ms, jelly of 10 particles 2.00 ms,")
     assert "together +5.0 % over the sum" in lake_text([row])
+
+
+def test_the_pool_is_that_of_the_sample(root: Path) -> None:
+    sample = load_scene(root / "samples" / "scenes" / "bench_pool_3d.json")
+    assert pool_scene("dual").model_dump(exclude={"name", "description"}) == sample.model_dump(exclude={"name", "description"})
+
+
+@pytest.mark.parametrize("solver", list(PACES))
+def test_a_small_pool_sleeps_and_a_drop_wakes_a_part_of_it(solver: str) -> None:
+    """48 x 6 x 8 cells; what the drop does not reach keeps every bit."""
+    ticks: list[None] = []
+    costs = measure_pool(solver, 1, lambda: ticks.append(None), (2.4, 0.3, 0.4))
+    assert len(ticks) == pool_pieces()
+    assert costs.particles == 8 * 48 * 6 * 8
+    assert 0.0 < costs.until_asleep < PATIENCE and 0.0 < costs.woken_for < PATIENCE
+    assert 0 < costs.changed < costs.particles / 2
+    assert 0 < costs.woken < costs.particles / 2
+    assert costs.farthest < 14.0  # two blocks and a few cells more
+    assert len(costs.awake) == AWAKE_STEPS and min(costs.awake) > 0.0
+
+
+def test_the_figures_of_a_pool() -> None:
+    costs = PoolCosts("paper", 1000, 2.0, [0.050, 0.040, 0.300], [0.002, 0.001, 0.009], 80, 0.5, 60, 7.25)
+    assert costs.ratio == pytest.approx(25.0)
+    row = pool_row(costs)
+    assert (row["rate_hz"], row["iterations"]) == PACES["paper"]
+    assert row["ms_per_step_awake"] == pytest.approx(50.0) and row["ms_per_step_asleep"] == pytest.approx(2.0)
+    text = pool_text([row])
+    assert "50.00 ms awake and 2.0000 ms asleep, 25 times less" in text
+    assert "wakes at most 80 particles" in text and "60 are not where or what they were, the farthest 7.2 cells" in text
+
+
+@pytest.mark.parametrize("options", [["--pool", "--lake"], ["--pool", "--solvers", "explicit"]])
+def test_a_pool_that_is_not_measured_is_refused(options: list[str]) -> None:
+    assert CliRunner().invoke(bench, options).exit_code == 2

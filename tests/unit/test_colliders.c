@@ -400,6 +400,60 @@ static void test_particles_are_pushed_out(void)
     setting_close(&s);
 }
 
+/* ---- Boxes that stand on something ---- */
+
+/* The obstacle of a box on a turned plane, `above` cells over it, that goes `way` cells along the plane in the substep. */
+static Obstacle standing_box(double above, float way, bool with_plane)
+{
+    static Setting s;
+    const float turned[4] = {0, 0, sinf(0.25f), cosf(0.25f)};
+    const double along[2] = {cos(0.5), sin(0.5)}, up[2] = {-sin(0.5), cos(0.5)};
+    setting_open(&s, 2, 3);
+    pbmpm_shape box = shape_defaults(), plane = shape_defaults();
+    plane.kind = PBMPM_PLANE;
+    for (int a = 0; a < 2; a++) plane.normal[a] = (float)up[a];
+    for (int a = 0; a < 2; a++) box.position[a] = (float)(up[a] * (0.5 + above * CELL_SIZE)); /* half extents 0.5 */
+    memcpy(box.rotation, turned, sizeof turned);
+    const pbmpm_collider_id id = add_collider(&s, &box, PBMPM_FRICTION_SLIP);
+    if (with_plane) add_collider(&s, &plane, PBMPM_FRICTION_SLIP);
+    for (int a = 0; a < 2; a++) box.position[a] += way * (float)(along[a] * CELL_SIZE);
+    collider_place(colliders_find(&s.colliders, id), box.position, box.rotation, false);
+    colliders_begin_substep(&s.colliders, &s.domain, 2, CELL_SIZE, 0, 1);
+    const Obstacle found = s.colliders.obstacle[0];
+    setting_close(&s);
+    return found;
+}
+
+/* Just above the plane, under the middle of the box, there is no way out downwards; a box in the air has one. */
+static void test_a_box_that_stands_is_closed_below(void)
+{
+    const double above[] = {0.0, -0.5, 0.05, 0.3};
+    for (int i = 0; i < 4; i++) {
+        const Obstacle o = standing_box(above[i], 0.5f, true);
+        const bool stands = above[i] < 0.1;
+        const double point[3] = {-sin(0.5) * 0.2, cos(0.5) * 0.2, 0.0};
+        double normal[3];
+        const Solid *solids[] = {&o.start, &o.end};
+        for (int k = 0; k < 2; k++) {
+            const double distance = solid_distance(solids[k], point, normal), upward = -sin(0.5) * normal[0] + cos(0.5) * normal[1];
+            TEST_ASSERT_DOUBLE_WITHIN(1e-6, stands ? 0.0 : -1.0, upward < -0.5 ? -1.0 : 0.0);
+            if (stands) TEST_ASSERT_TRUE(distance < -0.2); /* to a side or the top */
+        }
+    }
+}
+
+/* What goes on behind the plane moves as the box does. */
+static void test_a_standing_box_moves_as_any(void)
+{
+    const Obstacle plain = standing_box(0.0, 0.5f, false), standing = standing_box(0.0, 0.5f, true);
+    const double point[3] = {0.3, 0.4, 0.0};
+    float expected[3], motion[3];
+    obstacle_motion(&plain, point, CELL_SIZE, LIMIT, expected);
+    obstacle_motion(&standing, point, CELL_SIZE, LIMIT, motion);
+    TEST_ASSERT_TRUE(fabsf(expected[0]) > 0.4f);
+    for (int a = 0; a < 3; a++) TEST_ASSERT_FLOAT_WITHIN(1e-5f, expected[a], motion[a]);
+}
+
 /* ---- Slots ---- */
 
 static void test_slots_and_generations(void)
@@ -458,6 +512,8 @@ int main(void)
     RUN_TEST(test_motion_of_obstacles_is_clamped);
     RUN_TEST(test_teleported_obstacles_do_not_push);
     RUN_TEST(test_particles_are_pushed_out);
+    RUN_TEST(test_a_box_that_stands_is_closed_below);
+    RUN_TEST(test_a_standing_box_moves_as_any);
     RUN_TEST(test_slots_and_generations);
     RUN_TEST(test_failing_search);
     return UNITY_END();
