@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy import granular
+from pbmpm.app.accuracy import granular, slump
 from pbmpm.app.accuracy.registry import find_cases
 
 SOLVERS = [pbmpm.Solver.PAPER, pbmpm.Solver.DUAL, pbmpm.Solver.PRIMAL, pbmpm.Solver.EXPLICIT]
@@ -130,6 +130,25 @@ def test_the_column_collapses_as_in_experiments() -> None:
     for measure in case.error_kinds:
         error = errors[measure.name]
         assert error is not None and error <= measure.tolerance, (setting.text(), measure.name)
+
+
+def test_a_column_slumps_as_theory_says() -> None:
+    (case,) = find_cases(["slump"])
+    (setting,) = case.sweep(quick=True)
+    errors = case.measure(setting).errors
+    for measure in case.error_kinds:
+        error = errors[measure.name]
+        assert error is not None and error <= measure.tolerance, (measure.name, error)
+
+
+def test_the_theory_of_the_slump() -> None:
+    """Nothing yields in a column that is not higher than h0; one twice as high as h0 loses half of its height but for ln(2) / 2."""
+    assert slump.theory(0.5) == slump.theory(0.7) == 0.0
+    assert slump.theory(0.25) == pytest.approx(0.5 - 0.5 * math.log(2.0))
+    assert slump.theory(1e-9) == pytest.approx(1.0, abs=1e-6)
+    shear_modulus = slump.YOUNG_MODULUS / (2.0 * (1.0 + slump.POISSON_RATIO))
+    stress = math.sqrt(2.0) * shear_modulus * slump.yield_strain_of(0.2)
+    assert stress == pytest.approx(0.2 * slump.DENSITY * 9.81 * slump.HEIGHT)
 
 
 def test_the_middle_of_the_band_is_no_error() -> None:

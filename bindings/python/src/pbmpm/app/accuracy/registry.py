@@ -11,8 +11,9 @@ def all_cases() -> list[Case]:
     from . import elastic
     from .granular import GRANULAR_CASES
     from .liquid import LIQUID_CASES
+    from .slump import SLUMP_CASES
 
-    return [make() for make in (*LIQUID_CASES, *getattr(elastic, "ELASTIC_CASES", ()), *GRANULAR_CASES)]
+    return [make() for make in (*LIQUID_CASES, *getattr(elastic, "ELASTIC_CASES", ()), *GRANULAR_CASES, *SLUMP_CASES)]
 
 
 def find_cases(names: tuple[str, ...] | list[str]) -> list[Case]:
