@@ -65,7 +65,7 @@ static pbmpm_material_id random_material(pbmpm_world_id world, pbmpm_material_ki
     def.relaxation = random_float(&stream, 0.01f, 1.99f);
     def.viscosity = random_float(&stream, 0, 1);
     def.volume_feedback = random_float(&stream, 0, 1);
-    def.elasticity_ratio = random_float(&stream, 0, 1);
+    def.elasticity_ratio = random_float(&stream, 0.01f, 1);
     def.strain_policy = random_next(&stream) & 1 ? PBMPM_STRAIN_DELETE : PBMPM_STRAIN_CLAMP;
     def.strain_min = spread(1e-3, 1);
     def.strain_max = spread(1, 1e4);
@@ -75,6 +75,11 @@ static pbmpm_material_id random_material(pbmpm_world_id world, pbmpm_material_ki
     def.elastic_model = random_next(&stream) & 1 ? PBMPM_NEO_HOOKEAN : PBMPM_FIXED_COROTATED;
     def.young_modulus = spread(1e-3, 1e15);
     def.poisson_ratio = random_float(&stream, 0, 0.495f);
+    def.friction_angle = random_float(&stream, 0, 1.4f);
+    def.cohesion = random_next(&stream) & 1 ? random_float(&stream, 0, 0.5f) : 0;
+    def.volume_correction = random_next(&stream) & 1;
+    def.yield_strain = random_next(&stream) & 1 ? spread(1e-6, 10) : 0;
+    def.flow_rate = random_next(&stream) & 1 ? spread(1e-6, 1e9) : 0;
     OK(pbmpm_material_create(world, &def, &material));
     return material;
 }
@@ -98,7 +103,7 @@ static void add_clump(pbmpm_world_id world, pbmpm_material_kind kind, bool compr
     def.positions = positions;
     def.velocities = velocities;
     OK(pbmpm_particles_add(world, &def, ids));
-    if (kind == PBMPM_ELASTIC)
+    if (kind != PBMPM_LIQUID)
         OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, ids, PARTICLES, deformations));
 }
 
@@ -120,7 +125,7 @@ static void live_through(const way *chosen, uint32_t seed)
     const pbmpm_world_id world = random_world(chosen, &cell_size);
     add_clump(world, PBMPM_LIQUID, compressible, cell_size);
     add_clump(world, PBMPM_ELASTIC, compressible, cell_size);
-    add_clump(world, PBMPM_ELASTIC, compressible, cell_size);
+    add_clump(world, random_next(&stream) & 1 ? PBMPM_SAND : PBMPM_VISCO, compressible, cell_size);
     add_obstacle(world, cell_size, &collider);
     for (int step = 0; step < STEPS; step++) {
         const float target[3] = {cell_size * random_float(&stream, -10, 10), 0, 0};
