@@ -1,6 +1,7 @@
 /* Sand and viscoplastic matter: what the return leaves of a strain, and what is cut off stresses, against the laws in double precision. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 #include <unity.h>
 
 #include "check.h"
@@ -176,6 +177,91 @@ static void test_nothing_changes_below_yield(void)
             }
 }
 
+/* ---- What no strain should be ---- */
+
+/* Every seventh matrix becomes one that a step would have caught before: no number, infinite, nothing at all, turned inside out. */
+static bool is_bad(int i) { return i % 7 == 3; }
+
+static void spoil(int dimension, float value)
+{
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 9 && is_bad(i); k++)
+            before[9 * i + k] = k / 3 < dimension && k % 3 < dimension ? (k % 4 == 0 ? value : 0.0f) : 0.0f;
+}
+
+/* Bad lanes change no others, and what is finite stays so. */
+static void check_bad_lanes(const KernelMaterial *material, bool stresses)
+{
+    static const float values[] = {NAN, INFINITY, -INFINITY, 0.0f, -1.0f, 1e-30f, 1e-3f, 1e4f};
+    static float clean[NUMBERS];
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            const Probes *probes = probes_for(isa, dimension);
+            check_subject("bad lanes", isa, dimension);
+            draw(dimension, 0.6, 1.5, 5);
+            (stresses ? probes->cut_all : probes->yield_all)(material, before, clean, COUNT);
+            for (size_t v = 0; v < sizeof values / sizeof *values; v++) {
+                draw(dimension, 0.6, 1.5, 5);
+                spoil(dimension, values[v]);
+                (stresses ? probes->cut_all : probes->yield_all)(material, before, after, COUNT);
+                for (int i = 0; i < NUMBERS; i++) {
+                    if (i % 9 / 3 >= dimension || i % 3 >= dimension) continue;
+                    if (!is_bad(i / 9)) check_true(clean[i] == after[i], "other lanes keep every bit", i);
+                    if (is_bad(i / 9) && isfinite(values[v])) check_true(isfinite(after[i]), "finite", i);
+                }
+            }
+        }
+}
+
+static void test_bad_lanes_disturb_nobody(void)
+{
+    KernelMaterial materials[] = {sand(0.0, 0.14), visco()};
+    for (int m = 0; m < 2; m++) {
+        materials[m].shear = 3.0f;
+        materials[m].dilation = 5.0f;
+        materials[m].relaxation = 1.5f;
+        check_bad_lanes(&materials[m], false);
+        check_bad_lanes(&materials[m], true);
+    }
+}
+
+/* At the ends of what a clamp leaves, with the third at any place between: by the law in double precision, or at least inside it. */
+static void test_extreme_strains_obey_the_law(void)
+{
+    const KernelMaterial materials[] = {sand(0.0, 0.14), visco()};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int m = 0; m < 2; m++)
+            EACH_ISA(isa)
+            {
+                Random random = {17};
+                check_subject("extreme strain", isa, dimension);
+                for (int i = 0; i < COUNT; i++) {
+                    double s[3], F[9];
+                    for (int a = 0; a < 3; a++) s[a] = exp(random_in(&random, log(0.1), log(20.0))); /* the default bounds */
+                    matrix_random_with_singular_values(&random, dimension, s, F);
+                    for (int k = 0; k < 9; k++) before[9 * i + k] = k / 3 < dimension && k % 3 < dimension ? (float)F[k] : 0.0f;
+                }
+                probes_for(isa, dimension)->yield_all(&materials[m], before, after, COUNT);
+                for (int i = 0; i < COUNT; i++) {
+                    double was[3], is[3];
+                    strains_of(dimension, before + 9 * i, was);
+                    strains_of(dimension, after + 9 * i, is);
+                    /* a singular value 200 times smaller than the largest is off by 200 roundings */
+                    const double rounding = 200.0 * 8.0 * FLT_EPSILON, trace = sum_of(dimension, was);
+                    check_near(m ? trace : fmin(trace, 0.14), sum_of(dimension, is), 3.0 * rounding, "trace", i);
+                    if (m) {
+                        const double size = deviator_of(dimension, was);
+                        check_near(size > YIELD ? YIELD + KEPT * (size - YIELD) : size, deviator_of(dimension, is), 3.0 * rounding, "deviator", i);
+                    } else {
+                        const double most = trace < 0.0 ? 1e-5 * RATIO * -trace : 0.0;
+                        check_true(trace >= 0.0 ? deviator_of(dimension, is) < 3.0 * rounding : mohr_coulomb(dimension, is, 0.0) <= 6.0 * rounding + most,
+                                   "inside the pyramid", i);
+                    }
+                }
+            }
+}
+
 /* ---- Stresses with opposite sign, in the iterations ---- */
 
 /* Symmetric, with principal values in [low, high]. */
@@ -232,6 +318,47 @@ static void test_stress_in_the_iterations_obeys_friction(void)
         }
 }
 
+static double size_of_deviator(int dimension, const float *from)
+{
+    double A[9];
+    read_matrix(from, A);
+    const double trace = matrix_trace(dimension, A), norm = matrix_norm(dimension, A);
+    return sqrt(fmax(0.0, norm * norm - trace * trace / dimension));
+}
+
+/* Iterated as the dual solver does, at a strain whose elastic stress is T, the multiplier comes to what is borne: within the bound T itself,
+ * beyond it the bound and the share KEPT of the excess; pressure stays. */
+static void test_multipliers_come_to_what_visco_bears(void)
+{
+    static float target[NUMBERS];
+    KernelMaterial material = visco();
+    material.shear = 3.0f;
+    material.dilation = 5.0f;
+    material.relaxation = 1.5f;
+    const float k = 2.0f * material.shear / material.relaxation;
+    const double bound = 2.0 * (double)material.shear * YIELD, error = 1e-4; /* roundings of 100 iterations, and (k / (1 + k))^100 = 2e-10 */
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            check_subject("multiplier", isa, dimension);
+            draw_stresses(dimension, -0.6, 0.6);
+            memcpy(target, before, sizeof target);
+            memset(after, 0, sizeof after);
+            for (int iteration = 0; iteration < 100; iteration++) {
+                for (int i = 0; i < NUMBERS; i++) before[i] = (k * after[i] + target[i]) / (1.0f + k);
+                probes_for(isa, dimension)->cut_all(&material, before, after, COUNT);
+            }
+            for (int i = 0; i < COUNT; i++) {
+                double T[9], S[9];
+                read_matrix(target + 9 * i, T);
+                read_matrix(after + 9 * i, S);
+                check_near(matrix_trace(dimension, T), matrix_trace(dimension, S), error, "pressure", i);
+                const double elastic = size_of_deviator(dimension, target + 9 * i);
+                check_near(elastic > bound ? bound + KEPT * (elastic - bound) : elastic, size_of_deviator(dimension, after + 9 * i), error, "borne", i);
+            }
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -240,6 +367,9 @@ int main(void)
     RUN_TEST(test_cohesion_holds_sand_together);
     RUN_TEST(test_visco_relaxes_at_constant_volume);
     RUN_TEST(test_nothing_changes_below_yield);
+    RUN_TEST(test_bad_lanes_disturb_nobody);
+    RUN_TEST(test_extreme_strains_obey_the_law);
     RUN_TEST(test_stress_in_the_iterations_obeys_friction);
+    RUN_TEST(test_multipliers_come_to_what_visco_bears);
     return UNITY_END();
 }
