@@ -47,7 +47,8 @@ typedef enum pbmpm_elastic_model {
  *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
  *  takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
  *  Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
- *  from the pressure at the start of the substep.
+ *  from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
+ *  hold the modulus: see pbmpm_material_effective().
  *
  *  The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
@@ -82,8 +83,8 @@ typedef struct pbmpm_material_def {
     float friction_angle;       /**< sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
                                      3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure. */
     float cohesion;             /**< sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry */
-    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart closes up again before it bears pressure; 0: it does not, and a heap
-                                     grows a little with each fall */
+    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart, up to three times its volume, closes up again before it bears
+                                     pressure; 0: it does not, and a heap grows with each fall */
     float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a

@@ -160,7 +160,7 @@ def test_nothing_is_written_without_being_asked(scene_file: Path, tmp_path: Path
         (("run", "small.json", "--nonsense"), "--nonsense"),
         (("run", "bad.json"), "bad.json: fills[0].shape.half_extents"),
         (("run", "empty.json"), "fills[0]: no particle fits"),
-        (("accuracy", "slump"), "slump"),
+        (("accuracy", "quicksand"), "quicksand"),
         (("accuracy", "column", "--rates", "a"), "not a list of numbers"),
     ],
 )
