@@ -386,8 +386,8 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
     holds_rub(p->contacts, p->gradient, p->base, p->node, block, block + 1);
 }
 
-/* First displacements: those of the predictor, or for a body that leans on something, without what gravity and forces add in the
- * substep, which are most likely balanced: a beam at rest starts at rest. */
+/* First displacements: those of the predictor, or for a solid body that leans on something, without what gravity and forces add in the
+ * substep, which are most likely balanced: a beam at rest starts at rest. Liquid leans on the floor while it falls over. */
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
@@ -395,7 +395,8 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
         multistep_predict(p->world, block, block + 1);
         memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     }
-    for (size_t i = begin; i < end && primal_body_of(p, block)->leans; i += W)
+    const bool balanced = primal_body_of(p, block)->leans && !primal_body_of(p, block)->with_liquid;
+    for (size_t i = begin; i < end && balanced; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
     holds_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
@@ -416,8 +417,9 @@ void primal_solve(World *world, const ContactFrame *contacts)
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     minimise(&p);
     primal_keep_energy(&p);
+    primal_find_kept(&p);
     forget_past(&p);
     primal_keep_momentum(&p);
     primal_over_blocks(&p, rub_and_write);
-    holds_book(contacts, p.gradient, p.best, p.node, p.base);
+    holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base);
 }

@@ -14,7 +14,9 @@
  *     sum m/2 |u|^2 - m g.u + Psi(u)  <=  sum m/2 |u* - g|^2 + Psi(0) + work of moving surfaces
  *
  * holds for the exact solution of a convex energy. Where it does not hold, the search goes on, then starts again from the
- * body's mean motion, as far as obstacles allow it; what still gains energy is moved towards that start. */
+ * body's mean motion, as far as obstacles allow it; what still gains energy is moved towards that start.
+ *
+ * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. */
 #ifndef PBMPM_SRC_PRIMAL_H
 #define PBMPM_SRC_PRIMAL_H
 
@@ -28,5 +30,8 @@ pbmpm_result primal_prepare(World *world);
 void primal_free(World *world);
 
 void primal_solve(World *world, const ContactFrame *contacts);
+
+/* After particles have moved: takes from the velocities of liquids what they have gained. */
+void primal_calm(World *world);
 
 #endif

@@ -37,6 +37,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
                 sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
             }
             sum[4 + c] += mass * free;
+            sum[8] += 0.5 * mass * u * u;
         }
     }
     sum[2] = holds_work(p->contacts, p->gradient, block);
@@ -59,15 +60,14 @@ static bool gained(const BodySum *body)
     return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * body->before;
 }
 
-/* Compares energies at p->best. Returns the number of bodies that gained. */
-static uint32_t check_bodies(Primal *p)
+uint32_t primal_check_bodies(Primal *p)
 {
     const PrimalState *state = &p->world->primal;
     const double *sums = state->sums.data;
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -76,13 +76,14 @@ static uint32_t check_bodies(Primal *p)
         b->before += sum[1];
         b->work += sum[2];
         b->mass += sum[3];
+        b->kinetic += sum[8];
         for (int c = 0; c < 3; c++) b->momentum[c] += sum[4 + c];
         b->touches = b->touches || sum[7] > 0.0;
         if (block >= p->world->grid.particle_blocks) continue;
         b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
         b->elastic += (double)energy[4 * block];
+        b->liquid += (double)energy[4 * block + 1];
         b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];
-        b->with_liquid = b->with_liquid || has_liquid(p->world, block);
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
         for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
@@ -95,7 +96,7 @@ static uint32_t check_bodies(Primal *p)
     return failed;
 }
 
-/* Moves failed bodies to `share` of the way from their start to the solution; the others are as they were. */
+/* A mean motion may lead through a floor; a liquid that leans starts from standing still. */
 static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
@@ -103,13 +104,13 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = (float)body->start[c];
+        const float start = body->with_liquid && body->leans ? 0.0f : (float)body->start[c];
         p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     holds_project(p->contacts, p->node, block, block + 1);
 }
 
-static void pull_back_to(Primal *p, float share)
+void primal_pull_back_to(Primal *p, float share)
 {
     p->share = share;
     primal_over_blocks(p, pull_back);
@@ -122,12 +123,12 @@ static void pull_back_to(Primal *p, float share)
 static void mend(Primal *p)
 {
     primal_descend_further(p); /* nearly there */
-    if (check_bodies(p) == 0) return;
-    pull_back_to(p, 0.0f);
+    if (primal_check_bodies(p) == 0) return;
+    primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
-    for (int halving = 0; check_bodies(p) > 0; halving++) {
-        pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
+    for (int halving = 0; primal_check_bodies(p) > 0; halving++) {
+        primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;
     }
 }
@@ -135,8 +136,7 @@ static void mend(Primal *p)
 void primal_keep_energy(Primal *p)
 {
     StepRecord *record = &p->world->record;
-    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    record->energy_checks_failed = check_bodies(p);
+    record->energy_checks_failed = primal_check_bodies(p);
     if (record->energy_checks_failed == 0) return;
     mend(p);
     record->residual = sqrt(fmax(primal_find_plain_direction(p), 0.0) / p->mass);
@@ -145,12 +145,13 @@ void primal_keep_energy(Primal *p)
 
 /* ---- Momentum ---- */
 
-/* Bodies at or in an obstacle. */
 void primal_find_leaning(Primal *p)
 {
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         if (holds_any(p->contacts, block)) primal_body_of(p, block)->leans = true;
+    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
+        if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
 }
 
 static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -179,7 +180,7 @@ void primal_keep_momentum(Primal *p)
     const PrimalState *state = &p->world->primal;
     BodySum *body = state->body_sums.data;
     const double *sums = state->sums.data;
-    primal_find_leaning(p);
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i].mass = body[i].momentum[0] = body[i].momentum[1] = body[i].momentum[2] = 0.0;
     primal_over_blocks(p, sum_momentum_error);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);

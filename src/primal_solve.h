@@ -17,10 +17,12 @@ typedef struct BodySum {
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
+    double liquid;            /* energy of the liquid particles */
+    double kinetic;           /* of the solution */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
-    float share;              /* of the way from the start to the solution */
+    float kept;               /* share of its velocities that a body with liquid keeps */
 } BodySum;
 
 /* One substep. Vectors have W floats per node; the last is not used. */
@@ -70,11 +72,27 @@ BodySum *primal_body_of(const Primal *p, int32_t block);
 /* Whether the block is stepped by BDF2. */
 bool primal_is_multistep(const Primal *p, int32_t block);
 
-/* Finds the bodies at or in an obstacle. */
+/* Finds the bodies at or in an obstacle, and those with liquid. */
 void primal_find_leaning(Primal *p);
+
+/* Compares energies at p->best. Returns the number of bodies that gained. */
+uint32_t primal_check_bodies(Primal *p);
+
+/* Moves failed bodies to `share` of the way from their start to the solution; the others stay as they are. */
+void primal_pull_back_to(Primal *p, float share);
 
 /* Mends the bodies whose solution has more energy than there was. */
 void primal_keep_energy(Primal *p);
+
+/* ---- primal_liquid.c ---- */
+
+/* Finds how much of their velocities bodies with liquid may keep, and pulls back those for which that is not enough. */
+void primal_find_kept(Primal *p);
+
+/* The displacements that make the velocities: p->node, or where bodies keep less, p->right. */
+const float *primal_kept_motion(Primal *p);
+
+/* ---- primal_bodies.c ---- */
 
 /* Gives bodies that lean on nothing the momentum that an unfinished solution kept from them. */
 void primal_keep_momentum(Primal *p);

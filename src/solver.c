@@ -250,4 +250,5 @@ void solver_integrate(World *world)
         pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, integrate_moving, world);
     else
         solver_over_particles(world, world->kernels->integrate);
+    if (world->record.solver == PBMPM_SOLVER_PRIMAL) primal_calm(world);
 }

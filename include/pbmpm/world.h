@@ -46,7 +46,8 @@ typedef enum pbmpm_solver {
                                       liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart. */
     PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
                                       preconditioner and a check that no body gains energy. A liquid takes part as a
-                                      compressible one. */
+                                      compressible one; what its unfinished solution gains is taken from its speed, so one that is far
+                                      stiffer than the iterations hold hardly moves: leave its bulk modulus at 0. */
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
     PBMPM_SOLVER_CONVERGENT = 4, /**< the dual while the world holds a particle of a liquid or of sand, else the primal */

@@ -154,7 +154,8 @@ namespace Pbmpm
         Dual = 1,
         /// <summary>the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
         /// preconditioner and a check that no body gains energy. A liquid takes part as a
-        /// compressible one.</summary>
+        /// compressible one; what its unfinished solution gains is taken from its speed, so one that is far
+        /// stiffer than the iterations hold hardly moves: leave its bulk modulus at 0.</summary>
         Primal = 2,
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>

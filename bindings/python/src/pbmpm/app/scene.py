@@ -11,7 +11,7 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal, Union
+from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
@@ -33,7 +33,7 @@ Iterations = Annotated[int, Field(ge=1, le=1000)]
 Milliseconds = Annotated[float, Field(ge=0, le=1e6)]
 Vector = Annotated[list[Finite], Field(min_length=2, max_length=3)]
 PositiveVector = Annotated[list[Positive], Field(min_length=2, max_length=3)]
-Rotation = Union[Finite, Annotated[list[Finite], Field(min_length=4, max_length=4)]]
+Rotation = Finite | Annotated[list[Finite], Field(min_length=4, max_length=4)]
 
 
 class _Part(BaseModel):

@@ -176,10 +176,6 @@ class KnownFailure:
         )
 
 
-#: Its check of energy is for elastic bodies.
-UNFINISHED_LIQUID = "the primal solver is made for elastic bodies: of liquids its unfinished iterates can gain energy"
-
-
 @dataclass(frozen=True)
 class HardCase:
     """A scene with a criterion. `function` runs it at a setting and returns its checks, the most telling one first."""

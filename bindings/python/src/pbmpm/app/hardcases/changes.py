@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pbmpm
 
-from .case import ELASTIC, LIQUID, PAPER, PRIMAL, SOLID_AND_LIQUID, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
+from .case import ELASTIC, PAPER, SOLID_AND_LIQUID, Check, HardCase, KnownFailure, Setting
 from .watch import Watch, highest_energy, make_world, potential_energy, total_energy, vector
 
 CELL = 0.2  # [m]
@@ -84,7 +84,6 @@ CASES = (
                 solvers=(PAPER,),
                 materials=(ELASTIC,),
             ),
-            KnownFailure(UNFINISHED_LIQUID, solvers=(PRIMAL,), materials=(LIQUID,), dimensions=(2,)),
         ),
     ),
     HardCase(

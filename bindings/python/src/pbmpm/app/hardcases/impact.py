@@ -6,7 +6,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import LIQUID, PRIMAL, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
+from .case import Check, HardCase, Setting
 from .volume import PRESS_CELL, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
 from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
@@ -179,16 +179,6 @@ def obstacles(setting: Setting) -> list[Check]:
     return OBSTACLES[setting.variant](setting)
 
 
-_KNOWN_IMPACTS = (
-    KnownFailure(
-        f"{UNFINISHED_LIQUID}: 0.1 %",
-        solvers=(PRIMAL,),
-        materials=(LIQUID,),
-        dimensions=(3,),
-        variants=tuple(f"0.5 cells/step, wall of {wall:g} cells" for wall in WALLS),
-    ),
-)
-
 CASES = (
     HardCase(
         "H08",
@@ -197,7 +187,6 @@ CASES = (
         "nothing through or inside the wall, kinetic energy never above the start's",
         hit_wall,
         variants=tuple(IMPACTS),
-        known_failures=_KNOWN_IMPACTS,
     ),
     HardCase(
         "H16",

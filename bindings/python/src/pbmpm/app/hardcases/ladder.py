@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pbmpm
 
-from .case import ALL_KINDS, LIQUID, PRIMAL, UNFINISHED_LIQUID, Check, HardCase, KnownFailure, Setting
+from .case import ALL_KINDS, Check, HardCase, Setting
 from .watch import Watch, highest_energy, make_world, vector
 
 # H02
@@ -41,23 +41,5 @@ CASES = (
         climb,
         materials=ALL_KINDS,
         ladder=tuple((rate, count) for rate in RATES for count in ITERATIONS),
-        known_failures=(
-            KnownFailure(
-                f"{UNFINISHED_LIQUID}: up to 5.5 % at 120 Hz x 1",
-                solvers=(PRIMAL,),
-                materials=(LIQUID,),
-                dimensions=(2,),
-                rates=(120.0, 240.0, 480.0, 1200.0),
-                most_iterations=1,
-            ),
-            KnownFailure(
-                f"{UNFINISHED_LIQUID}: up to 5.5 % at 1200 Hz x 2",
-                solvers=(PRIMAL,),
-                materials=(LIQUID,),
-                dimensions=(2,),
-                rates=(480.0, 1200.0),
-                most_iterations=2,
-            ),
-        ),
     ),
 )

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache
 
 import numpy as np
 
@@ -105,7 +105,7 @@ class TaylorGreen(Case):
         return run, energies[-1] / energies[0]
 
 
-@lru_cache(maxsize=None)
+@cache
 def _energy_after_one_iteration(case: TaylorGreen, setting: Setting) -> float:
     """The share of the energy that is left, measured once per rate and grid."""
     return case._run(setting)[1]

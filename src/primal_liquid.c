@@ -1,0 +1,97 @@
+/* What liquids gain in the primal solver.
+ *
+ * A pressure that was not solved to the end leaves a liquid with more energy than it had, and starting again from less motion would freeze
+ * it: nearly every solution of a stiff liquid is unfinished. So particles go where the solution leads, and what their body gained is taken from
+ * its kinetic energy: velocities keep the share s of what they differ from the body's mean (of a body that leans on something: of zero),
+ *
+ *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
+ *
+ * A solution that gained more than its kinetic energy is first moved towards the body's start. */
+#include <math.h>
+
+#include "holds.h"
+#include "primal_solve.h"
+
+static const double ROUNDING = 1e-6; /* of the energy before, that no velocity has to pay for */
+
+static bool has_mean(const BodySum *body) { return !body->leans && !body->touches; }
+
+/* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
+static bool find_share(BodySum *body)
+{
+    double kinetic = body->kinetic;
+    const double gain = body->after - body->before - body->work;
+    for (int c = 0; c < 3 && has_mean(body); c++) kinetic -= 0.5 * body->mass * body->start[c] * body->start[c];
+    body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
+    return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
+}
+
+static bool all_can_pay(Primal *p)
+{
+    BodySum *body = p->world->primal.body_sums.data;
+    bool can = true;
+    primal_check_bodies(p);
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+        body[i].kept = 1.0f;
+        body[i].failed = body[i].with_liquid && !find_share(&body[i]);
+        can = can && !body[i].failed;
+    }
+    return can;
+}
+
+void primal_find_kept(Primal *p)
+{
+    enum { HALVINGS = 3 };
+    if (!solver_holds_liquid(p->world)) return;
+    for (int halving = 0; halving <= HALVINGS && !all_can_pay(p); halving++) primal_pull_back_to(p, halving < HALVINGS ? 0.5f : 0.0f);
+}
+
+static float kept_of(const BodySum *body, int axis, float u)
+{
+    const float mean = has_mean(body) ? (float)body->start[axis] : 0.0f;
+    return mean + body->kept * (u - mean);
+}
+
+static void keep_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = primal_body_of(p, block);
+    const bool keeps_all = !body->with_liquid || body->kept == 1.0f;
+    (void)sum;
+    for (size_t i = begin; i < end; i++) p->right[i] = keeps_all || i % W == 3 ? p->node[i] : kept_of(body, (int)(i % W), p->node[i]);
+}
+
+const float *primal_kept_motion(Primal *p)
+{
+    if (!solver_holds_liquid(p->world)) return p->node;
+    primal_over_blocks(p, keep_motion);
+    return p->right;
+}
+
+static void calm_block(World *world, const BodySum *body, int32_t block)
+{
+    const uint32_t *begin = world->grid.block_begin.data;
+    Particles *particles = &world->particles;
+    const float to_cells = world->args.dt * world->args.cells_per_metre;
+    for (int a = 0; a < particles->dimension; a++) {
+        for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
+            particles->velocity[a][row] = kept_of(body, a, particles->velocity[a][row] * to_cells) / to_cells;
+        for (int c = 0; c < particles->dimension; c++)
+            for (uint32_t row = begin[block]; row < begin[block + 1]; row++) particles->affine[a * 3 + c][row] *= body->kept;
+    }
+}
+
+static void calm_blocks(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    const BodySum *bodies = world->primal.body_sums.data;
+    const int32_t *of_block = world->primal.bodies.of_block.data;
+    for (int32_t block = begin; block < end; block++) {
+        const BodySum *body = &bodies[of_block[block]];
+        if (body->with_liquid && body->kept < 1.0f) calm_block(world, body, block);
+    }
+}
+
+void primal_calm(World *world)
+{
+    if (solver_holds_liquid(world)) pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
+}
