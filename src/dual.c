@@ -137,15 +137,18 @@ static void push(World *world, const ContactFrame *contacts, bool cells)
     world->args.momentum = momentum;
 }
 
-/* Pressures that balance what is wrong over the depth of a pool. Where that fails, as in a closed box that is too full, they are taken back. */
+/* Pressures that balance what is wrong over the depth of a pool. Where that fails they are taken back. Meanwhile elastic particles have no
+ * stress, and what liquids remember is not asked for. */
 static void guess(World *world, const ContactFrame *contacts, int iterations)
 {
     guess_begin(world, contacts);
+    world->args.probing = 1;
     push(world, contacts, true);
-    const double before = guess_measure(world, contacts);
-    guess_solve(world, contacts, iterations, before);
+    world->args.probing = 0;
+    const double before = guess_gain(world);
+    guess_solve(world, contacts, iterations);
     push(world, contacts, true);
-    if (guess_measure(world, contacts) < before) return;
+    if (guess_gain(world) >= before) return;
     guess_take_back(world);
     push(world, contacts, true);
 }

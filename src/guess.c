@@ -9,12 +9,16 @@
 /* Arrays of cells: residual, preconditioned residual, direction, response, pressure before, mask, softness. */
 enum { GUESS_ARRAYS = 7 };
 
+/* Sums of a loop over cells; blocks that a thread takes at once; sums side by side, which divide the cells of a block. */
+enum { SUMS = 2, GRAIN = 8, LANES = 4 };
+
 pbmpm_result guess_prepare(World *world)
 {
     Grid *grid = &world->grid;
     GuessState *guess = &world->guess;
     const size_t nodes = (size_t)grid->node_blocks * (size_t)grid->block_cells;
     if (array_reserve(&world->memory, &guess->cells, GUESS_ARRAYS * nodes, sizeof(float)) &&
+        array_reserve(&world->memory, &guess->sums, SUMS * (size_t)grid->node_blocks, sizeof(double)) &&
         multilevel_build(&guess->multilevel, &world->memory, grid, 1, LEVELS_BEYOND))
         return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the coarse grids of %d blocks", grid->node_blocks);
@@ -23,6 +27,7 @@ pbmpm_result guess_prepare(World *world)
 void guess_free(World *world)
 {
     array_free(&world->memory, &world->guess.cells);
+    array_free(&world->memory, &world->guess.sums);
     multilevel_free(&world->guess.multilevel, &world->memory);
 }
 
@@ -40,28 +45,76 @@ static const float GUESS_GROWTH_MAX = 0.05f;
 
 static float growth_share(const World *world) { return fminf(1.0f, 60.0f * world->args.dt); }
 
-/* The arrays of the conjugate gradients, one value per cell. */
+/* The arrays of the conjugate gradients, one value per cell, and the numbers of an iteration. */
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
-    size_t cells;
     float *residual, *better, *direction, *response, *before, *mask, *soft;
+    float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
 } Guess;
 
 static Guess guess_of(World *world, const ContactFrame *contacts)
 {
     const size_t n = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     float *cells = world->guess.cells.data;
-    return (Guess){world,         contacts,      n,             cells,         cells + n,
-                   cells + 2 * n, cells + 3 * n, cells + 4 * n, cells + 5 * n, cells + 6 * n};
+    return (Guess){.world = world,
+                   .contacts = contacts,
+                   .residual = cells,
+                   .better = cells + n,
+                   .direction = cells + 2 * n,
+                   .response = cells + 3 * n,
+                   .before = cells + 4 * n,
+                   .mask = cells + 5 * n,
+                   .soft = cells + 6 * n,
+                   .least = least_softness(world)};
 }
 
-static double dot(const Guess *g, const float *a, const float *b)
+/* ---- Loops over cells: per block, with sums that are the same for any number of threads ---- */
+
+/* Works on the cells [begin, end) of a block, and adds what they contribute to the sums. */
+typedef void CellWork(const Guess *g, size_t begin, size_t end, double *sum);
+
+typedef struct CellJob {
+    const Guess *guess;
+    CellWork *work;
+} CellJob;
+
+static void work_on_blocks(void *context, int32_t begin, int32_t end)
+{
+    const CellJob *job = context;
+    const World *world = job->guess->world;
+    const size_t cells = (size_t)world->grid.block_cells;
+    for (int32_t block = begin; block < end; block++) {
+        double *sum = (double *)world->guess.sums.data + SUMS * (size_t)block;
+        for (int k = 0; k < SUMS; k++) sum[k] = 0.0;
+        job->work(job->guess, (size_t)block * cells, ((size_t)block + 1) * cells, sum);
+    }
+}
+
+/* The sums, in the order of the blocks. */
+typedef struct Totals {
+    double sum[SUMS];
+} Totals;
+
+static Totals over_cells(const Guess *g, CellWork *work)
+{
+    CellJob job = {g, work};
+    const World *world = g->world;
+    const double *sums = world->guess.sums.data;
+    Totals totals = {{0}};
+    pool_for(world->pool, world->grid.node_blocks, GRAIN, work_on_blocks, &job);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++)
+        for (int k = 0; k < SUMS; k++) totals.sum[k] += sums[SUMS * (size_t)block + (size_t)k];
+    return totals;
+}
+
+static double dot(const Guess *g, const float *a, const float *b, size_t begin, size_t end)
 {
     const float *mass = g->world->args.cell_mass;
-    double sum = 0.0;
-    for (size_t i = 0; i < g->cells; i++) sum += (double)(mass[i] * a[i] * b[i]);
-    return sum;
+    double sum[LANES] = {0};
+    for (size_t i = begin; i < end; i += LANES)
+        for (size_t k = 0; k < LANES; k++) sum[k] += (double)(mass[i + k] * a[i + k] * b[i + k]);
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
 static void hold_nodes(void *context, int32_t begin, int32_t end) { contacts_hold(context, begin, end); }
@@ -74,7 +127,9 @@ static void respond(const Guess *g, float *of)
     ContactFrame contacts = *g->contacts;
     float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
     a->cell_pressure = a->cell_pressure_old = of;
+    a->probing = 1;
     solver_over_particles(world, world->kernels->cells_push);
+    a->probing = 0;
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);
     mirrors_apply(&world->mirrors, &world->grid, NULL);
     pool_for(world->pool, world->grid.node_blocks, 4, hold_nodes, &contacts);
@@ -93,116 +148,225 @@ static void trace(const Guess *g)
     world->args.probing = 0;
 }
 
+/* 4 m |u|^2. Over nodes that hold the response to pressures s it sums up to sum_c m_c s_c r_c, with r the means of tr D: both transfers are each
+ * other's transpose. */
+static float energy_of_node(const float *u) { return 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]); }
+
+/* ---- The preconditioner ---- */
+
 /* In a closed box that is full a constant pressure moves nothing, and no pressure answers to a volume that does not fit: the solution would
  * grow without bound. The surface of matter n cells deep gives a constant pressure an energy of about 0.45 / n per mass. */
-static bool is_closed(const Guess *g, const float *load)
-{
-    double energy = 0.0, mass = 0.0;
-    for (size_t i = 0; i < g->cells; i++) {
-        energy += (double)load[i];
-        mass += (double)g->world->args.cell_mass[i];
-    }
-    return energy * matter_depth(g->world) < 0.05 * mass;
-}
+static bool is_closed(const World *world, double energy, double mass) { return energy * matter_depth(world) < 0.05 * mass; }
 
-/* Takes the mean over the mask from a field, if the box is closed. */
-static void take_mean(const Guess *g, float *field)
+static void press_everywhere(const Guess *g, size_t begin, size_t end, double *sum)
 {
-    if (!g->world->guess.closed) return;
-    const double mean = dot(g, field, g->mask) / fmax(dot(g, g->mask, g->mask), 1e-300);
-    for (size_t i = 0; i < g->cells; i++) field[i] -= (float)mean * g->mask[i];
+    (void)sum;
+    const float *mass = g->world->args.cell_mass;
+    for (size_t i = begin; i < end; i++) g->response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
 }
 
 /* The energy of a pressure field s is 4 sum_i m_i |u_i|^2 with m_i u_i = sum_p m w s (x_i - x_p). Where matter is all around, that is
  * -m_i grad s / 4; at a surface s itself counts, by the displacement that a pressure of 1 everywhere gives. */
+static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    const float *node = g->world->grid.node.data, *mass = g->world->args.cell_mass;
+    float *stiffness = g->better, *load = g->direction;
+    for (size_t i = begin; i < end; i++) {
+        const float *u = node + i * K_NODE_WIDTH;
+        g->soft[i] = g->world->args.cell_softness[i] + g->least;
+        stiffness[i] = u[3];
+        load[i] = energy_of_node(u) + mass[i] * g->soft[i];
+        sum[0] += (double)load[i];
+        sum[1] += (double)mass[i];
+    }
+}
+
 void guess_begin(World *world, const ContactFrame *contacts)
 {
     const Guess g = guess_of(world, contacts);
-    float *stiffness = g.better, *load = g.direction;
-    const float *node = world->grid.node.data, *mass = world->args.cell_mass;
-    const float least = least_softness(world);
-    for (size_t i = 0; i < g.cells; i++) g.response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
+    over_cells(&g, press_everywhere);
     respond(&g, g.response);
-    for (size_t i = 0; i < g.cells; i++) {
-        const float *u = node + i * K_NODE_WIDTH;
-        g.soft[i] = world->args.cell_softness[i] + least;
-        stiffness[i] = u[3];
-        load[i] = 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) + mass[i] * g.soft[i];
-    }
-    multilevel_weigh(&world->guess.multilevel, world->pool, load, stiffness, 1.0);
-    world->guess.closed = is_closed(&g, load);
+    const Totals totals = over_cells(&g, weigh_cells);
+    multilevel_weigh(&world->guess.multilevel, world->pool, g.direction, g.better, 1.0);
+    world->guess.closed = is_closed(world, totals.sum[0], totals.sum[1]);
 }
 
-/* better = B residual, among the cells of the mask. */
-static void precondition(const Guess *g)
+static void sum_over_mask(const Guess *g, const float *field, size_t begin, size_t end, double *sum)
+{
+    sum[0] += dot(g, field, g->mask, begin, end);
+    sum[1] += dot(g, g->mask, g->mask, begin, end);
+}
+
+static void sum_residual(const Guess *g, size_t begin, size_t end, double *sum) { sum_over_mask(g, g->residual, begin, end, sum); }
+
+static void sum_better(const Guess *g, size_t begin, size_t end, double *sum) { sum_over_mask(g, g->better, begin, end, sum); }
+
+static float mean_of(Totals totals) { return (float)(totals.sum[0] / fmax(totals.sum[1], 1e-300)); }
+
+static void mask_better(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    for (size_t i = begin; i < end; i++) g->better[i] *= g->mask[i];
+    sum[0] += dot(g, g->residual, g->better, begin, end);
+}
+
+static void take_mean_of_better(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    for (size_t i = begin; i < end; i++) g->better[i] -= g->mean * g->mask[i];
+    sum[0] += dot(g, g->residual, g->better, begin, end);
+}
+
+/* What the levels do not do, and what they are given. */
+static void scale_residual(const Guess *g, size_t begin, size_t end)
 {
     const float *mass = g->world->args.cell_mass;
     const float own = (float)g->world->def.dimension;
-    for (size_t i = 0; i < g->cells; i++) {
+    for (size_t i = begin; i < end; i++) {
         g->better[i] = g->residual[i] / (own + g->soft[i]);
         g->response[i] = mass[i] * g->residual[i];
     }
+}
+
+/* better = B residual, among the cells of the mask, after scale_residual(). Returns <residual, better>. */
+static double precondition(Guess *g)
+{
     multilevel_add(&g->world->guess.multilevel, g->world->pool, g->response, g->better);
-    for (size_t i = 0; i < g->cells; i++) g->better[i] *= g->mask[i];
-    take_mean(g, g->better);
+    const double size = over_cells(g, mask_better).sum[0];
+    if (!g->world->guess.closed) return size;
+    g->mean = mean_of(over_cells(g, sum_better));
+    return over_cells(g, take_mean_of_better).sum[0];
 }
 
-double guess_measure(World *world, const ContactFrame *contacts)
+/* ---- The solution ---- */
+
+/* By how much the matter in a cell is to grow: liquid too dense, solids crushed. */
+static float growth_of(const KernelArgs *a, float share, size_t cell)
 {
-    const Guess g = guess_of(world, contacts);
-    const KernelArgs *a = &world->args;
-    const float share = growth_share(world);
-    trace(&g);
-    for (size_t i = 0; i < g.cells; i++) {
-        const float growth = fminf(share * a->cell_growth[i], GUESS_GROWTH_MAX) + (a->cell_strain ? a->cell_strain[i] : 0.0f);
-        const float r = growth - g.response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g.mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
-        g.residual[i] = r * g.mask[i];
+    return fminf(share * a->cell_growth[cell], GUESS_GROWTH_MAX) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
+}
+
+static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    const KernelArgs *a = &g->world->args;
+    const float share = growth_share(g->world);
+    for (size_t i = begin; i < end; i++) {
+        const float r = growth_of(a, share, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        g->residual[i] = r * g->mask[i];
     }
-    take_mean(&g, g.residual);
-    precondition(&g);
-    return dot(&g, g.residual, g.better);
 }
 
-static void conjugate_gradients(const Guess *g, int iterations, double size)
+static void start_direction(const Guess *g, size_t begin, size_t end, double *sum)
 {
+    (void)sum;
+    for (size_t i = begin; i < end; i++) g->residual[i] -= g->mean * g->mask[i];
+    scale_residual(g, begin, end);
+    memset(g->direction + begin, 0, (end - begin) * sizeof(float));
+    memcpy(g->before + begin, g->world->args.cell_pressure + begin, (end - begin) * sizeof(float));
+}
+
+static void turn_direction(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    for (size_t i = begin; i < end; i++) g->direction[i] = g->better[i] + g->keep * g->direction[i];
+}
+
+/* The curvature along the direction, from the response to it. */
+static void soften_response(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    for (size_t i = begin; i < end; i++) g->response[i] = (g->response[i] + g->soft[i] * g->direction[i]) * g->mask[i];
+    sum[0] += dot(g, g->direction, g->response, begin, end);
+}
+
+/* The same from the nodes alone, where the response itself is not wanted any more. */
+static void sum_curvature(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    const float *node = g->world->grid.node.data, *mass = g->world->args.cell_mass;
+    for (size_t i = begin; i < end; i++) {
+        const float s = g->direction[i];
+        sum[0] += (double)(energy_of_node(node + i * K_NODE_WIDTH) + mass[i] * g->soft[i] * s * s);
+    }
+}
+
+static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
     float *pressure = g->world->args.cell_pressure;
-    memcpy(g->direction, g->better, g->cells * sizeof(float));
-    for (int k = 0; k < iterations && size > 0.0 && !solver_time_is_up(g->world); k++) {
-        g->world->record.iterations_used++;
-        respond(g, g->direction);
-        trace(g);
-        for (size_t i = 0; i < g->cells; i++) g->response[i] = (g->response[i] + g->soft[i] * g->direction[i]) * g->mask[i];
-        const double curvature = dot(g, g->direction, g->response);
-        if (!(curvature > 0.0)) return;
-        const float step = (float)(size / curvature);
-        for (size_t i = 0; i < g->cells; i++) {
-            pressure[i] += step * g->direction[i];
-            g->residual[i] -= step * g->response[i];
-        }
-        precondition(g);
-        const double next = dot(g, g->residual, g->better);
-        const float keep = (float)(next / size);
-        for (size_t i = 0; i < g->cells; i++) g->direction[i] = g->better[i] + keep * g->direction[i];
+    for (size_t i = begin; i < end; i++) {
+        pressure[i] += g->step * g->direction[i];
+        g->residual[i] -= g->step * g->response[i];
+    }
+    scale_residual(g, begin, end);
+}
+
+static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
+    for (size_t i = begin; i < end; i++) {
+        const float next = pressure[i] + g->step * g->direction[i];
+        pressure[i] = old[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
+    }
+}
+
+/* Conjugate gradients; the last iteration finds no new residual, for nobody would use it. */
+void guess_solve(World *world, const ContactFrame *contacts, int iterations)
+{
+    Guess g = guess_of(world, contacts);
+    trace(&g);
+    over_cells(&g, find_residual);
+    g.mean = world->guess.closed ? mean_of(over_cells(&g, sum_residual)) : 0.0f;
+    over_cells(&g, start_direction);
+    double size = precondition(&g);
+    g.keep = g.step = 0.0f;
+    for (int left = iterations; left > 0 && size > 0.0 && !solver_time_is_up(world); left--) {
+        world->record.iterations_used++;
+        over_cells(&g, turn_direction);
+        respond(&g, g.direction);
+        if (left > 1) trace(&g);
+        const double curvature = over_cells(&g, left > 1 ? soften_response : sum_curvature).sum[0];
+        g.step = curvature > 0.0 ? (float)(size / curvature) : 0.0f;
+        if (left == 1 || !(curvature > 0.0)) break;
+        over_cells(&g, step_and_go_on);
+        const double next = precondition(&g);
+        g.keep = (float)(next / size);
+        g.step = 0.0f;
         size = next;
     }
+    over_cells(&g, step_and_stop);
 }
 
-void guess_solve(World *world, const ContactFrame *contacts, int iterations, double size)
+/* With u the projection of u* + q/m, the best displacements for the pressures p among those that obey: the value of
+ *     sum_i m_i/2 |u_i - u*_i|^2 - q_i . u_i + sum_c m_c/4 p_c (growth_c - softness_c p_c / 2),
+ * of which the pressures that are sought are the maximum. */
+static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
 {
-    const Guess g = guess_of(world, contacts);
-    float *pressure = world->args.cell_pressure;
-    memcpy(g.before, pressure, g.cells * sizeof(float));
-    conjugate_gradients(&g, iterations, size);
-    for (size_t i = 0; i < g.cells; i++) {
-        const bool usable = pressure[i] > 0.0f && pressure[i] < K_INCREMENT_MAX;
-        pressure[i] = world->args.cell_pressure_old[i] = usable ? pressure[i] : 0.0f;
+    const KernelArgs *a = &g->world->args;
+    const float share = growth_share(g->world);
+    for (size_t i = begin; i < end; i++) {
+        const float *u = a->node + i * K_NODE_WIDTH, *base = a->node_base + i * K_NODE_WIDTH, *q = a->node_push + i * K_NODE_WIDTH;
+        const float growth = growth_of(a, share, i), p = a->cell_pressure[i];
+        float gain = 0.25f * a->cell_mass[i] * p * (growth - 0.5f * a->cell_softness[i] * p);
+        for (int k = 0; k < 3; k++) gain += 0.5f * u[3] * (u[k] - base[k]) * (u[k] - base[k]) - q[k] * u[k];
+        sum[0] += (double)gain;
     }
+}
+
+double guess_gain(World *world)
+{
+    const Guess g = guess_of(world, NULL);
+    return over_cells(&g, sum_gain).sum[0];
+}
+
+static void take_back(const Guess *g, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
+    for (size_t i = begin; i < end; i++) pressure[i] = old[i] = g->before[i];
 }
 
 void guess_take_back(World *world)
 {
     const Guess g = guess_of(world, NULL);
-    memcpy(world->args.cell_pressure, g.before, g.cells * sizeof(float));
-    memcpy(world->args.cell_pressure_old, g.before, g.cells * sizeof(float));
+    over_cells(&g, take_back);
 }

@@ -16,11 +16,11 @@ void guess_free(World *world);
 /* Prepares the preconditioner. The nodes are used and left in disorder. */
 void guess_begin(World *world, const ContactFrame *contacts);
 
-/* How far args.cell_pressure, whose displacements the nodes hold, is from balancing volume: the residual in the metric of the preconditioner. */
-double guess_measure(World *world, const ContactFrame *contacts);
+/* Improves args.cell_pressure, whose displacements the nodes hold, by up to `iterations` steps. The nodes are left in disorder. */
+void guess_solve(World *world, const ContactFrame *contacts, int iterations);
 
-/* Improves args.cell_pressure by `iterations` steps, from what guess_measure() found and returned as `size`. */
-void guess_solve(World *world, const ContactFrame *contacts, int iterations, double size);
+/* How good args.cell_pressure is, whose displacements the nodes hold: greater is better. */
+double guess_gain(World *world);
 
 /* Back to the pressures before guess_solve(). */
 void guess_take_back(World *world);

@@ -53,7 +53,7 @@ typedef struct DualState {
 
 /* What the guess of the pressure keeps. */
 typedef struct GuessState {
-    Array cells;
+    Array cells, sums; /* see guess.c */
     Multilevel multilevel;
     bool closed; /* matter fills a closed box */
 } GuessState;
