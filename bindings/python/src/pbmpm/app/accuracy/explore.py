@@ -28,8 +28,6 @@ _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more
 _LONGEST_SHARE = 0.25  # of the time that one setting may take; those with which the search begins may take it all
 
-_ACCELERATED_SHARE = 0.05  # of the time of a further grid that a setting of ours may take from the search at its start
-
 
 @dataclass(frozen=True)
 class LeftOut:
@@ -67,11 +65,11 @@ class Explorer:
 
     def run(self) -> None:
         """Measures where the case says that the search begins, then around the fronts. Of the own grid all settings are
-        measured as long as there is time; on others those of the accelerated solvers must not take it from the search."""
+        measured as long as there is time; on others those of the accelerated solvers must leave some for the search."""
         start = self.case.start(self.cells)
         own_grid = self.cells == self.case.own_cells
         for setting in sorted(start, key=lambda item: item.work):
-            if own_grid or setting.solver not in ACCELERATED or self.affordable(setting, _ACCELERATED_SHARE):
+            if own_grid or setting.solver not in ACCELERATED or self.affordable(setting):
                 self.attempt(setting, 1.0)
         self._variants = {
             solver: list(dict.fromkeys(item.variant for item in start if item.solver == solver))

@@ -166,7 +166,7 @@ class SpinningDiscCase(ElasticCase):
     length_name = "radius of the disc"
     length = SpinningDisc().radius
     cells = (10, 20)
-    finer = {64: 4.0}
+    finer = {40: 2.0}
     error_kinds = (
         ErrorMeasure(
             "displaced",
