@@ -38,6 +38,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             }
             sum[4 + c] += mass * free;
             sum[8] += 0.5 * mass * u * u;
+            sum[9 + c] += mass * u;
         }
     }
     sum[2] = holds_work(p->contacts, p->gradient, block);
@@ -77,7 +78,10 @@ uint32_t primal_check_bodies(Primal *p)
         b->work += sum[2];
         b->mass += sum[3];
         b->kinetic += sum[8];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sum[4 + c];
+        for (int c = 0; c < 3; c++) {
+            b->momentum[c] += sum[4 + c];
+            b->moved[c] += sum[9 + c];
+        }
         b->touches = b->touches || sum[7] > 0.0;
         if (block >= p->world->grid.particle_blocks) continue;
         b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
@@ -96,7 +100,7 @@ uint32_t primal_check_bodies(Primal *p)
     return failed;
 }
 
-/* A mean motion may lead through a floor; a liquid that leans starts from standing still. */
+/* A mean motion may lead through a floor; a liquid that touches something starts from standing still. */
 static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
@@ -104,7 +108,7 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = body->with_liquid && body->leans ? 0.0f : (float)body->start[c];
+        const float start = body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
         p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     holds_project(p->contacts, p->node, block, block + 1);

@@ -2,7 +2,8 @@
  *
  * A pressure that was not solved to the end leaves a liquid with more energy than it had, and starting again from less motion would freeze
  * it: nearly every solution of a stiff liquid is unfinished. So particles go where the solution leads, and what their body gained is taken from
- * its kinetic energy: velocities keep the share s of what they differ from the body's mean (of a body that leans on something: of zero),
+ * its kinetic energy: velocities keep the share s of what they differ from the body's mean (of a body that touches something, which takes the
+ * momentum: of zero),
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
@@ -14,14 +15,19 @@
 
 static const double ROUNDING = 1e-6; /* of the energy before, that no velocity has to pay for */
 
-static bool has_mean(const BodySum *body) { return !body->leans && !body->touches; }
+/* The mean displacement that is left alone: primal_keep_momentum() gives that of the predictor to a body that leans on nothing. */
+static double mean_of(const BodySum *body, int axis)
+{
+    if (body->touches || !(body->mass > 0.0)) return 0.0;
+    return body->leans ? body->moved[axis] / body->mass : body->start[axis];
+}
 
 /* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
 static bool find_share(BodySum *body)
 {
     double kinetic = body->kinetic;
     const double gain = body->after - body->before - body->work;
-    for (int c = 0; c < 3 && has_mean(body); c++) kinetic -= 0.5 * body->mass * body->start[c] * body->start[c];
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
     body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
     return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
 }
@@ -34,6 +40,7 @@ static bool all_can_pay(Primal *p)
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         body[i].kept = 1.0f;
         body[i].failed = body[i].with_liquid && !find_share(&body[i]);
+        for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], c);
         can = can && !body[i].failed;
     }
     return can;
@@ -48,8 +55,7 @@ void primal_find_kept(Primal *p)
 
 static float kept_of(const BodySum *body, int axis, float u)
 {
-    const float mean = has_mean(body) ? (float)body->start[axis] : 0.0f;
-    return mean + body->kept * (u - mean);
+    return body->mean[axis] + body->kept * (u - body->mean[axis]);
 }
 
 static void keep_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)

@@ -18,11 +18,11 @@ typedef struct BodySum {
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
     double liquid;            /* energy of the liquid particles */
-    double kinetic;           /* of the solution */
+    double kinetic, moved[3]; /* of the solution: energy, and momentum */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
-    float kept;               /* share of its velocities that a body with liquid keeps */
+    float kept, mean[3];      /* share of its velocities beside this mean displacement that a body with liquid keeps */
 } BodySum;
 
 /* One substep. Vectors have W floats per node; the last is not used. */
