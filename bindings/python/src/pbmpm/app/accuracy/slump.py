@@ -37,7 +37,7 @@ SECONDS = 5.0
 PARTICLES_PER_AXIS = 2
 YIELDS = (0.1, 0.2, 0.3)
 """tau_y / (rho g H) of columns that slump."""
-STANDS = 0.55
+STANDS = 0.6
 """The same of one that does not."""
 PLANE_LAYERS = 0.1
 """What the theory is worth [H]: the middle of a layer, held by its neighbours, spreads less than its free side. That leaves 0.04 to 0.07
@@ -66,7 +66,7 @@ class Slump(Case):
     """Of half of the column [m]: it is as wide as high."""
 
     name = "slump"
-    title = "Slump of a viscoplastic column on a smooth floor, yield stress 0.1, 0.2 and 0.3 of rho g H, and 0.55 where it stands"
+    title = "Slump of a viscoplastic column on a smooth floor, yield stress 0.1, 0.2 and 0.3 of rho g H, and 0.6 where it stands"
     dimension = 2
     kind = "granular"
     searched = False
