@@ -120,7 +120,8 @@ pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t up
 {
     REQUIRE_SIZE(impulse);
     HOLD(world);
-    if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1) LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));
+    if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1)
+        LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));
     if (!w->def.domain_enabled || !w->def.domain_measures_impulse)
         LET_GO(api_invalid("the walls measure no impulse: set world.domain_enabled and domain_measures_impulse"));
     read_impulse(w, (uint32_t)(PBMPM_MAX_COLLIDERS + 2 * axis + upper), NULL, impulse);

@@ -121,7 +121,8 @@ pbmpm_result pbmpm_query_heights(pbmpm_world_id world, const float *points, uint
     double up[3];
     const char *problem = query_points_problem(w, points, count);
     if (!problem) problem = query_level_problem(level);
-    if (!problem && !query_direction(w, direction, up)) problem = "the direction must be finite and longer than 1e-6; without one there must be gravity";
+    if (!problem && !query_direction(w, direction, up))
+        problem = "the direction must be finite and longer than 1e-6; without one there must be gravity";
     if (problem) LET_GO(api_invalid(problem));
     LET_GO(query_heights(w, points, count, up, level, heights));
 }

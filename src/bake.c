@@ -151,7 +151,8 @@ static pbmpm_result find_windings(const Baking *baking)
             if (sum < 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a part of the mesh is wound the other way than the rest");
         }
     }
-    return solid ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT, "the solid is thinner than a grid cell of %g m: raise the resolution", baking->grid->spacing);
+    return solid ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT,
+                                   "the solid is thinner than a grid cell of %g m: raise the resolution", baking->grid->spacing);
 }
 
 /* ---- Distances ---- */
@@ -221,7 +222,8 @@ pbmpm_result bake_mesh(const pbmpm_mesh_def *def, bool hull, void *buffer, uint6
     *bytes = distance_grid_bytes(&grid);
     if (!buffer) return PBMPM_OK;
     if (capacity < *bytes)
-        return fail(PBMPM_ERROR_CAPACITY, "the baked solid has %llu bytes, the buffer %llu", (unsigned long long)*bytes, (unsigned long long)capacity);
+        return fail(PBMPM_ERROR_CAPACITY, "the baked solid has %llu bytes, the buffer %llu", (unsigned long long)*bytes,
+                    (unsigned long long)capacity);
     Memory memory;
     memory_init(&memory, &(pbmpm_allocator){0}, 0);
     return bake_into(def, hull, &memory, &grid, buffer);

@@ -411,15 +411,13 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
 
 /* ---- Open volume ---- */
 
-static const double SUPPORT = 1.5; /* [cells] from a node, per axis */
-
 /* The share of a node's weight that lies outside an obstacle whose surface is at `distance` [cells]: the integral of the quadratic spline
  * up to there, as the surface is nearly flat over a cell. At least what is left one cell inside, 1/48: behind that nothing is known. */
 static double open_share(double distance)
 {
-    if (distance >= SUPPORT) return 1.0;
+    if (distance >= NODE_REACH) return 1.0;
     if (distance <= -1.0) return 1.0 / 48.0;
-    const double rest = SUPPORT - fabs(distance);
+    const double rest = NODE_REACH - fabs(distance);
     if (distance > 0.5) return 1.0 - rest * rest * rest / 6.0;
     if (distance < -0.5) return rest * rest * rest / 6.0;
     return 0.5 + distance * (0.75 - distance * distance / 3.0);
@@ -459,7 +457,7 @@ static void open_blocks(void *context, int32_t begin, int32_t end)
         for (int i = 0; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
             if (job->resting_only && o->moves) continue;
-            if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + SUPPORT) open_block(frame, o, block);
+            if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + NODE_REACH) open_block(frame, o, block);
         }
     }
 }

@@ -60,10 +60,18 @@ double depth_along_gravity(const World *world, bool asleep_too)
     return (high - low) * K_BLOCK_AXIS;
 }
 
+double gravity_strength(const World *world)
+{
+    double square = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) square += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    return sqrt(square);
+}
+
 double matter_depth(const World *world)
 {
-    double strength = 0.0;
-    for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
-    if (strength > 0.0) return fmax(1.0, depth_along_gravity(world, false) / sqrt(strength));
+    const double strength = gravity_strength(world);
+    if (strength > 0.0) return fmax(1.0, depth_along_gravity(world, false) / strength);
     return pow((double)world->grid.particle_blocks * world->grid.block_cells, 1.0 / world->def.dimension);
 }
+
+double slowest_pressure(const World *world) { return 3.14159265358979 / (4.0 * matter_depth(world)); }

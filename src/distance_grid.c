@@ -186,7 +186,8 @@ static bool values_fit(const DistanceGrid *grid, const char *values)
 pbmpm_result distance_grid_read(const void *data, uint64_t size, DistanceGrid *grid, const void **values)
 {
     Header header;
-    if (size < sizeof header) return fail(PBMPM_ERROR_DAMAGED, "a baked solid has at least %zu bytes, not %llu", sizeof header, (unsigned long long)size);
+    if (size < sizeof header)
+        return fail(PBMPM_ERROR_DAMAGED, "a baked solid has at least %zu bytes, not %llu", sizeof header, (unsigned long long)size);
     memcpy(&header, data, sizeof header);
     if (memcmp(header.magic, MAGIC, sizeof MAGIC) != 0) return fail(PBMPM_ERROR_DAMAGED, "this is no baked solid: it begins with other bytes");
     if (header.version != VERSION)
@@ -198,7 +199,8 @@ pbmpm_result distance_grid_read(const void *data, uint64_t size, DistanceGrid *g
     memcpy(grid->low, header.low, sizeof grid->low);
     *values = (const char *)data + sizeof header;
     if (size != distance_grid_bytes(grid))
-        return fail(PBMPM_ERROR_DAMAGED, "the baked solid is damaged: it should have %zu bytes, not %llu", distance_grid_bytes(grid), (unsigned long long)size);
+        return fail(PBMPM_ERROR_DAMAGED, "the baked solid is damaged: it should have %zu bytes, not %llu",
+                    distance_grid_bytes(grid), (unsigned long long)size);
     if (header.checksum != checksum(header, *values, size - sizeof header))
         return fail(PBMPM_ERROR_DAMAGED, "the baked solid is damaged: its checksum does not fit");
     if (!values_fit(grid, *values)) return fail(PBMPM_ERROR_DAMAGED, "the baked solid is damaged: it holds distances that cannot be");

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "depth.h"
 #include "dual_error.h"
 #include "guess.h"
 #include "result.h"
@@ -29,9 +30,7 @@ static int guess_iterations(const World *world)
 {
     enum { MOST = 4 };
     const int half = world->settings.iterations / 2;
-    const float *g = world->settings.gravity;
-    const bool weightless = g[0] == 0.0f && g[1] == 0.0f && g[2] == 0.0f;
-    if (half == 1 && weightless) return 0;
+    if (half == 1 && gravity_strength(world) == 0.0) return 0;
     return half < MOST ? half : MOST;
 }
 

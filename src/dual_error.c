@@ -21,14 +21,8 @@ void dual_error_free(World *world)
     array_free(&world->memory, &world->dual.moved2);
 }
 
-/* Waves of the pressure with the wave number k per cell have a = (k / 2)^2. The slowest in matter n cells deep that rests on something is a
- * quarter wave over its depth; where nothing weighs, both ends of matter are alike, and it is half a wave. */
-static double slowest_mode(const World *world)
-{
-    const float *g = world->settings.gravity;
-    const bool weightless = g[0] == 0.0f && g[1] == 0.0f && g[2] == 0.0f;
-    return 3.14159265358979 * (weightless ? 0.5 : 0.25) / matter_depth(world);
-}
+/* Where nothing weighs, both ends of matter are alike, and the slowest mode is half a wave instead of a quarter. */
+static double slowest_mode(const World *world) { return slowest_pressure(world) * (gravity_strength(world) > 0.0 ? 1.0 : 2.0); }
 
 DualModes dual_modes_of(const World *world, double relaxation)
 {

@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "inspect.h"
 #include "numbers.h"
 #include "result.h"
 #include "scatter.h"
@@ -257,16 +258,16 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
 
 static bool is_solid(const World *world, uint32_t row) { return material_is_solid(&world->materials, world->particles.material[row]); }
 
+/* 0 for what cannot be set. */
 static uint32_t settable_components(const World *world, pbmpm_field field)
 {
-    const uint32_t d = (uint32_t)world->def.dimension;
     switch (field) {
     case PBMPM_POSITION:
-    case PBMPM_VELOCITY: return d;
+    case PBMPM_VELOCITY:
     case PBMPM_AFFINE_VELOCITY:
-    case PBMPM_DEFORMATION: return d * d;
+    case PBMPM_DEFORMATION:
     case PBMPM_VOLUME_RATIO:
-    case PBMPM_PRESSURE: return 1;
+    case PBMPM_PRESSURE: return inspect_components(world, field);
     default: return 0;
     }
 }

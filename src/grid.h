@@ -7,6 +7,9 @@
 #include "particles.h"
 #include "pool.h"
 
+/* [cells] per axis: where the quadratic spline of a node ends, and what a particle touches. */
+#define NODE_REACH 1.5
+
 /* How the blocks with particles are ordered: first those that sleep, see sleep.h. Without sleeping all move. */
 typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } GridRank;
 

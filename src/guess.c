@@ -31,11 +31,11 @@ void guess_free(World *world)
     multilevel_free(&world->guess.multilevel, &world->memory);
 }
 
-/* All pressures yield a little, a tenth as much as the slowest mode of matter n cells deep, whose eigenvalue is (pi / 4n)^2: a guess that is
- * exact there answers the errors of the last substep with its full weight, and so they may grow. */
+/* All pressures yield a little, a tenth as much as the slowest mode: a guess that is exact there answers the errors of the last substep with
+ * its full weight, and so they may grow. */
 static float least_softness(const World *world)
 {
-    const double root = 3.14159265358979 / (4.0 * matter_depth(world));
+    const double root = slowest_pressure(world);
     return (float)(0.1 * root * root);
 }
 

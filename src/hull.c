@@ -155,7 +155,8 @@ static bool first_tetrahedron(Hull *hull, uint32_t corner[4])
     const Surface *surface = hull->surface;
     int64_t normal[3] = {0}, height = 0;
     uint32_t v = 2;
-    for (; v < surface->vertices && !(normal[0] || normal[1] || normal[2]); v++) cross(&surface->vertex[0], &surface->vertex[1], &surface->vertex[v], normal);
+    for (; v < surface->vertices && !(normal[0] || normal[1] || normal[2]); v++)
+        cross(&surface->vertex[0], &surface->vertex[1], &surface->vertex[v], normal);
     const uint32_t c = v - 1;
     const Element base = {{0, 1, c}};
     for (; v < surface->vertices && height == 0; v++) height = height_over(surface, &base, &surface->vertex[v]);
@@ -194,7 +195,8 @@ static pbmpm_result wrap_space(Surface *surface, Memory *memory)
                  .fresh = memory_take(memory, faces * sizeof(uint32_t)),
                  .from = memory_take(memory, surface->vertices * sizeof(uint32_t))};
     const bool ok = hull.face && hull.dead && hull.seen && hull.fresh && hull.from;
-    const pbmpm_result result = ok ? wrap(&hull, surface, memory) : fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a hull of %u points", surface->vertices);
+    const pbmpm_result result = ok ? wrap(&hull, surface, memory)
+                                   : fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a hull of %u points", surface->vertices);
     memory_give(memory, hull.face, faces * sizeof(Face));
     memory_give(memory, hull.dead, faces * sizeof(uint32_t));
     memory_give(memory, hull.seen, faces * sizeof(uint32_t));

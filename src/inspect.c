@@ -48,7 +48,8 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
     case PBMPM_AFFINE_VELOCITY: found = planes(p->affine[0], d * d, p->array_bytes); break;
     case PBMPM_VOLUME_RATIO: found = packed(p->volume_ratio, 1); break;
     case PBMPM_DEFORMATION:
-        if (!p->deformation[0]) return fail(PBMPM_ERROR_UNSUPPORTED, "a world that never had a particle of anything but liquid has no deformation gradients");
+        if (!p->deformation[0])
+            return fail(PBMPM_ERROR_UNSUPPORTED, "a world that never had a particle of anything but liquid has no deformation gradients");
         found = planes(p->deformation[0], d * d, p->array_bytes);
         break;
     case PBMPM_MATERIAL: found = packed(p->material, 1); break;

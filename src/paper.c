@@ -41,13 +41,12 @@ static LiquidState measure_liquid(const World *world)
  * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
 static double pressure_head(const World *world)
 {
-    double strength = 0.0;
-    for (int a = 0; a < world->def.dimension; a++) strength += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
+    const double strength = gravity_strength(world);
     if (strength == 0.0) return 0.0;
     const LiquidState liquid = measure_liquid(world);
     if (liquid.volume == 0.0) return 0.0;
     const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
-    const double weight = fmax(stands, sqrt(strength) * pow(liquid.volume, 1.0 / world->def.dimension));
+    const double weight = fmax(stands, strength * pow(liquid.volume, 1.0 / world->def.dimension));
     return 3.0 * weight + 0.5 * liquid.speed2;
 }
 

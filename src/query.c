@@ -9,8 +9,8 @@
 #include "pool.h"
 #include "result.h"
 
-/* A particle counts nearer than 3/2 cells along each axis, and it is within 1/2 of the node that it is stored at. */
-static const double SUPPORT = 1.5, SUPPORT_OF_CELL = 2.0;
+/* A particle counts nearer than NODE_REACH along each axis, and it is within 1/2 of the node that it is stored at. */
+static const double CELL_REACH = NODE_REACH + 0.5;
 
 static const double SAMPLE = 0.25; /* from one sample on a line to the next */
 enum { HALVINGS = 12, POINT_GRAIN = 16 };
@@ -69,13 +69,13 @@ static double spline(double r)
 {
     const double distance = fabs(r);
     if (distance < 0.5) return 0.75 - r * r;
-    return distance < SUPPORT ? 0.5 * (SUPPORT - distance) * (SUPPORT - distance) : 0.0;
+    return distance < NODE_REACH ? 0.5 * (NODE_REACH - distance) * (NODE_REACH - distance) : 0.0;
 }
 
 static double spline_slope(double r)
 {
     if (fabs(r) < 0.5) return -2.0 * r;
-    return fabs(r) < SUPPORT ? (r < 0.0 ? SUPPORT + r : r - SUPPORT) : 0.0;
+    return fabs(r) < NODE_REACH ? (r < 0.0 ? NODE_REACH + r : r - NODE_REACH) : 0.0;
 }
 
 static double weight(const double from[3], const double to[3], int dimension)
@@ -108,7 +108,7 @@ static bool near_point(const LookupBox *box, void *context)
 {
     const Sample *sample = context;
     for (int a = 0; a < sample->world->def.dimension; a++)
-        if (sample->point[a] < box->low[a] - SUPPORT_OF_CELL || sample->point[a] > box->high[a] + SUPPORT_OF_CELL) return false;
+        if (sample->point[a] < box->low[a] - CELL_REACH || sample->point[a] > box->high[a] + CELL_REACH) return false;
     return true;
 }
 
@@ -194,7 +194,7 @@ static bool near_stretch(const LookupBox *box, void *context)
     const Line *line = context;
     for (int a = 0; a < line->world->def.dimension; a++) {
         const double one = line->start[a] + line->from * line->direction[a], other = line->start[a] + line->to * line->direction[a];
-        if (fmax(one, other) < box->low[a] - SUPPORT_OF_CELL || fmin(one, other) > box->high[a] + SUPPORT_OF_CELL) return false;
+        if (fmax(one, other) < box->low[a] - CELL_REACH || fmin(one, other) > box->high[a] + CELL_REACH) return false;
     }
     return true;
 }
@@ -210,7 +210,7 @@ static void add_candidates(const LookupBox *box, uint32_t begin, uint32_t end, v
         position_of(line->world, row, candidate.position);
         for (int a = 0; a < d; a++) {
             const double one = line->start[a] + line->from * line->direction[a], other = line->start[a] + line->to * line->direction[a];
-            near &= candidate.position[a] > fmin(one, other) - SUPPORT && candidate.position[a] < fmax(one, other) + SUPPORT;
+            near &= candidate.position[a] > fmin(one, other) - NODE_REACH && candidate.position[a] < fmax(one, other) + NODE_REACH;
         }
         if (!near) continue;
         line->overflow = line->count == PATCH_CAPACITY;
@@ -249,7 +249,7 @@ static double first_crossing(Line *line, double first, double last)
     line->from = line->to = -INFINITY;
     for (;;) {
         if (!(i * SAMPLE <= line->to)) {
-            const double entry = lookup_entry(&line->world->lookup, line->start, line->direction, i * SAMPLE, SUPPORT_OF_CELL);
+            const double entry = lookup_entry(&line->world->lookup, line->start, line->direction, i * SAMPLE, CELL_REACH);
             if (!(entry <= last) || isinf(entry)) return INFINITY;
             i = fmax(i, floor(entry / SAMPLE));
             look_at(line, (i - 1.0) * SAMPLE, i * SAMPLE + PATCH_LENGTH);
@@ -292,7 +292,7 @@ static void find_heights(void *context, int32_t begin, int32_t end)
             line.start[a] = (double)job->points[i * d + a] / dx;
             along += line.start[a] * job->up[a];
         }
-        const double top = lookup_entry(&job->world->lookup, line.start, line.direction, -INFINITY, SUPPORT_OF_CELL);
+        const double top = lookup_entry(&job->world->lookup, line.start, line.direction, -INFINITY, CELL_REACH);
         const double t = top < INFINITY ? first_crossing(&line, floor(top / SAMPLE) - 1.0, INFINITY) : INFINITY;
         job->heights[i] = (float)((along - t) * dx);
     }

@@ -132,7 +132,8 @@ static bool fields_fit(const World *world, const Reading *reading)
         for (uint32_t k = 0; k < i; k++)
             if (reading->field[k].tag == reading->field[i].tag) return false;
     }
-    static const FieldTag needed[] = {FIELD_CELL, FIELD_FRACTION, FIELD_VELOCITY, FIELD_AFFINE, FIELD_VOLUME_RATIO, FIELD_MASS, FIELD_MATERIAL, FIELD_ID};
+    static const FieldTag needed[] = {FIELD_CELL,         FIELD_FRACTION, FIELD_VELOCITY, FIELD_AFFINE,
+                                      FIELD_VOLUME_RATIO, FIELD_MASS, FIELD_MATERIAL, FIELD_ID};
     for (size_t i = 0; i < sizeof needed / sizeof *needed; i++)
         if (!array_of(reading, needed[i])) return false;
     return true;

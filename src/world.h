@@ -145,5 +145,4 @@ pbmpm_result world_make_room_for(World *world, uint32_t material);
 /* Expires all views: the particles are not what they were. */
 static inline void world_touch(World *world) { world->generation++; }
 
-
 #endif
