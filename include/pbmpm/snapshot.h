@@ -14,7 +14,7 @@ enum {
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
  * storage order and with all fields; the settings; poses and targets of colliders; emitters, drains, forces and kill bounds with
- * their definitions and books; counters and totals. It does not hold what a world is made of: its definition, the
+ * their definitions and books; who sleeps; counters and totals. It does not hold what a world is made of: its definition, the
  * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
  *
  * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
@@ -22,8 +22,8 @@ enum {
  *
  * Bytes per particle: 60 in 2D and 92 in 3D; 16 and 36 more in a world that has (or had) a particle that is not liquid; 4 more once
  * the dual solver was used or PRESSURE was set; 52 and 100 more once the primal solver was used with BDF2. Beside them some hundred
- * bytes for the world and for each material, collider, emitter, drain and force, and 4 per identifier that was used and is
- * free again. Little-endian; a snapshot may be stored and sent as it is. */
+ * bytes for the world and for each material, collider, emitter, drain and force, 4 per identifier that was used and is
+ * free again, and with sleeping some bytes for each block. Little-endian; a snapshot may be stored and sent as it is. */
 
 /** How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world. */
