@@ -24,8 +24,9 @@ def test_a_stiff_block_floats_as_a_block() -> None:
 
 
 def test_the_workshop_at_a_games_rate(root: Path) -> None:
-    """After 2 s the mean J of water, jelly, sand and clay is 0.88, 0.88, 0.99 and 0.97, and the worst stretches lie in [0.2, 2.0]. Without: 0.68,
-    0.28, 0.81, 0.99 and [0.1, 15]; 0.1 is the bound of the strain. The water by itself has 0.88."""
+    """After 2 s the mean J of water, jelly and clay is 0.88, 0.87 and 1.00, and the worst stretches lie in [0.2, 2.0]. Without: 0.68,
+    0.28, 0.99 and [0.1, 15]; 0.1 is the bound of the strain. The water by itself has 0.88. Sand has 1.2, for it remembers what came apart where it
+    was stirred; without volume correction 0.96, and 0.81 without the guess and the rounds."""
     scene = load_scene(root / "samples" / "scenes" / "workshop_2d.json")
     with Simulation(scene, RunSettings.of(scene, threads=1, solver="dual", rate_hz=60.0, iterations=5)) as simulation:
         for _ in range(120):
@@ -36,6 +37,7 @@ def test_the_workshop_at_a_games_rate(root: Path) -> None:
     solid = np.isin(materials, [row for row, name in enumerate(scene.materials) if name != "water"])
     assert mean["water"] > 0.8
     assert min(mean["jelly"], mean["sand"], mean["clay"]) > 0.75
-    assert max(mean.values()) < 1.1
+    assert max(mean["water"], mean["jelly"], mean["clay"]) < 1.1
+    assert mean["sand"] < 1.5  # of at most 3 for each grain
     assert stretch[solid].max() < 5.0
     assert np.percentile(stretch[solid], 1) > 0.4
