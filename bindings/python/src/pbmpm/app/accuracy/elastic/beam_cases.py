@@ -171,7 +171,7 @@ class Cantilever3DCase(CantileverCase):
     title = "Cantilever under its own weight in 3D"
     dimension = 3
     cells = (6,)
-    finer = {8: 1.0}
+    finer = {8: 2.0}
     quick_rates = (60.0,)
     iterations = (5, 20)
     quick_iterations = (20,)

@@ -108,18 +108,31 @@ class Block:
     def settle(self, settings: RunSettings, seconds: float) -> tuple[Record, Profile | None]:
         """Lets the block find its rest, where the integrator does not matter: backward Euler."""
         settings = replace(settings, integrator="euler")
-        size = np.full(self.dimension, self.width_cells * self.cell_size)
-        size[1] = self.height
-        lower = np.zeros(self.dimension)
-        points = lattice(lower, size, self.cell_size, self.particles_per_axis)
+        points = self._points()
         down = [0.0, -GRAVITY, 0.0][: self.dimension]
         with Stage(self.solid, self.cell_size, settings, len(points), down, self.model) as stage:
-            ids = stage.add_body(points, float(np.prod(size)))
+            ids = stage.add_body(points, len(points) * (self.cell_size / self.particles_per_axis) ** self.dimension)
             self._hold(stage)
             calmer = Calmer(stage, ids, bar_angular_frequency(self.solid, self.height) / (2.0 * math.pi))
             record = run(stage, seconds, calmer.look, _SPEED_LIMIT * (2.0 * GRAVITY * self.height) ** 0.5)
             profile = self._profile(points, stage.state(ids).positions) if record.stable else None
         return record, profile
+
+    @property
+    def _width(self) -> float:
+        return self.width_cells * self.cell_size
+
+    def _points(self) -> np.ndarray:
+        """Of the block, around 0 along the other axes. One that hangs widens to twice its width towards its hold, as specimens
+        of a tensile test do: it cannot narrow there, the strain at the corners would grow without end as cells get
+        smaller, and it would tear off."""
+        reach = self._width * (1.0 if self.load > 0.0 else 0.5)
+        lower, upper = np.full(self.dimension, -reach), np.full(self.dimension, reach)
+        lower[1], upper[1] = 0.0, self.height
+        points = lattice(lower, upper, self.cell_size, self.particles_per_axis)
+        shoulder = np.clip(1.0 - (self.height - points[:, 1]) / self._width, 0.0, 1.0) if self.load > 0.0 else 0.0
+        half_width = 0.5 * self._width * (1.0 + shoulder**2)
+        return points[np.abs(np.delete(points, 1, axis=1)).max(axis=1) < half_width]
 
     def _hold(self, stage: Stage) -> None:
         if self.load > 0.0:
@@ -141,7 +154,7 @@ class Block:
         middles = 0.5 * (rows[gap:] + rows[:-gap])
         hangs = self.load > 0.0
         free_end = middles if hangs else self.height - middles
-        held = (self.width_cells if hangs else _FLOOR_CELLS) * self.cell_size
+        held = self._width if hangs else _FLOOR_CELLS * self.cell_size
         far = (free_end > _FREE_END_CELLS * self.cell_size) & (self.height - free_end > held)
         stresses = np.sign(self.load) * self.solid.density * GRAVITY * free_end[far]
         truths = uniaxial_stretch(self.solid, self.model, stresses)

@@ -26,6 +26,7 @@ class BlockCase(ElasticCase):
     length_name = "height of the block"
     length = 1.0
     cells = (32, 16, 48)
+    finer = {64: 1.0}
     model = strain.FIXED_COROTATED
     particles_per_axis = Block.particles_per_axis
     seconds = 3.0
@@ -96,6 +97,7 @@ class Block3DCase(BlockCase):
     title = "Stress and stretch of a block in 3D, fixed corotated"
     dimension = 3
     cells = (16,)
+    finer = {}
     particles_per_axis = 2
     rates = (30.0, 60.0)
     patience = 4.0
