@@ -18,7 +18,8 @@ static const double SMALLEST_STEP = 1e-6;
 static const double FAR_FROM_DONE = 0.1;     /* residual over what forces changed */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
-enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY };
+/* LANES: floats that a pass takes at once, four nodes; every block is a multiple of it. */
+enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY, LANES = 4 * W };
 
 /* ---- Memory ---- */
 
@@ -98,33 +99,63 @@ void primal_over_blocks(Primal *p, BlockPass *pass)
     const int32_t blocks = p->world->grid.node_blocks;
     const double *sums = p->world->primal.sums.data;
     pool_for(p->world->pool, blocks, BLOCK_GRAIN, run_pass, &job);
-    memset(p->total, 0, sizeof p->total);
+    double total[SUMS] = {0};
     for (int32_t block = 0; block < blocks; block++)
-        for (int i = 0; i < SUMS; i++) p->total[i] += sums[(size_t)block * SUMS + (size_t)i];
+        for (int i = 0; i < SUMS; i++) total[i] += sums[(size_t)block * SUMS + (size_t)i];
+    memcpy(p->total, total, sizeof total);
 }
 
-static double dot(const float *a, const float *b, size_t begin, size_t end)
+/* Over one block, whose few products per lane are added in single precision. The last float of a node is 0 in one of the two. */
+static double dot(const float *restrict a, const float *restrict b, size_t begin, size_t end)
 {
-    double sum[W] = {0};
-    for (size_t i = begin; i < end; i += W)
-        for (int c = 0; c < 3; c++) sum[c] += (double)a[i + (size_t)c] * (double)b[i + (size_t)c];
-    return sum[0] + sum[1] + sum[2];
+    float lane[LANES] = {0};
+    double sum = 0.0;
+    for (size_t i = begin; i < end; i += LANES)
+        for (size_t k = 0; k < LANES; k++) lane[k] += a[i + k] * b[i + k];
+    for (int k = 0; k < LANES; k++) sum += (double)lane[k];
+    return sum;
+}
+
+/* to = a - b, with 0 for the last float of a node, which is no motion. */
+static void subtract(float *restrict to, const float *restrict a, const float *restrict b, size_t begin, size_t end)
+{
+    for (size_t i = begin; i < end; i += LANES) {
+        for (size_t k = 0; k < LANES; k++) to[i + k] = a[i + k] - b[i + k];
+        for (size_t k = 3; k < LANES; k += W) to[i + k] = 0.0f;
+    }
+}
+
+/* to += factor * vector */
+static void add(float *restrict to, double factor, const float *restrict vector, size_t begin, size_t end)
+{
+    const float f = (float)factor;
+    for (size_t i = begin; i < end; i += LANES)
+        for (size_t k = 0; k < LANES; k++) to[i + k] += f * vector[i + k];
 }
 
 /* ---- Energy and gradient ---- */
 
 static void finish_gradient(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
+    static const float MOTION[W] = {1.0f, 1.0f, 1.0f, 0.0f};
+    const float *restrict node = p->node, *restrict base = p->base, *restrict best = p->best, *restrict gradient = p->gradient;
+    float *restrict force = p->force;
+    double energy[W] = {0}, before[W] = {0}, after[W] = {0};
     (void)block;
     for (size_t i = begin; i < end; i += W) {
-        const float mass = p->base[i + 3];
-        for (size_t c = i; c < i + 3; c++) {
-            const float away = p->node[c] - p->base[c], moved = p->node[c] - p->best[c];
-            p->force[c] += mass * away;
-            sum[0] += 0.5 * (double)mass * (double)away * (double)away;
-            sum[1] += (double)p->gradient[c] * (double)moved;
-            sum[2] += (double)p->force[c] * (double)moved;
+        const float mass = base[i + 3];
+        for (size_t c = 0; c < W; c++) {
+            const float away = MOTION[c] * (node[i + c] - base[i + c]), moved = MOTION[c] * (node[i + c] - best[i + c]);
+            force[i + c] += mass * away;
+            energy[c] += (double)(mass * away) * (double)away;
+            before[c] += (double)(gradient[i + c] * moved);
+            after[c] += (double)(force[i + c] * moved);
         }
+    }
+    for (int c = 0; c < 3; c++) {
+        sum[0] += 0.5 * energy[c];
+        sum[1] += before[c];
+        sum[2] += after[c];
     }
 }
 
@@ -169,10 +200,11 @@ static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, doub
 
 static void take_over(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    for (size_t i = begin; i < end; i++) {
-        p->best[i] = p->node[i];
-        p->gradient[i] = p->right[i] = i % W == 3 ? 0.0f : p->force[i];
-    }
+    const size_t bytes = (end - begin) * sizeof(float);
+    memcpy(p->best + begin, p->node + begin, bytes);
+    memcpy(p->gradient + begin, p->force + begin, bytes);
+    for (size_t i = begin; i < end; i += W) p->gradient[i + 3] = 0.0f;
+    memcpy(p->right + begin, p->gradient + begin, bytes);
     holds_find(p->contacts, p->best, p->right, block, block + 1);
     for (int i = 0; i < p->pairs; i++) sum[i] = dot(p->step[i], p->right, begin, end);
 }
@@ -181,10 +213,8 @@ static void keep_pair(Primal *p, int32_t block, size_t begin, size_t end, double
 {
     (void)block;
     float *step = p->step[0], *change = p->change[0];
-    for (size_t i = begin; i < end; i++) {
-        step[i] = i % W == 3 ? 0.0f : p->node[i] - p->best[i];
-        change[i] = i % W == 3 ? 0.0f : p->force[i] - p->gradient[i];
-    }
+    subtract(step, p->node, p->best, begin, end);
+    subtract(change, p->force, p->gradient, begin, end);
     for (int i = 0; i < p->pairs; i++) sum[i] = dot(change, p->step[i], begin, end);
     sum[SUMS - 1] = dot(step, step, begin, end);
     sum[SUMS - 2] = dot(change, change, begin, end);
@@ -241,28 +271,26 @@ static void add_changes(Primal *p, int32_t block, size_t begin, size_t end, doub
 {
     const float *inverse = p->world->primal.inverse.data;
     (void)sum;
-    for (int k = 0; k < p->pairs; k++) {
-        const float *change = p->change[k], factor = (float)p->first[k];
-        for (size_t i = begin; i < end; i++) p->right[i] -= factor * change[i];
-    }
+    for (int k = 0; k < p->pairs; k++) add(p->right, -p->first[k], p->change[k], begin, end);
     holds_remove(p->contacts, p->right, block, block + 1);
-    for (size_t i = begin; i < end; i++) p->direction[i] = inverse[i / W] * p->right[i];
+    const float *restrict right = p->right;
+    float *restrict direction = p->direction;
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < W; c++) direction[i + c] = inverse[i / W] * right[i + c];
 }
 
 static void project_direction(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const float *inverse = p->world->primal.inverse.data;
-    for (size_t i = begin; i < end; i++) p->direction[i] = inverse[i / W] > 0.0f ? p->direction[i] : 0.0f;
+    for (size_t i = begin; i < end; i += W)
+        if (!(inverse[i / W] > 0.0f)) memset(p->direction + i, 0, W * sizeof(float));
     holds_remove(p->contacts, p->direction, block, block + 1);
     for (int k = 0; k < p->pairs; k++) sum[k] = dot(p->change[k], p->direction, begin, end);
 }
 
 static void add_steps(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    for (int k = 0; k < p->pairs; k++) {
-        const float *step = p->step[k], factor = (float)p->second[k];
-        for (size_t i = begin; i < end; i++) p->direction[i] += factor * step[i];
-    }
+    for (int k = 0; k < p->pairs; k++) add(p->direction, p->second[k], p->step[k], begin, end);
     holds_remove(p->contacts, p->direction, block, block + 1);
     sum[0] = dot(p->gradient, p->direction, begin, end);
 }
@@ -294,8 +322,8 @@ double primal_find_direction(Primal *p)
 static void try_step(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    for (size_t i = begin; i < end; i++)
-        if (i % W != 3) p->node[i] = p->best[i] - p->share * p->direction[i];
+    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof(float));
+    add(p->node, -(double)p->share, p->direction, begin, end);
     holds_project(p->contacts, p->node, block, block + 1);
 }
 
