@@ -225,7 +225,7 @@ def test_blocks_obey_their_law(model: str, load: float, width: int) -> None:
 def test_a_hanging_block_does_not_tear_off_on_a_fine_grid() -> None:
     """Held over its own width alone it does, from its corners, and falls without stress: an error of 55 %."""
     block = Block(cells=96, width_cells=24)
-    record, profile = block.settle(RunSettings(15.0, 1, 5, 1, solver="primal"), 3.0)
+    record, profile = block.settle(RunSettings(30.0, 1, 5, 1, solver="primal"), 3.0)
     assert record.stable and profile is not None
     assert profile.error < 0.02
 
