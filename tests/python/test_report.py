@@ -243,6 +243,20 @@ def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
     assert "1 of 2 cases, on 1 of 2 grids" in text and "on 1 grids at every error" in text
 
 
+def test_the_floor_of_errors_is_not_that_of_coarse_time_steps(report: dict[str, Any]) -> None:
+    """The dual's cheap setting has large time steps, whose converged solution is bad; that of its best one decides, and where
+    nobody measured it, nothing is known."""
+    cheap, _, best = (item for item in report["rows"] if item["case"] == "good" and item["solver"] == "dual")
+    cheap["converged_error"] = 0.09
+    unknown = verdicts_of(cases_of(report))[0].verdict
+    assert not unknown.too_coarse and unknown.lowest == best["error"] and unknown.passed
+    best["converged_error"] = 0.03
+    known = verdicts_of(cases_of(report))[0].verdict
+    assert not known.too_coarse and known.lowest == 0.03
+    best["converged_error"] = 0.08
+    assert verdicts_of(cases_of(report))[0].verdict.too_coarse
+
+
 def test_each_grid_is_judged_by_itself(report: dict[str, Any]) -> None:
     """On a finer grid the explicit solver is cheap, on a coarser one, on which nothing is compared, the paper's: neither
     says anything about the others."""

@@ -27,6 +27,7 @@ _EXPLICIT_STEP = 2.0 ** (1.0 / 3.0)  # between rates of the explicit solver: its
 _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more
 _LONGEST_SHARE = 0.25  # of the time that one setting may take; those with which the search begins may take it all
+REFERENCE_SHARE = 0.5  # that a converged solution may take: without that of the finest time steps the floor of the errors is that of coarse ones
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from ..machine import machine_facts
 from ..progress import progress_bar
 from ..simulation import versions
 from .case import Case, Measurement, Setting, settings_of
-from .explore import Explorer, LeftOut
+from .explore import REFERENCE_SHARE, Explorer, LeftOut
 from .stability import DEFINITION
 
 TIMINGS = 2
@@ -175,7 +175,7 @@ class Sweep:
         if explorer.spent[setting] < STEADY_SECONDS:
             costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
         found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
-        reference = self._reference(case, setting) if explorer.affordable(case.converged(setting)) else None
+        reference = self._reference(case, setting) if explorer.affordable(case.converged(setting), REFERENCE_SHARE) else None
         return row_of(case, setting, found, reference)
 
     def _reference(self, case: Case, setting: Setting) -> Measurement | None:

@@ -69,11 +69,19 @@ class CaseRows:
     def _verdict(self, cells: int) -> Verdict:
         rows = [row for row in self.stable if row["cells"] == cells]
         solvers = {row["solver"] for row in self.rows if row["cells"] == cells}
-        left = [row.get("converged_error") for row in rows if row["solver"] in ACCELERATED]
-        converged = min((error for error in left if error is not None), default=None)
         points, good = [point_of(row) for row in rows], self.measure.get("tolerance")
+        converged = _least_converged([row for row in rows if row["solver"] in ACCELERATED])
         cut_short = [solver for grid, solver in self.facts.get("cut_short", ()) if grid == cells]
         return judge(points, [name for name in self.solvers if name in solvers], good, converged, cut_short)
+
+
+def _least_converged(rows: list[dict[str, Any]]) -> float | None:
+    """The least error of converged solutions. Not known where the best of the rows has none: those of others may be the errors
+    of coarser time steps."""
+    best = min(rows, key=lambda row: float(row["error"]), default=None)
+    if best is None or best.get("converged_error") is None:
+        return None
+    return min(float(row["converged_error"]) for row in rows if row.get("converged_error") is not None)
 
 
 @dataclass(frozen=True)

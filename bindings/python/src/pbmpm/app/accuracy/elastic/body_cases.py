@@ -26,7 +26,7 @@ class BlockCase(ElasticCase):
     length_name = "height of the block"
     length = 1.0
     cells = (32, 16, 48)
-    finer = {64: 1.0}
+    finer = {64: 3.0}
     model = strain.FIXED_COROTATED
     particles_per_axis = Block.particles_per_axis
     seconds = 3.0
