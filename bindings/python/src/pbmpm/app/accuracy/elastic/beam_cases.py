@@ -100,7 +100,7 @@ class CantileverCase(ElasticCase):
     title = "Cantilever under its own weight"
     length_name = "height of the beam"
     cells = (12, 8, 4)
-    finer = {16: 1.0}
+    finer = {16: 2.0}
     load, slenderness = 0.4285, 4.0
     error_kinds = (
         ErrorMeasure(
