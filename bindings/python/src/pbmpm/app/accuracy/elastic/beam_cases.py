@@ -172,6 +172,7 @@ class Cantilever3DCase(CantileverCase):
     dimension = 3
     cells = (6,)
     finer = {8: 2.0}
+    rates = (30.0,)
     quick_rates = (60.0,)
     iterations = (5, 20)
     quick_iterations = (20,)
