@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import re
 import shlex
@@ -17,8 +18,10 @@ import pytest
 
 from browser import browser, open_page
 from pbmpm.app.errors import InputError
+from pbmpm.app.files import json_text
 from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Outcome, Setting, find_case
 from pbmpm.app.report.stability_page import save_stability_page
+from pbmpm.app.stability import saved
 from pbmpm.app.stability import sweep as sweeping
 from pbmpm.app.stability.plan import ITERATIONS, RATES, Run, Selection, cases_named, plan
 from pbmpm.app.stability.result import counts, lines_of, row_of
@@ -199,6 +202,25 @@ def test_a_process_that_dies_is_a_failure_and_takes_nothing_with_it(tmp_path: Pa
     assert lines[0].startswith("point True") and lines[2].startswith("one cell True")
 
 
+@pytest.mark.parametrize("figure", [0.3, math.nan])
+def test_a_row_gives_its_outcome_back(figure: float) -> None:
+    """Whether the failure is known is what the catalogue says, not what the file says: H04 has none."""
+    setting = Setting("liquid", 2, "line", 120.0, 5, solver="primal", seed=7)
+    row = json.loads(json_text(row_of(Outcome("H04", setting, (Check("volume", figure, 0.9, at_least=True),), 0.5, "old reason"))))
+    again = saved.outcome_of(row)
+    assert (again.case, again.setting, again.passed, again.known_failure) == ("H04", setting, False, "")
+    assert json.loads(json_text(row_of(again))) == {**row, "known_failure": ""}
+
+
+def test_what_was_run_before_an_interrupt_is_in_the_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(saved, "SAVE_SECONDS", 0.0)
+    record = saved.Record(tmp_path / "map.json")
+    record.add(outcome(True))
+    again = saved.Record(tmp_path / "map.json")
+    again.go_on()
+    assert [item.setting for item in again.outcomes] == [outcome(True).setting]
+
+
 def command(*options: str, **more: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-m", "pbmpm.app", "stability", *options],
@@ -232,6 +254,40 @@ def test_command_passes_where_all_is_well_and_writes_json(tmp_path: Path) -> Non
         (rate, variant) for rate in (60, 120) for variant in ("point", "line", "one cell")
     ]
     assert all(row["passed"] for row in rows)
+
+
+def test_command_goes_on_with_a_file(tmp_path: Path) -> None:
+    """What the file holds is kept and shown, and only what it has not is run."""
+    path = tmp_path / "map.json"
+    options = ["H04", "--solvers", "paper", "--dims", "2", "--iterations", "5", "--variant", "line", "--json", str(path), "--resume"]
+    assert command(*options, "--rates", "60").returncode == 0
+    report = json.loads(path.read_text())
+    report["rows"][0]["figure"] = 0.125
+    path.write_text(json.dumps(report))
+    done = command(*options, "--rates", "60,120")
+    assert done.returncode == 1 and "paper: 1 of 2 runs passed" in done.stdout
+    rows = json.loads(path.read_text())["rows"]
+    assert [(row["rate_hz"], row["figure"] == 0.125) for row in rows] == [(60.0, True), (120.0, False)]
+    report["versions"]["pbmpm"] = "0"
+    path.write_text(json.dumps(report))
+    other = command(*options, "--rates", "60")
+    assert other.returncode == 2 and "another library" in other.stderr
+    assert json.loads(path.read_text()) == report
+
+
+@pytest.mark.parametrize(
+    ("text", "message"), [("[1]", "not what pbmpm stability"), ('{"rows": [{}], "wall_seconds": 1, "versions": {}, "machine": {}}', "not a map")]
+)
+def test_a_file_that_is_no_map_is_refused(tmp_path: Path, text: str, message: str) -> None:
+    path = tmp_path / "map.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=message):
+        saved.Record(path).go_on()
+
+
+def test_resume_needs_a_file() -> None:
+    done = command("H04", "--resume")
+    assert done.returncode == 2 and "--resume needs a file" in done.stderr
 
 
 def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figure() -> None:

@@ -11,6 +11,7 @@ import click
 
 from ..errors import InputError
 from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, emit_json, own_command, own_options
+from ..saved import file_to_resume
 
 
 if TYPE_CHECKING:
@@ -115,10 +116,8 @@ def _measured(cases: list[Any], options: dict[str, Any], json_target: str | None
     from .table import legend, table
 
     to_file, resume = json_target not in (None, "-"), options.pop("resume")
-    if resume and not to_file:
-        raise InputError("--resume needs a file of --json to go on with")
     asked, order = dict(options), list(dict.fromkeys(case.name for case in [*cases, *all_cases()]))
-    whole = begun(Path(str(json_target)), asked) if resume else None
+    whole = begun(file_to_resume(json_target), asked) if resume else None
     done = {facts["case"] for facts in whole["cases"]} if whole else set()
     for report in _reports([case for case in cases if case.name not in done], options):
         new = report_of([report], asked["threads"], asked)

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
+from ..saved import read_report
 
 _NEEDED = {"rows", "cases", "stable_means", "versions", "machine"}
+_COMMAND = "pbmpm accuracy"
 
 
 def merged(paths: Sequence[Path], names: Sequence[str]) -> dict[str, Any]:
     """One report with the named cases of files, in that order; of a case that several files hold, the last one counts."""
-    return together([read_report(path) for path in paths], names)
+    return together([read_report(path, _NEEDED, _COMMAND) for path in paths], names)
 
 
 def together(reports: Sequence[dict[str, Any]], names: Sequence[str]) -> dict[str, Any]:
@@ -43,18 +44,7 @@ def begun(path: Path, asked: dict[str, Any]) -> dict[str, Any] | None:
     """
     if not path.exists():
         return None
-    report = read_report(path)
+    report = read_report(path, _NEEDED, _COMMAND)
     if report.get("asked") != asked:
         raise InputError(f"{path} was measured with other options, so it cannot be gone on with: {report.get('asked')}")
-    return report
-
-
-def read_report(path: Path) -> dict[str, Any]:
-    """What ``pbmpm accuracy --json`` wrote; InputError for anything else."""
-    try:
-        report = json.loads(path.read_text(encoding="utf-8"))
-    except ValueError as problem:
-        raise InputError(f"{path}: not JSON: {problem}") from None
-    if not isinstance(report, dict) or not _NEEDED <= report.keys():
-        raise InputError(f"{path}: not what pbmpm accuracy --json writes")
     return report

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import time
 from pathlib import Path
 from typing import Any, get_args
 
@@ -12,6 +11,7 @@ import click
 
 from ..names import SolverName
 from ..options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, emit_json, own_command
+from ..saved import file_to_resume
 
 _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # that is one of the others
 
@@ -28,6 +28,11 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
 @click.option("--processes", type=click.IntRange(1, 256), help="Runs at the same time.  [default: one per core]")
 @click.option("--all", "show_all", is_flag=True, help="Print the figures of cells that passed, too.")
+@click.option(
+    "--resume",
+    is_flag=True,
+    help="Keep the runs that the file of --json holds, show them too, and run what it has not; it is written while they run.",
+)
 @click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write the map as a page.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def stability(
@@ -35,27 +40,24 @@ def stability(
     json_target: str | None,
     html: Path | None,
     show_all: bool,
+    resume: bool,
     processes: int | None,
     **options: Any,
 ) -> None:
     """Run the hard CASEs (H01, H03, ...; default: all) and print what passes and what does not.
 
     Each case runs with every solver, material and dimension at every rate and iteration count; that takes
-    hours, so see --quick. For each cell that failed the figure that decided it is printed, with the command that runs it again.
+    hours, so see --quick, or run it in parts with --resume. For each cell that failed the figure that decided it is
+    printed, with the command that runs it again.
 
     Exit code 1 when a setting fails, other than for a reason that is known or with the explicit solver, which is there
     to be compared with.
     """
-    from .plan import plan
     from .result import counts
-    from .sweep import sweep
     from .table import cells_text, map_text, summary
 
-    selection = _selection(cases, options)
-    start = time.perf_counter()
-    outcomes = sweep(plan(selection), processes or os.cpu_count() or 1)
-    seconds = time.perf_counter() - start
-    report = _report(outcomes, seconds)
+    to_resume = file_to_resume(json_target) if resume else None
+    outcomes, report = _outcomes(_selection(cases, options), processes or os.cpu_count() or 1, to_resume)
     emit_json(report, json_target)
     if html is not None:
         from ..report.stability_page import save_stability_page
@@ -66,9 +68,27 @@ def stability(
         figures = cells_text(outcomes, show_all)
         if figures:
             click.echo(f"\n{'All cells' if show_all else 'Cells that failed'}:\n{figures}")
-        click.echo(f"\n{summary(outcomes)} ({seconds:.0f} s)")
+        click.echo(f"\n{summary(outcomes)} ({report['wall_seconds']:.0f} s)")
     if any(map(counts, outcomes)):
         sys.exit(EXIT_CHECK_FAILED)
+
+
+def _outcomes(selection: Any, processes: int, to_resume: Path | None) -> tuple[list[Any], dict[str, Any]]:
+    """Runs what is selected and not yet in the file to resume, which an interrupt leaves with all that was done; and the report."""
+    from .plan import Run, plan
+    from .saved import Record
+    from .sweep import sweep
+
+    record = Record(to_resume)
+    record.go_on()
+    earlier = list(record.outcomes)
+    done = {Run(outcome.case, outcome.setting) for outcome in earlier}
+    try:
+        new = sweep([run for run in plan(selection) if run not in done], processes, record.add)
+    finally:
+        record.save()
+    record.outcomes = [*earlier, *new]
+    return record.outcomes, record.report()
 
 
 def _selection(cases: tuple[str, ...], options: dict[str, Any]) -> Any:
@@ -87,18 +107,3 @@ def _selection(cases: tuple[str, ...], options: dict[str, Any]) -> Any:
         variant=options["variant"],
         seed=options["seed"],
     )
-
-
-def _report(outcomes: list[Any], seconds: float) -> dict[str, Any]:
-    import pbmpm
-
-    from ..machine import machine_facts
-    from ..simulation import versions
-    from .result import row_of
-
-    return {
-        "rows": [row_of(outcome) for outcome in outcomes],
-        "wall_seconds": seconds,
-        "versions": versions(),
-        "machine": machine_facts(pbmpm.isa(), 1),
-    }

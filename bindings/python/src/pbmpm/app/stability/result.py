@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import defaultdict
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,6 +37,21 @@ def row_of(outcome: Outcome) -> dict[str, Any]:
         "seconds": outcome.seconds,
         "seed": setting.seed,
         "command": Run(outcome.case, setting).command,
+    }
+
+
+def report_of(outcomes: Sequence[Outcome], seconds: float) -> dict[str, Any]:
+    """A map as it goes into JSON; it took so much wall time."""
+    import pbmpm
+
+    from ..machine import machine_facts
+    from ..simulation import versions
+
+    return {
+        "rows": [row_of(outcome) for outcome in outcomes],
+        "wall_seconds": seconds,
+        "versions": versions(),
+        "machine": machine_facts(pbmpm.isa(), 1),
     }
 
 

@@ -6,7 +6,7 @@ import math
 import multiprocessing
 import signal
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 
@@ -31,13 +31,15 @@ def _failed(run: Run, what: str, seconds: float) -> Outcome:
     return Outcome(run.case, run.setting, (check,), seconds, find_case(run.case).known_failure(run.setting))
 
 
-def sweep(runs: Sequence[Run], processes: int) -> list[Outcome]:
-    """The outcomes in the order of the runs. Costly runs begin first, so that all processes end at the same time."""
+def sweep(runs: Sequence[Run], processes: int, told: Callable[[Outcome], None] = lambda _: None) -> list[Outcome]:
+    """The outcomes in the order of the runs; `told` gets each as soon as it is there. Costly runs begin first, so that all
+    processes end at the same time."""
     order = sorted(range(len(runs)), key=lambda index: -runs[index].work)
     outcomes: dict[int, Outcome] = {}
     with progress_bar(len(runs), "run", "stability") as bar:
         for index, outcome in _outcomes(runs, order, processes):
             outcomes[index] = outcome
+            told(outcome)
             bar.set_postfix_str(f"{sum(not item.passed for item in outcomes.values())} failed", refresh=False)
             bar.update()
     return [outcomes[index] for index in range(len(runs))]
