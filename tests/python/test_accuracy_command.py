@@ -289,7 +289,7 @@ def test_ladders() -> None:
     assert [next_rate(60.0, True), next_rate(90.0, True)] == [90.0, 120.0]
     assert [next_rate(60.0, False), next_rate(100.0, False)] == [45.0, 90.0]
     assert [next_iterations(5, True), next_iterations(150, True), next_iterations(200, True)] == [7, 200, 200]
-    assert [next_iterations(count, False) for count in (5, 6, 1)] == [3, 5, 1]
+    assert [next_iterations(count, False) for count in (5, 6, 1)] == [4, 5, 1]
 
 
 def report_file(path: Path, names: list[str], cpu: str = "a") -> Path:

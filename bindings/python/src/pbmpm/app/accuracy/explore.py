@@ -22,7 +22,7 @@ from ..report.rows import point_of
 from ..report.verdict import ACCELERATED, DECADE, good_error
 from .case import Case, Setting, parse_variant
 
-ITERATIONS = (1, 2, 3, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200)
+ITERATIONS = (1, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 70, 100, 150, 200)
 _EXPLICIT_STEP = 2.0 ** (1.0 / 3.0)  # between rates of the explicit solver: its cost is all that they change
 _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more

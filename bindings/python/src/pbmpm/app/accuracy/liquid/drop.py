@@ -101,7 +101,7 @@ class EllipticalDrop(Case):
         ErrorMeasure("area_error", "discretisation", "%", "|a b - its start| / its start at A0 t = 1"),
     )
     length_name = "radius of the drop"
-    finer = {64: 4.0}
+    finer = {64: 6.0}
     notes = "Axes from the second moments of the particles. Energy with the velocity gradients of the particles."
 
     @property
