@@ -103,6 +103,7 @@ def test_period_of_the_wave() -> None:
         pytest.param(Couette(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="couette"),
         pytest.param(Poiseuille(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="poiseuille"),
         pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 8), {"gauge_mae": 0.12}, id="dam break on a box"),
+        pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 6), {"gauge_mae": 0.12}, id="dam break on a box, coarse"),
         pytest.param(
             DamBreak(stability_seconds=2.0),
             Setting("dual", 60.0, 5, 16),
