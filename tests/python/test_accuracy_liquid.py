@@ -103,7 +103,6 @@ def test_period_of_the_wave() -> None:
         pytest.param(Couette(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="couette"),
         pytest.param(Poiseuille(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="poiseuille"),
         pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 8), {"gauge_mae": 0.12}, id="dam break on a box"),
-        pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 6), {"gauge_mae": 0.12}, id="dam break on a box, coarse"),
         pytest.param(
             DamBreak(stability_seconds=2.0),
             Setting("dual", 60.0, 5, 16),
@@ -126,6 +125,12 @@ def test_case_reaches_its_truth(case: Case, setting: Setting, limits: dict[str, 
     for name, limit in limits.items():
         error = measured.errors[name]
         assert error is not None and error <= limit, f"{name}: {error} is above {limit}"
+
+
+def test_the_water_before_the_obstacle_has_room_between_walls_off_the_grid() -> None:
+    """10.9 cells between the side walls: put in for all of them, the water has but 10.5, rises, and gains 2 % of its energy."""
+    found = ObstacleDamBreak().measure(Setting("dual", 60.0, 5, 6))
+    assert found.stable and found.extra["energy_peak"] == 0.0
 
 
 def test_the_papers_column_is_softer() -> None:
