@@ -66,16 +66,18 @@ class Explorer:
 
     def run(self) -> None:
         """Measures where the case says that the search begins, then around the fronts. Of the own grid all settings are
-        measured as long as there is time; on others those of the accelerated solvers must leave some for the search."""
+        measured as long as there is time; on others those of the accelerated solvers must leave some for the search, which
+        finds their further variants as neighbours."""
         start = self.case.start(self.cells)
         own_grid = self.cells == self.case.own_cells
-        for setting in sorted(start, key=lambda item: item.work):
-            if own_grid or setting.solver not in ACCELERATED or self.affordable(setting):
-                self.attempt(setting, 1.0)
         self._variants = {
             solver: list(dict.fromkeys(item.variant for item in start if item.solver == solver))
             for solver in dict.fromkeys(item.solver for item in start)
         }
+        for setting in sorted(start, key=lambda item: item.work):
+            first = setting.variant == self._variants[setting.solver][0]
+            if own_grid or setting.solver not in ACCELERATED or (first and self.affordable(setting)):
+                self.attempt(setting, 1.0)
         self._search()
 
     def _search(self) -> None:

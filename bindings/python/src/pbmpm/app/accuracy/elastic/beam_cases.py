@@ -72,7 +72,7 @@ class ClassicAxialBar(AxialBar):
     name = "axial-bar-soft"
     title = "Axial vibration of the soft bar of the literature"
     cells = (50, 25)
-    finer = {500: 8.0}
+    finer = {640: 6.0}
     bar = CLASSIC_BAR
     rates = (2.0, 10.0)
     slowest_hz = 1.0

@@ -30,7 +30,7 @@ class BlockCase(ElasticCase):
     model = strain.FIXED_COROTATED
     particles_per_axis = Block.particles_per_axis
     seconds = 3.0
-    rates = (30.0, 120.0)
+    rates = (15.0, 60.0)
     iterations = (5, 20)
     variants = ("paper", "dual", "primal")
     patience = 2.0
@@ -99,7 +99,7 @@ class Block3DCase(BlockCase):
     cells = (16,)
     finer = {}
     particles_per_axis = 2
-    rates = (30.0, 60.0)
+    rates = (15.0, 60.0)
     patience = 4.0
     quick_rates = (60.0,)
     quick_iterations = (10,)
