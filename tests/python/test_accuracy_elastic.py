@@ -233,7 +233,7 @@ def test_a_hanging_block_does_not_tear_off_on_a_fine_grid() -> None:
 def test_a_case_that_broke_keeps_its_row() -> None:
     found = BlockCase().measure(Setting("explicit", 60.0, 1, 16))
     assert not found.stable and found.reasons
-    assert found.errors == {"pulled": None, "pressed": None}
+    assert found.errors == {"stretch": None, "pulled": None, "pressed": None}
 
 
 # Prediction
