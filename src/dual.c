@@ -24,11 +24,12 @@ static bool shares_world(const World *world)
     return solids && solver_holds_liquid(world);
 }
 
-/* How many of the iterations go into the guess: enough to reach through a pool, and at least half are left. A single one is worth much in a pool
+/* How many of the iterations go into the guess, which is for liquids: enough to reach through a pool, and at least half are left. A single one is worth much in a pool
  * and does harm in free flight. */
 static int guess_iterations(const World *world)
 {
     enum { MOST = 4 };
+    if (!solver_holds_liquid(world)) return 0;
     const int half = world->settings.iterations / 2;
     if (half == 1 && gravity_strength(world) == 0.0) return 0;
     return half < MOST ? half : MOST;
@@ -268,7 +269,7 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
- * are asked for more, and best above about (4 n)^2. */
+ * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double stiffness = stiffness_of(world, def, substep), iterations = own_iterations(world);
@@ -277,9 +278,29 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, d
     return fmin(1.0, held * held / stiffness);
 }
 
+/* Solids that are too soft for their own weight end crushed in a row of cells. Where gravity pulls, those by themselves are therefore
+ * asked for what is compressed by WEIGHT_STRAIN at most below matter of this depth, as far as the iterations bear that: c times the
+ * pressure there is 4 g dt^2/dx per cell of depth. */
+static const double WEIGHT_STRAIN = 0.05;
+
+static double weight_stiffness(const World *world, double substep)
+{
+    const double fall = gravity_strength(world) * substep * substep / (double)world->def.cell_size;
+    return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
+}
+
+/* More would be more than they stop: stiff bodies that fall would come to tremble. A single iteration lets no particle answer another. */
+static double most_asked(double iterations)
+{
+    static const double PER_ITERATION = 5.0;
+    return iterations > 1.0 ? PER_ITERATION * iterations : 0.0;
+}
+
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
-    if (!solver_holds_liquid(world)) return dual_stiffness_share(world, def, substep);
-    const double asked = 4.0 * own_iterations(world);
-    return fmin(1.0, asked * asked / stiffness_of(world, def, substep));
+    const double stiffness = stiffness_of(world, def, substep), iterations = own_iterations(world);
+    if (solver_holds_liquid(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
+    const double share = dual_stiffness_share(world, def, substep);
+    if (share == 1.0) return share;
+    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, substep), most_asked(iterations)) / stiffness));
 }

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+import pbmpm
 from pbmpm.app.effects.catalogue import effects_on
 from pbmpm.app.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
 from pbmpm.app.errors import InputError
@@ -156,6 +157,23 @@ def test_sand_and_visco() -> None:
     assert visco.flow_rate / scene.rate_hz > 100  # nothing is left of exp(-100) in single precision
 
 
+@pytest.mark.parametrize("ratio", [1.0, 0.25, 0.07])
+def test_solids_have_the_moduli_that_the_demos_iterations_act_like(ratio: float) -> None:
+    data = small(emitMaterial="3")
+    settings = {"elasticityRatio": ratio, "simRate": 480, "iterationCount": 7, "elasticRelaxation": 1.25}
+    data["settings"] = [{"name": name, "value": value} for name, value in settings.items()]
+    scene = import_ea_scene(data, "small.json")
+    visco = scene.materials["visco"]
+    assert visco.kind == "visco"
+    with pbmpm.World(2, scene.cell_size, capacity=1, iterations=scene.iterations) as world:
+        matter = pbmpm.Visco(density=visco.density, relaxation=visco.relaxation)
+        papers = world.add_material(matter).effective(1.0 / scene.rate_hz)
+    shear = 0.5 * visco.young_modulus / (1 + visco.poisson_ratio)
+    bulk = shear / (1 - 2 * visco.poisson_ratio)  # lambda + mu
+    assert bulk == pytest.approx(papers.bulk_modulus, rel=1e-5)
+    assert 2 * shear == pytest.approx(ratio * papers.young_modulus, rel=1e-5)
+
+
 def test_extreme_sand_and_visco_stay_within_what_there_is() -> None:
     data = small(emitMaterial="3")
     data["shapes"].append({**SMALL["shapes"][0], "emitMaterial": "2"})
@@ -164,6 +182,7 @@ def test_extreme_sand_and_visco_stay_within_what_there_is() -> None:
     materials = import_ea_scene(data, "small.json").materials
     assert materials["visco"].yield_strain == 0 and 1.3 < materials["sand"].friction_angle < math.pi / 2
     assert 0 < materials["sand"].elasticity_ratio == materials["visco"].elasticity_ratio <= 0.1
+    assert materials["visco"].poisson_ratio < 0.5 and materials["visco"].young_modulus > 1.0
 
 
 def test_what_nobody_knows_becomes_a_note() -> None:

@@ -5,6 +5,9 @@ away from its border. The demo knows no metres. Here its scene is taken to be so
 (2.5 grid heights per s^2) is 9.81 m/s^2: the grid is always 3.924 m high, whatever its resolution. Every figure
 in cells then has the same meaning as in the demo.
 
+The demo has no moduli: its solids are as stiff as its rate and iterations make them. They get the moduli that this amounts to, so that
+the solvers that take moduli show the same matter at other rates, where the demo's would be softer.
+
 What cannot be carried over is noted, never fatal: the demo's border friction is a share of the tangential displacement
 removed per iteration and becomes a Coulomb coefficient here; its ``iterationCount`` of n makes n - 1 complete rounds where
 ours makes n; its sand yields by a constant for 3D, ours by that for 2D; its viscoplastic matter bounds each stretch, ours
@@ -50,6 +53,9 @@ AT_ONCE = 1e9
 KNOWN_FIELDS = {"id", "position", "halfSize", "rotation", "shape", "function", "emitMaterial", "emissionRate", "radius"}
 
 
+DENSITY: float = ViscoPart.model_fields["density"].default
+"""[kg/m^3] of all matter; the demo knows no mass."""
+
 EMITTER_FILL_LIMIT = 1.5
 """The demo emits no liquid where the nearest cell holds more than this: enough to pump up a pool from below."""
 
@@ -84,7 +90,7 @@ def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
         "seconds": DEFAULT_SECONDS,
         "rate_hz": settings["simRate"],
         "iterations": int(settings["iterationCount"]),
-        "materials": _materials(settings, {shape.material for shape in shapes if shape.emits}, notes),
+        "materials": _materials(settings, cell_size, {shape.material for shape in shapes if shape.emits}, notes),
         "fills": [
             _fill(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "initial fill"
         ],
@@ -170,7 +176,7 @@ def _settings(data: dict[str, Any], source: str) -> tuple[dict[str, float], list
     return settings, notes
 
 
-def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> dict[str, Any]:
+def _materials(settings: dict[str, float], cell_size: float, used: set[str], notes: list[str]) -> dict[str, Any]:
     notes.append("border friction is a Coulomb coefficient here; the demo removes a share of the motion per iteration")
     notes.append("N iterations are N complete rounds here; the demo makes one fewer")
     liquid = {
@@ -179,7 +185,8 @@ def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> 
         "viscosity": min(max(settings["liquidViscosity"], 0.0), 1.0),
         "volume_feedback": 0.1 if settings["useGridVolumeForLiquid"] else 0.0,
     }
-    solid = {"relaxation": _relaxation(settings, "elasticRelaxation", notes)}
+    relaxation = _relaxation(settings, "elasticRelaxation", notes)
+    solid = {"relaxation": relaxation, **_moduli(settings, cell_size, relaxation)}
     ratio = settings["elasticityRatio"]
     elastic = {"kind": "elastic", **solid, "elasticity_ratio": min(max(ratio, 0.0), 1.0)}
     sand = {
@@ -198,6 +205,21 @@ def _materials(settings: dict[str, float], used: set[str], notes: list[str]) -> 
     }
     materials = {"liquid": liquid, "elastic": elastic, "sand": sand, "visco": visco}
     return {name: material for name, material in materials.items() if name in used}
+
+
+def _moduli(settings: dict[str, float], cell_size: float, relaxation: float) -> dict[str, float]:
+    """Young's modulus and Poisson's ratio that the demo's solids act like.
+
+    N iterations answer a strain like the modulus k = density w N dx^2 / (4 dt^2): a volume strain in full, a deviator by the share ``elasticityRatio``, b.
+    With 2 mu = b k and K = lambda + mu = k / 2 in 2D, nu = lambda / (2 K) = (1 - b) / 2 and E = 2 mu (1 + nu).
+    """
+    ratio = _within(ViscoPart, "elasticity_ratio", settings["elasticityRatio"])
+    stiffness = 0.25 * DENSITY * relaxation * int(settings["iterationCount"]) * (cell_size * settings["simRate"]) ** 2
+    poisson = 0.5 * (1 - ratio)
+    return {
+        "young_modulus": _within(ViscoPart, "young_modulus", ratio * stiffness * (1 + poisson)),
+        "poisson_ratio": _within(ViscoPart, "poisson_ratio", poisson),
+    }
 
 
 def _within(part: type[SandPart | ViscoPart], field: str, value: float) -> float:

@@ -101,13 +101,6 @@ _BOUNCE = (
 _KNOWN = (
     KnownFailure(_BOUNCE, solvers=(DUAL,), materials=(LIQUID,), dimensions=(3,)),
     KnownFailure(
-        "a body of the dual solver is as stiff as its iterations hold, (N/2.5)^2 rho dx^2 / (4 dt^2): the weight alone compresses the "
-        "light block by a sixth, and the impact its corners to J = 0.1 (2D), 0.24 (3D)",
-        solvers=(DUAL,),
-        materials=(ELASTIC,),
-        variants=("1:10",),
-    ),
-    KnownFailure(
         "the light liquid loses its volume to the heavy one's weight, more than the law of a column says, and has not risen after "
         "10 s: mean heights 9:1",
         solvers=(PAPER,),
