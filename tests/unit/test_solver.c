@@ -162,9 +162,40 @@ static void test_rounds_of_solids_among_liquids(void)
     world->particles.of_material[solid.index] = 1;
     const double alone = dual_stiffness_share(world, &body, 1.0 / 60);
     world->particles.of_material[liquid.index] = 1;
-    NEAR(19.0 * 19.0 / 9.0 * alone, dual_stiffness_share(world, &body, 1.0 / 60)); /* 3 iterations and 16 rounds */
+    NEAR(19.0 * 19.0 / 25.0 * alone, dual_stiffness_share(world, &body, 1.0 / 60)); /* 3 iterations, for 2 go into the guess, and 16 rounds */
     world->settings.pressure = PBMPM_PRESSURE_CELLS;
-    NEAR(alone, dual_stiffness_share(world, &body, 1.0 / 60));
+    NEAR(9.0 / 25.0 * alone, dual_stiffness_share(world, &body, 1.0 / 60));
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
+    world_destroy(world);
+}
+
+/* Solids by themselves are asked for what bears their weight with a strain of 1/20, up to 5 per iteration; never for less than is held, nor for more
+ * than they have. A grid without particles counts as one cell deep. */
+static void test_solids_are_asked_to_bear_their_weight(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def body = material_defaults();
+    pbmpm_material_id solid;
+    const double dt = 1.0 / 60, weight = 4.0 * 9.81 * dt * dt / 0.05 / 0.05;
+    body.kind = PBMPM_ELASTIC;
+    body.young_modulus = 1e9f;
+    body.poisson_ratio = 0.0f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &body, 1, &solid));
+    world->particles.of_material[solid.index] = 1;
+    world->settings.iterations = 5;
+    memset(world->settings.gravity, 0, sizeof world->settings.gravity);
+    const double stiffness = 2.0 * twice_courant_squared(0.5e9, 1000.0, dt, 0.05), held = 4.0 / stiffness;
+    NEAR(held, dual_stiffness_cap(world, &body, dt));
+    world->settings.gravity[1] = -9.81f;
+    NEAR(weight / stiffness, dual_stiffness_cap(world, &body, dt)); /* 4.4, and 4 are held */
+    world->settings.gravity[1] = -98.1f;
+    NEAR(25.0 / stiffness, dual_stiffness_cap(world, &body, dt));
+    NEAR(held, dual_stiffness_share(world, &body, dt));
+    world->settings.iterations = 1;
+    NEAR(held / 25.0, dual_stiffness_cap(world, &body, dt));
+    body.young_modulus = 1e3f;
+    world->settings.iterations = 5;
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_cap(world, &body, dt));
     memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
@@ -311,6 +342,7 @@ int main(void)
     RUN_TEST(test_moduli_of_elastic_bodies);
     RUN_TEST(test_what_the_dual_solver_holds);
     RUN_TEST(test_rounds_of_solids_among_liquids);
+    RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
     RUN_TEST(test_stop_rules);
     RUN_TEST(test_the_predicted_error_lies_between_its_bounds);
