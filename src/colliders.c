@@ -317,6 +317,20 @@ static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o,
     return (uint32_t)count;
 }
 
+/* How deep [cells] in a box a node is more than on its surface. */
+static const double INSIDE = 1e-3;
+
+/* Contacts of a node in a box with the faces beside the nearest one that matter outside may press it through. Were it held by one face alone,
+ * what presses on the other would push past it: each face of a floating box would bear pressure on less than its width, and the box would lie
+ * too deep in the water. */
+static uint32_t contacts_at_edges(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, Contact *out)
+{
+    double normals[2][3];
+    const int count = solid_other_faces(&o->start, point, NODE_REACH * frame->cell_size, normals);
+    for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, 0.0, normals[i]);
+    return (uint32_t)count;
+}
+
 /* Contacts of one obstacle with one block's nodes; writes them if `out` is not null, and returns their number. */
 static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int32_t block, double reach, Contact *out)
 {
@@ -337,6 +351,7 @@ static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int3
         if (image || distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
         if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
         count++;
+        if (distance < -INSIDE) count += contacts_at_edges(frame, o, point, i, out ? out + count : NULL);
     }
     return count;
 }
@@ -441,6 +456,17 @@ static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t blo
     }
 }
 
+/* What moves by less than this [cells per substep] rests, as far as volume goes: J follows the volume by a tenth per substep, and keeps up. */
+static const double RESTS = 0.02;
+
+static bool rests(const ContactFrame *frame, const Obstacle *o, const double point[3])
+{
+    float moved[3], length2 = 0.0f;
+    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, moved);
+    for (int a = 0; a < 3; a++) length2 += moved[a] * moved[a];
+    return (double)length2 < RESTS * RESTS;
+}
+
 typedef struct OpenJob {
     const ContactFrame *frame;
     bool resting_only;
@@ -456,7 +482,7 @@ static void open_blocks(void *context, int32_t begin, int32_t end)
         contacts_block_centre(frame, block, centre);
         for (int i = 0; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
-            if (job->resting_only && o->moves) continue;
+            if (job->resting_only && !rests(frame, o, centre)) continue;
             if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + NODE_REACH) open_block(frame, o, block);
         }
     }

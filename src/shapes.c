@@ -187,6 +187,23 @@ double solid_distance(const Solid *s, const double point[3], double normal[3])
     return distance;
 }
 
+int solid_other_faces(const Solid *s, const double point[3], double reach, double normals[2][3])
+{
+    double from_centre[3] = {0}, local[3], nearest[3];
+    int count = 0;
+    if (s->kind != PBMPM_BOX) return 0;
+    for (int a = 0; a < s->dimension; a++) from_centre[a] = point[a] - s->position[a];
+    to_local(s, from_centre, local);
+    if (box_distance(s, local, nearest) > 0.0) return 0;
+    for (int a = 0; a < s->dimension; a++) {
+        const double side = local[a] < 0.0 ? -1.0 : 1.0;
+        if (nearest[a] != 0.0 || s->half_extents[a] - side * local[a] > reach) continue;
+        for (int b = 0; b < 3; b++) normals[count][b] = b < s->dimension ? side * s->rotation[b * 3 + a] : 0.0;
+        count++;
+    }
+    return count;
+}
+
 double solid_least(const Solid *s, const double point[3])
 {
     double from_centre[3] = {0}, local[3], normal[3];

@@ -37,6 +37,10 @@ pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], con
  * 2D the third component is neither read nor written to anything but 0. */
 double solid_distance(const Solid *solid, const double point[3], double normal[3]);
 
+/* Of a point in a box: the outward unit normals of the faces that it is within `reach` [m] of, but for the nearest one; how many they are. Each
+ * axis has one, on the nearer side. Other shapes have no faces. */
+int solid_other_faces(const Solid *solid, const double point[3], double reach, double normals[2][3]);
+
 /* A number that the distance is not less than: for all but baked solids the distance itself. */
 double solid_least(const Solid *solid, const double point[3]);
 

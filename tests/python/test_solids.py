@@ -265,6 +265,35 @@ def test_a_light_body_floats_and_a_heavy_one_sinks() -> None:
     assert _rest_height(600.0, 4.0) == pytest.approx(-0.7, abs=0.01)  # on the ground
 
 
+@pytest.mark.parametrize("solver", ["paper", "dual"])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_cube_of_five_cells_floats(dimension: int, solver: str) -> None:
+    """At 120 Hz and ten iterations, half as heavy as water. The depth is against the weight of the water beside the cube, since liquids give
+    way a little.."""
+    cell, side, basin, depth, rate = 0.1, 0.5, 1.2, 0.9, 120
+    cube = {"kind": "box", "position": [0] * dimension, "half_extents": [side / 2] * dimension}
+    low, high = ([value, *[x] * (dimension - 1)] for value, x in ((-basin / 2, -basin / 2), (basin / 2, basin / 2)))
+    low[1], high[1] = -depth, 0.8
+    water = {"kind": "box", "position": [0, -depth / 2, 0][:dimension], "half_extents": [basin / 2, depth / 2, basin / 2][:dimension]}
+    data = _scene(cube, friction_coefficient=0, body={"mass": 500.0 * side**dimension, "turns": False})
+    data.update(dimension=dimension, cell_size=cell, rate_hz=rate, substeps=1, iterations=10, solver={"solver": solver})
+    data.update(gravity=[0, -9.81, 0][:dimension], domain={"min": low, "max": high})
+    data["fills"][0]["shape"] = water
+    scene = parse_scene(data)
+    draughts = []
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        for step in range(4 * rate):
+            simulation.step()
+            if step < 2.5 * rate:
+                continue
+            bottom = simulation.frame().body_poses[0][0][1] - side / 2
+            places = simulation.world.positions.array()
+            beside = np.abs(places[:, 0]) > side / 2 + 2 * cell
+            area = (basin - side - 4 * cell) * basin ** (dimension - 2)
+            draughts.append((beside & (places[:, 1] > bottom)).sum() * (cell / 2) ** dimension / area)
+    assert np.mean(draughts) == pytest.approx(side / 2, abs=0.2 * cell)
+
+
 def test_a_body_turns_upright_again() -> None:
     """A wide flat box that falls in at a slant ends up flat."""
     box = {"kind": "box", "position": [0, 0.3], "half_extents": [0.6, 0.1], "rotation": 0.3}

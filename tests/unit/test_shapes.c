@@ -208,6 +208,43 @@ static void test_centres(void)
         }
 }
 
+/* Of the faces within reach of a point in a box, one per axis, all but the nearest; none of a point outside, and none of other shapes. */
+static void check_other_faces(const pbmpm_shape *shape, int d, Random *random)
+{
+    const Solid solid = solid_of(shape, d);
+    const double reach = random_in(random, 0.1, 1.0);
+    double local[3] = {0}, point[3], depth[3], found[2][3];
+    int nearest = 0, expected = 0;
+    for (int a = 0; a < d; a++) {
+        local[a] = random_in(random, -1.05, 1.05) * (double)shape->half_extents[a];
+        depth[a] = (double)shape->half_extents[a] - fabs(local[a]);
+        if (depth[a] < depth[nearest]) nearest = a;
+    }
+    world_point(shape, local, point);
+    const int count = solid_other_faces(&solid, point, reach, found);
+    for (int a = 0; a < d && depth[nearest] >= 0.0 && shape->kind == PBMPM_BOX; a++) {
+        double axis[3] = {0}, normal[3];
+        if (a == nearest || depth[a] > reach) continue;
+        axis[a] = copysign(1.0, local[a]);
+        turn(shape->rotation, axis, normal);
+        TEST_ASSERT_TRUE(expected < count);
+        for (int b = 0; b < 3; b++) TEST_ASSERT_DOUBLE_WITHIN(1e-6, normal[b], found[expected][b]);
+        expected++;
+    }
+    TEST_ASSERT_EQUAL_INT(expected, count);
+}
+
+static void test_other_faces(void)
+{
+    Random random = {17};
+    for (int d = 2; d <= 3; d++)
+        for (int kind = PBMPM_BOX; kind <= PBMPM_CAPSULE; kind++)
+            for (int i = 0; i < 500; i++) {
+                const pbmpm_shape shape = shape_of((pbmpm_shape_kind)kind, d, &random);
+                check_other_faces(&shape, d, &random);
+            }
+}
+
 /* The box around a shape holds it and is touched on every side. */
 static void check_bounds(const pbmpm_shape *shape, int d, Random *random)
 {
@@ -283,6 +320,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_distances);
+    RUN_TEST(test_other_faces);
     RUN_TEST(test_normals);
     RUN_TEST(test_planes);
     RUN_TEST(test_centres);

@@ -140,22 +140,29 @@ class GranularColumn(Case):
 
     def measure(self, setting: Setting) -> Measurement:
         run, flat = self._collapse(setting, 2, FRICTION_ANGLE)
-        errors: dict[str, float | None] = {measure.name: None for measure in self.error_kinds}
         if run.judge.broken:
-            return run.measurement(errors)
+            return self._measurement(run, flat, {}, {})
         deep = self._collapse(setting, 3, FRICTION_ANGLE)[1]
         steep = math.atan(CONTROL_COEFFICIENT)
         controls = [self._collapse(setting, dimension, steep)[1].runout for dimension in (2, 3)]
         low, high = envelope("runout")
-        errors |= {
-            "runout": from_middle(flat.runout, "runout"),
-            "height": from_middle(flat.height, "height"),
+        others = {
             "runout_3d": from_middle(deep.runout, "runout"),
             "height_3d": from_middle(deep.height, "height"),
             "control": max(max(0.0, min(value - low, high - value)) for value in controls),
         }
-        extra: dict[str, Any] = {"heap_2d": vars(flat), "heap_3d": vars(deep), "control_runouts": controls}
-        return run.measurement(errors, observed=(flat.runout, flat.height), extra=extra)
+        return self._measurement(run, flat, others, {"heap_3d": vars(deep), "control_runouts": controls})
+
+    def solve(self, setting: Setting) -> Measurement:
+        return self._measurement(*self._collapse(setting, 2, FRICTION_ANGLE), {}, {})
+
+    def _measurement(self, run: Trial, flat: Heap, others: dict[str, float], extra: dict[str, Any]) -> Measurement:
+        """Of the run in 2D, and what the other runs gave."""
+        errors: dict[str, float | None] = {measure.name: None for measure in self.error_kinds}
+        if run.judge.broken:
+            return run.measurement(errors)
+        errors |= {"runout": from_middle(flat.runout, "runout"), "height": from_middle(flat.height, "height")} | others
+        return run.measurement(errors, observed=(flat.runout, flat.height), extra={"heap_2d": vars(flat)} | extra)
 
     def distance(self, observed: tuple[float, ...], other: tuple[float, ...]) -> float:
         """In the unit of the headline: run-outs apart, over the middle of the band."""

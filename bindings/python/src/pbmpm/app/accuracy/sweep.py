@@ -184,7 +184,7 @@ class Sweep:
             return None
         key = (case.name, target)
         if key not in self._converged:
-            self._converged[key] = case.measure(target)
+            self._converged[key] = case.solve(target)
         return self._converged[key]
 
 
