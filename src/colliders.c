@@ -371,6 +371,14 @@ static uint32_t contacts_of_held(const ContactFrame *frame, int32_t block, Conta
     return count;
 }
 
+uint32_t colliders_contacts(const Colliders *colliders)
+{
+    const Contact *contact = colliders->contact.data;
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < colliders->contacts; i++) count += contact[i].obstacle < colliders->obstacle_count;
+    return count;
+}
+
 static void find_in_blocks(void *context, int32_t begin, int32_t end)
 {
     const FindJob *job = context;

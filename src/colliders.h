@@ -103,6 +103,9 @@ typedef struct ContactFrame {
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
+/* Contacts of the last substep, without those of nodes that are held by nobody's obstacle. */
+uint32_t colliders_contacts(const Colliders *colliders);
+
 /* Where a node is, and the middle of a block's nodes [m]. */
 void contacts_node_position(const ContactFrame *frame, int32_t block, int node, double point[3]);
 void contacts_block_centre(const ContactFrame *frame, int32_t block, double centre[3]);

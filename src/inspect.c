@@ -139,7 +139,7 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->memory_bytes = world->memory.used;
     stats->particle_blocks = (uint32_t)world->grid.particle_blocks;
     stats->node_blocks = (uint32_t)world->grid.node_blocks;
-    stats->contacts = world->colliders.contacts;
+    stats->contacts = colliders_contacts(&world->colliders);
     stats->substeps = record->substeps;
     stats->iterations = record->iterations;
     stats->thread_count = (uint32_t)pool_thread_count(world->pool);

@@ -1,110 +1,13 @@
 /* Sleeping: matter at rest falls asleep, wakes for each of its reasons and for nothing else, and what sleeps does not change by a bit. */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "scenes.h"
-
-/* A long pool in 2D: 80 by 8 cells of 0.05 m, 2560 particles in 40 blocks or a few more. */
-enum { MOST = 4096, PATIENCE = 600 };
-static const float STILL[3] = {0, 0, 0};
-static const float DX = 0.05f, LENGTH = 4.0f, DEPTH = 0.4f, DT = 1.0f / 120;
-
-typedef struct pool {
-    pbmpm_world_id world;
-    pbmpm_material_id water;
-    pbmpm_collider_id paddle; /* kinematic, a cell above the water at PADDLE_X */
-    pbmpm_force_id force;     /* switched off */
-    pbmpm_emitter_id emitter; /* rate 0, above the water at EMITTER_X */
-    ledger *book;
-} pool;
-
-static const float PADDLE_X = 3.0f, PADDLE_Y = 0.56f, EMITTER_X = 1.0f, AT_X = 1.0f;
-
-static void *saved; /* a snapshot of the pool asleep */
-static uint64_t saved_bytes;
+#include "sleep_pool.h"
 
 void setUp(void) {}
 
 void tearDown(void) { pbmpm_shutdown(); }
-
-static void change_settings(pbmpm_world_id world, void (*change)(pbmpm_settings *settings))
-{
-    pbmpm_settings settings = {.size = sizeof settings};
-    OK(pbmpm_world_get_settings(world, &settings));
-    change(&settings);
-    OK(pbmpm_world_set_settings(world, &settings));
-}
-
-static void to_sleep(pbmpm_settings *settings)
-{
-    settings->gravity[1] = -9.81f;
-    settings->solver = PBMPM_SOLVER_DUAL;
-    settings->iterations = 10;
-    settings->sleeping = 1;
-    settings->sleep_time = 0.2f;
-}
-
-static pool make_pool(int32_t threads, ledger *book)
-{
-    pool made = {.book = book};
-    pbmpm_world_def def = default_world(2, DX, MOST);
-    def.domain_enabled = 1;
-    def.domain_max[0] = LENGTH;
-    def.domain_max[1] = 2.0f;
-    def.thread_count = threads;
-    if (book) def.allocator = ledger_allocator(book);
-    made.world = create_world(&def);
-    change_settings(made.world, to_sleep);
-    made.water = create_material(made.world, PBMPM_LIQUID);
-    made.paddle = create_collider(made.world, box_shape(PADDLE_X, PADDLE_Y, 0, 0.1f, 0.1f, 0.1f), true);
-    made.force = create_force(made.world);
-    made.emitter = create_emitter(made.world, made.water);
-    return made;
-}
-
-static void fill_pool(const pool *made)
-{
-    fill_shape(made->world, made->water, box_shape(0.5f * LENGTH, 0.5f * DEPTH, 0, 0.5f * LENGTH, 0.5f * DEPTH, 1), STILL);
-}
-
-static void steps(const pool *made, int count)
-{
-    for (int i = 0; i < count; i++) OK(pbmpm_world_step(made->world, DT));
-}
-
-/* Steps until everything is asleep and nothing takes part any more. */
-static void rest(const pool *made)
-{
-    for (int i = 0; i < PATIENCE; i++) {
-        steps(made, 1);
-        const pbmpm_stats stats = world_stats(made->world);
-        if (stats.particles_asleep == stats.particle_count && stats.particle_blocks == 0) return;
-    }
-    TEST_FAIL_MESSAGE("the pool does not fall asleep");
-}
-
-static void save(const pool *made)
-{
-    OK(pbmpm_snapshot_size(made->world, &saved_bytes, NULL));
-    free(saved);
-    saved = malloc(saved_bytes);
-    OK(pbmpm_snapshot_save(made->world, saved, saved_bytes, NULL));
-}
-
-/* The pool asleep, as a new world; the first time it takes a while. */
-static pool sleeping_pool(void)
-{
-    pool made = make_pool(1, NULL);
-    if (!saved) {
-        fill_pool(&made);
-        rest(&made);
-        save(&made);
-    }
-    OK(pbmpm_snapshot_restore(made.world, saved, saved_bytes));
-    return made;
-}
 
 /* ---- What changed ---- */
 
@@ -169,7 +72,7 @@ static uint32_t count_changed(const picture *before, const picture *after, float
 
 static void test_a_pool_at_rest_falls_asleep_and_stays_as_it_is(void)
 {
-    const pool made = sleeping_pool();
+    const pool made = sleeping_pool(NULL);
     const picture before = picture_of(made.world);
     const uint64_t hash = world_hash(made.world);
     steps(&made, 100);
@@ -187,7 +90,6 @@ static void test_a_pool_at_rest_falls_asleep_and_stays_as_it_is(void)
 
 static void slow_only(pbmpm_settings *settings) { settings->sleep_speed = 0; }
 static void long_only(pbmpm_settings *settings) { settings->sleep_time = 1e6f; }
-static void not_at_all(pbmpm_settings *settings) { settings->sleeping = 0; }
 
 static void test_nothing_falls_asleep_that_may_not(void)
 {
@@ -234,28 +136,7 @@ typedef struct reason {
     float x; /* near what */
 } reason;
 
-static void add_at(const pool *made, float y, float speed)
-{
-    const float position[] = {AT_X, y}, velocity[] = {0, speed};
-    pbmpm_particles_def def;
-    OK(pbmpm_particles_def_init(&def, sizeof def));
-    def.material = made->water;
-    def.count = 1;
-    def.positions = position;
-    def.velocities = velocity;
-    OK(pbmpm_particles_add(made->world, &def, NULL));
-}
-
-static void a_fast_particle_comes_in(const pool *made) { add_at(made, 0.45f, -2); }
 static void a_particle_is_put_in(const pool *made) { add_at(made, 0.2f, 0); }
-
-static void particles_are_removed(const pool *made)
-{
-    uint32_t removed;
-    const pbmpm_shape shape = box_shape(AT_X, 0.2f, 0, 0.2f, 0.2f, 1);
-    OK(pbmpm_particles_remove_in(made->world, &shape, &removed));
-    TEST_ASSERT_TRUE(removed > 0);
-}
 
 static void one_is_removed(const pool *made)
 {
@@ -280,12 +161,6 @@ static void one_is_pushed(const pool *made)
 static void a_collider_appears(const pool *made) { create_collider(made->world, sphere_shape(AT_X, 0.3f, 0, 0.1f), false); }
 static void a_collider_appears_far_off(const pool *made) { create_collider(made->world, sphere_shape(AT_X, 1.5f, 0, 0.1f), false); }
 static void a_collider_goes(const pool *made) { OK(pbmpm_collider_destroy(made->world, made->paddle)); }
-
-static void move_paddle(const pool *made, float y, bool at_once)
-{
-    const float position[] = {PADDLE_X, y, 0};
-    OK((at_once ? pbmpm_collider_teleport : pbmpm_collider_move)(made->world, made->paddle, position, NULL));
-}
 
 static void a_collider_moves(const pool *made) { move_paddle(made, 0.5f, false); }
 static void a_collider_is_teleported(const pool *made) { move_paddle(made, 1.5f, true); }
@@ -314,32 +189,11 @@ static void a_force_is_switched_on(const pool *made) { change_force(made, false,
 static void a_force_acts_everywhere(const pool *made) { change_force(made, true, true); }
 static void a_force_that_is_off_is_set(const pool *made) { change_force(made, true, false); }
 
-static void an_emitter_begins(const pool *made)
-{
-    pbmpm_emitter_def def = {.size = sizeof def};
-    OK(pbmpm_emitter_get(made->world, made->emitter, &def));
-    def.shape = sphere_shape(EMITTER_X, 0.5f, 0, 0.05f);
-    def.direction[0] = 0;
-    def.direction[1] = -1;
-    def.speed = 1;
-    def.rate = 300;
-    def.budget = 10;
-    OK(pbmpm_emitter_set(made->world, made->emitter, &def));
-}
-
-static void a_call_wakes_a_shape(const pool *made)
-{
-    const pbmpm_shape shape = sphere_shape(AT_X, 0.2f, 0, 0.1f);
-    OK(pbmpm_world_wake(made->world, &shape));
-}
-
 static void a_call_wakes_air(const pool *made)
 {
     const pbmpm_shape shape = sphere_shape(AT_X, 1.5f, 0, 0.1f);
     OK(pbmpm_world_wake(made->world, &shape));
 }
-
-static void a_call_wakes_all(const pool *made) { OK(pbmpm_world_wake(made->world, NULL)); }
 
 static void heavier(pbmpm_settings *settings) { settings->gravity[1] = -10; }
 static void longer(pbmpm_settings *settings) { settings->iterations++; }
@@ -447,7 +301,7 @@ static void expect_woken(const reason *why, const pool *made, const picture *bef
 static void test_each_reason_wakes_what_it_touches_and_no_more(void)
 {
     for (size_t i = 0; i < sizeof reasons / sizeof *reasons; i++) {
-        const pool made = sleeping_pool();
+        const pool made = sleeping_pool(NULL);
         const picture before = picture_of(made.world);
         reasons[i].act(&made);
         expect_woken(&reasons[i], &made, &before);
@@ -460,7 +314,7 @@ static void test_each_reason_wakes_what_it_touches_and_no_more(void)
 /* In every step no more particles change than are awake, and those that sleep are the same to the bit. */
 static void test_a_drop_changes_nothing_that_sleeps(void)
 {
-    const pool made = sleeping_pool();
+    const pool made = sleeping_pool(NULL);
     picture before = picture_of(made.world);
     const picture first = before;
     uint32_t least_asleep = UINT32_MAX;
@@ -484,7 +338,7 @@ static void test_a_drop_changes_nothing_that_sleeps(void)
 /* Where water was taken away, the rest must not hang in the air: it flows down and fills the hole. */
 static void test_a_hole_fills_up(void)
 {
-    const pool made = sleeping_pool();
+    const pool made = sleeping_pool(NULL);
     uint32_t removed, left;
     const pbmpm_shape whole = box_shape(1.0f, 0.2f, 0, 0.4f, 0.25f, 1), low = box_shape(1.0f, 0.05f, 0, 0.4f, 0.05f, 1);
     const picture before = picture_of(made.world);
@@ -501,158 +355,6 @@ static void test_a_hole_fills_up(void)
     TEST_ASSERT_TRUE(farthest > 0.9f);
 }
 
-/* ---- Threads, snapshots, memory ---- */
-
-static void test_results_do_not_depend_on_the_number_of_threads(void)
-{
-    uint64_t hashes[64];
-    for (int32_t threads = 1; threads <= 4; threads += 3) {
-        const pool made = make_pool(threads, NULL);
-        int at = 0;
-        fill_pool(&made);
-        for (int k = 0; k < 40; k++) {
-            steps(&made, 10);
-            if (k == 25) an_emitter_begins(&made);
-            if (k == 30) particles_are_removed(&made);
-            const uint64_t hash = world_hash(made.world);
-            if (threads == 1) hashes[at] = hash;
-            TEST_ASSERT_EQUAL_HEX64(hashes[at], hash);
-            at++;
-        }
-        TEST_ASSERT_TRUE(world_stats(made.world).blocks_asleep > 0);
-        OK(pbmpm_world_destroy(made.world));
-    }
-}
-
-/* Taken while some are awake, some drowsy, and some asleep in more than one piece. */
-static void test_a_snapshot_holds_who_sleeps(void)
-{
-    const pool made = sleeping_pool(), other = make_pool(1, NULL);
-    an_emitter_begins(&made);
-    steps(&made, 20);
-    move_paddle(&made, 0.5f, false);
-    steps(&made, 20);
-    const pbmpm_stats stats = world_stats(made.world);
-    TEST_ASSERT_TRUE(stats.blocks_asleep > 0 && stats.blocks_drowsy > 0 && stats.blocks_drowsy < stats.particle_blocks);
-    uint64_t bytes;
-    OK(pbmpm_snapshot_size(made.world, &bytes, NULL));
-    char *buffer = malloc(bytes);
-    OK(pbmpm_snapshot_save(made.world, buffer, bytes, NULL));
-    OK(pbmpm_snapshot_restore(other.world, buffer, bytes));
-    for (int i = 0; i < 200; i++) {
-        steps(&made, 1);
-        steps(&other, 1);
-        TEST_ASSERT_EQUAL_HEX64(world_hash(made.world), world_hash(other.world));
-        TEST_ASSERT_EQUAL_UINT32(world_stats(made.world).particles_asleep, world_stats(other.world).particles_asleep);
-    }
-    free(buffer);
-}
-
-static void test_a_snapshot_without_sleeping_wakes_all(void)
-{
-    pool awake = make_pool(1, NULL), made;
-    fill_pool(&awake);
-    change_settings(awake.world, not_at_all);
-    steps(&awake, 10);
-    uint64_t bytes;
-    OK(pbmpm_snapshot_size(awake.world, &bytes, NULL));
-    char *buffer = malloc(bytes);
-    OK(pbmpm_snapshot_save(awake.world, buffer, bytes, NULL));
-    made = sleeping_pool();
-    OK(pbmpm_snapshot_restore(made.world, buffer, bytes));
-    TEST_ASSERT_EQUAL_UINT32(0, world_stats(made.world).particles_asleep);
-    for (int i = 0; i < 50; i++) {
-        steps(&awake, 1);
-        steps(&made, 1);
-        TEST_ASSERT_EQUAL_HEX64(world_hash(awake.world), world_hash(made.world));
-    }
-    free(buffer);
-}
-
-/* Once a pool has slept, woken and slept again, the same once more allocates nothing. */
-static void test_warm_steps_allocate_nothing(void)
-{
-    static ledger book;
-    book = (ledger){0};
-    const pool made = make_pool(1, &book);
-    fill_pool(&made);
-    rest(&made);
-    for (int round = 0; round < 3; round++) {
-        const uint64_t calls = book.calls;
-        a_call_wakes_a_shape(&made);
-        a_fast_particle_comes_in(&made);
-        rest(&made);
-        a_call_wakes_all(&made);
-        rest(&made);
-        if (round == 2) TEST_ASSERT_EQUAL_UINT64(calls, book.calls);
-    }
-    OK(pbmpm_world_destroy(made.world));
-    ledger_expect_clean(&book, "a pool that slept");
-}
-
-/* Without memory a step is refused and nothing is lost; afterwards it goes on. */
-static void test_steps_without_memory_leave_the_pool_whole(void)
-{
-    static ledger book;
-    for (uint64_t nth = 1; nth < 40; nth++) {
-        book = (ledger){0};
-        const pool made = make_pool(1, &book);
-        OK(pbmpm_snapshot_restore(made.world, saved, saved_bytes));
-        const uint32_t count = world_count(made.world);
-        an_emitter_begins(&made);
-        book.fail_at = book.calls + nth;
-        for (int i = 0; i < 20; i++) {
-            const pbmpm_result result = pbmpm_world_step(made.world, DT);
-            TEST_ASSERT_TRUE(result == PBMPM_OK || result == PBMPM_ERROR_OUT_OF_MEMORY);
-        }
-        steps(&made, 5);
-        TEST_ASSERT_TRUE(world_count(made.world) >= count);
-        world_expect_finite(made.world, "after a refusal");
-        OK(pbmpm_world_destroy(made.world));
-        ledger_expect_clean(&book, "a pool without memory");
-    }
-}
-
-/* ---- Every solver, and elastic bodies ---- */
-
-static void test_bodies_sleep_with_every_solver(void)
-{
-    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_PAPER, PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_EXPLICIT};
-    for (size_t i = 0; i < sizeof solvers / sizeof *solvers; i++) {
-        pbmpm_world_def def = default_world(2, DX, MOST);
-        def.domain_enabled = 1;
-        def.domain_friction = 0.5f;
-        const pbmpm_world_id world = create_world(&def);
-        pbmpm_settings settings = {.size = sizeof settings};
-        OK(pbmpm_world_get_settings(world, &settings));
-        to_sleep(&settings);
-        settings.solver = solvers[i];
-        settings.substeps = solvers[i] == PBMPM_SOLVER_EXPLICIT ? 20 : 1;
-        OK(pbmpm_world_set_settings(world, &settings));
-        pbmpm_material_def stuff = default_material(PBMPM_ELASTIC);
-        stuff.young_modulus = 1e5f;
-        pbmpm_material_id rubber;
-        OK(pbmpm_material_create(world, &stuff, &rubber));
-        fill_shape(world, rubber, box_shape(0.5f, 0.2f, 0, 0.3f, 0.2f, 1), STILL);
-        pbmpm_stats stats = world_stats(world);
-        for (int k = 0; k < 1200 && stats.particles_asleep < stats.particle_count; k++) {
-            OK(pbmpm_world_step(world, DT));
-            stats = world_stats(world);
-        }
-        char label[40];
-        snprintf(label, sizeof label, "solver %d", (int)solvers[i]);
-        TEST_ASSERT_EQUAL_UINT32_MESSAGE(stats.particle_count, stats.particles_asleep, label);
-        /* A second body falls onto it. */
-        const float down[] = {0, -2, 0};
-        fill_shape(world, rubber, box_shape(0.5f, 0.6f, 0, 0.1f, 0.1f, 1), down);
-        for (int k = 0; k < 30; k++) OK(pbmpm_world_step(world, DT));
-        stats = world_stats(world);
-        TEST_ASSERT_TRUE_MESSAGE(stats.particles_asleep < 1536 / 2, label);
-        world_expect_finite(world, label);
-        OK(pbmpm_world_destroy(world));
-    }
-}
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -662,12 +364,6 @@ int main(void)
     RUN_TEST(test_each_reason_wakes_what_it_touches_and_no_more);
     RUN_TEST(test_a_drop_changes_nothing_that_sleeps);
     RUN_TEST(test_a_hole_fills_up);
-    RUN_TEST(test_results_do_not_depend_on_the_number_of_threads);
-    RUN_TEST(test_a_snapshot_holds_who_sleeps);
-    RUN_TEST(test_a_snapshot_without_sleeping_wakes_all);
-    RUN_TEST(test_warm_steps_allocate_nothing);
-    RUN_TEST(test_steps_without_memory_leave_the_pool_whole);
-    RUN_TEST(test_bodies_sleep_with_every_solver);
-    free(saved);
+    forget_pool();
     return UNITY_END();
 }
