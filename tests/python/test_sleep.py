@@ -52,10 +52,11 @@ def test_one_drop_wakes_what_it_touches_and_no_more() -> None:
         (water,) = world.query_region(pbmpm.Box([0.6, 0.3, 0.6], [1, 1, 1]))
         surface = heights(world)[1] * CELL
         drop = world.add_particles(water.material, [[0.6, surface + 2 * CELL, 0.6]], [[0, -3, 0]])
+        woken, hashes = 0, []
         for _ in range(2):
             world.step(1 / RATE)
+            woken += world.stats.blocks_woken
         half_asleep, sleepers = world.snapshot(), world.stats.particles_asleep
-        woken, hashes = 0, []
         for _ in range(3 * RATE):
             world.step(1 / RATE)
             woken += world.stats.blocks_woken
