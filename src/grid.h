@@ -93,12 +93,14 @@ pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *particles, Pool 
 /* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
 void grid_neighbour_offset(int n, int dimension, int32_t offset[3]);
 
+/* Bits per axis when the place of a block is packed into 64. */
+enum { GRID_COORDINATE_BITS = 21 };
+
 /* A number that is different for nearly all places of blocks. */
 static inline uint64_t grid_hash(const int32_t place[3])
 {
-    enum { AXIS_BITS = 21 };
-    const uint64_t key = ((uint64_t)(uint32_t)(place[0] + 1) << (2 * AXIS_BITS)) | ((uint64_t)(uint32_t)(place[1] + 1) << AXIS_BITS) |
-                         (uint64_t)(uint32_t)(place[2] + 1);
+    const uint64_t key = ((uint64_t)(uint32_t)(place[0] + 1) << (2 * GRID_COORDINATE_BITS)) |
+                         ((uint64_t)(uint32_t)(place[1] + 1) << GRID_COORDINATE_BITS) | (uint64_t)(uint32_t)(place[2] + 1);
     uint64_t mixed = key * 0x9e3779b97f4a7c15u; /* carries go up only, so fold the high half down and mix again */
     mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
     return mixed >> 32;

@@ -4,13 +4,13 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1, COORDINATE_BITS = 21 };
+enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1 };
 
 /* ---- Lists of blocks ---- */
 
 static uint64_t pack(const int32_t c[3])
 {
-    return (uint64_t)(uint32_t)c[0] << (2 * COORDINATE_BITS) | (uint64_t)(uint32_t)c[1] << COORDINATE_BITS | (uint64_t)(uint32_t)c[2];
+    return (uint64_t)(uint32_t)c[0] << (2 * GRID_COORDINATE_BITS) | (uint64_t)(uint32_t)c[1] << GRID_COORDINATE_BITS | (uint64_t)(uint32_t)c[2];
 }
 
 /* The slot of a block in the table, or the free slot where it belongs; slots hold an index + 1. */
