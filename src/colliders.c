@@ -464,17 +464,6 @@ static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t blo
     }
 }
 
-/* What moves by less than this [cells per substep] rests, as far as volume goes: J follows the volume by a tenth per substep, and keeps up. */
-static const double RESTS = 0.02;
-
-static bool rests(const ContactFrame *frame, const Obstacle *o, const double point[3])
-{
-    float moved[3], length2 = 0.0f;
-    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, moved);
-    for (int a = 0; a < 3; a++) length2 += moved[a] * moved[a];
-    return (double)length2 < RESTS * RESTS;
-}
-
 typedef struct OpenJob {
     const ContactFrame *frame;
     bool resting_only;
@@ -490,7 +479,7 @@ static void open_blocks(void *context, int32_t begin, int32_t end)
         contacts_block_centre(frame, block, centre);
         for (int i = 0; i < frame->colliders->obstacle_count; i++) {
             const Obstacle *o = &frame->colliders->obstacle[i];
-            if (job->resting_only && !rests(frame, o, centre)) continue;
+            if (job->resting_only && o->moves) continue;
             if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + NODE_REACH) open_block(frame, o, block);
         }
     }

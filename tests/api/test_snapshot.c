@@ -64,7 +64,7 @@ static void run_and_compare(const stage *made, runner *run, int steps, uint64_t 
     }
 }
 
-/* Saves `first` in the middle, runs it to the end, and for a while from the snapshot again; then `twin`, which is somewhere else, to the end. */
+/* Saves `first` in the middle, runs it to the end, and for a while from the snapshot again; then `twin`, which is somewhere else, to the end. Both are left there. */
 static void check_going_on(const stage *first, const stage *twin, runner *run, int steps, const char *name)
 {
     char label[160];
@@ -89,6 +89,7 @@ static void check_going_on(const stage *first, const stage *twin, runner *run, i
     run_and_compare(twin, run, steps, hashes, false, label);
 
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(end.bytes, save(twin->world).bytes, name);
+    restore(first->world, &end);
 }
 
 static void three_threads(pbmpm_world_def *def, void *user)

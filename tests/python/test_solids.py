@@ -265,10 +265,9 @@ def test_a_light_body_floats_and_a_heavy_one_sinks() -> None:
     assert _rest_height(600.0, 4.0) == pytest.approx(-0.7, abs=0.01)  # on the ground
 
 
-@pytest.mark.parametrize("solver", ["paper", "dual"])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_a_cube_of_five_cells_floats(dimension: int, solver: str) -> None:
-    """At 120 Hz and ten iterations, half as heavy as water. The depth is by the weight of the water beside the cube, since liquids give way a
+def test_a_cube_of_five_cells_floats(dimension: int) -> None:
+    """With the dual solver at 120 Hz and ten iterations, half as heavy as water. The depth is by the weight of the water beside the cube, since liquids give way a
     little. The bound is a fifth of a cell; a cube whose edges are held by one face alone lies 0.4 to 2.9 cells too deep."""
     cell, side, basin, depth, rate = 0.1, 0.5, 1.2, 0.9, 120
     cube = {"kind": "box", "position": [0] * dimension, "half_extents": [side / 2] * dimension}
@@ -276,7 +275,7 @@ def test_a_cube_of_five_cells_floats(dimension: int, solver: str) -> None:
     low[1], high[1] = -depth, 0.8
     water = {"kind": "box", "position": [0, -depth / 2, 0][:dimension], "half_extents": [basin / 2, depth / 2, basin / 2][:dimension]}
     data = _scene(cube, friction_coefficient=0, body={"mass": 500.0 * side**dimension, "turns": False})
-    data.update(dimension=dimension, cell_size=cell, rate_hz=rate, substeps=1, iterations=10, solver={"solver": solver})
+    data.update(dimension=dimension, cell_size=cell, rate_hz=rate, substeps=1, iterations=10, solver={"solver": "dual"})
     data.update(gravity=[0, -9.81, 0][:dimension], domain={"min": low, "max": high})
     data["fills"][0]["shape"] = water
     scene = parse_scene(data)
