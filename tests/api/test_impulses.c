@@ -148,7 +148,8 @@ static void test_measuring_changes_nothing(void)
     run_exchange(3, true, &shared, &of_threads);
     TEST_ASSERT_EQUAL_HEX64(without, with);
     TEST_ASSERT_EQUAL_HEX64(with, shared);
-    TEST_ASSERT_EQUAL_MEMORY(&impulse, &of_threads, sizeof impulse);
+    TEST_ASSERT_EQUAL_MEMORY(impulse.linear, of_threads.linear, sizeof impulse.linear); /* not the whole: what lies between the fields is nobody's */
+    TEST_ASSERT_EQUAL_MEMORY(impulse.angular, of_threads.angular, sizeof impulse.angular);
 }
 
 static void test_impulses_that_nobody_measures(void)
