@@ -114,7 +114,12 @@ static void fall_asleep(pbmpm_world_id world, const char *name)
 }
 
 /* Hash and particles asleep every ten steps. */
-enum { GO_ON = 200, LOOKS = GO_ON / 10 };
+#ifdef PBMPM_SANITIZED
+enum { GO_ON = 60 };
+#else
+enum { GO_ON = 200 };
+#endif
+enum { LOOKS = GO_ON / 10 };
 typedef struct course {
     uint64_t hash[LOOKS];
     uint32_t asleep[LOOKS];

@@ -6,7 +6,11 @@
 #include "calls.h"
 #include "solvers.h"
 
+#ifdef PBMPM_SANITIZED
+enum { BEFORE = 20, AFTER = 40, AFTER_3D = 20, AGAIN = 20, COMPARED_EVERY = 20 };
+#else
 enum { BEFORE = 20, AFTER = 200, AFTER_3D = 40, AGAIN = 40, COMPARED_EVERY = 20 };
+#endif
 
 /* A snapshot in memory of exactly its size. */
 typedef struct saved {
