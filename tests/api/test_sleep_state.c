@@ -115,7 +115,7 @@ static void fall_asleep(pbmpm_world_id world, const char *name)
 
 /* Hash and particles asleep every ten steps. */
 #ifdef PBMPM_SANITIZED
-enum { GO_ON = 60 };
+enum { GO_ON = 120 };
 #else
 enum { GO_ON = 200 };
 #endif
