@@ -19,39 +19,80 @@ import pytest
 from browser import browser, open_page
 from pbmpm.app.errors import InputError
 from pbmpm.app.files import json_text
-from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Outcome, Setting, find_case
+from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Outcome, Setting, find_case
 from pbmpm.app.report.stability_page import save_stability_page
 from pbmpm.app.stability import saved
 from pbmpm.app.stability import sweep as sweeping
 from pbmpm.app.stability.plan import ITERATIONS, RATES, Run, Selection, cases_named, plan
 from pbmpm.app.stability.result import counts, lines_of, row_of
 from pbmpm.app.stability.sweep import run_one, sweep
-from pbmpm.app.stability.table import cells_text, map_text, summary
+from pbmpm.app.stability.table import cells_text, goals_text, map_text, summary
 
 ROW_KEYS = {"case", "solver", "material", "dims", "rate_hz", "iterations", "passed", "figure", "limit", "seconds"}
 
 
-def test_the_full_form_runs_everything() -> None:
-    runs = plan(Selection())
-    assert len(runs) == len(set(runs))
-    ordinary = [run for run in runs if not find_case(run.case).ladder and run.setting.variant not in find_case(run.case).long_variants]
-    assert {(run.setting.rate_hz, run.setting.iterations) for run in ordinary} == {
-        (r, n) for r in RATES for n in ITERATIONS
+def places_of(runs: list[Run], **wanted: object) -> set[tuple[float, int]]:
+    """Rates and iterations of the runs whose setting has these values."""
+    settings = [run.setting for run in runs]
+    return {
+        (setting.rate_hz, setting.iterations)
+        for setting in settings
+        if all(getattr(setting, name) == value for name, value in wanted.items())
     }
-    for solver in SOLVERS:
-        settings = sum(len(list(case.settings(solver=solver))) for case in CASES if not case.ladder)
-        places = len(RATES) * (1 if solver == "explicit" else len(ITERATIONS))
-        assert sum(run.setting.solver == solver for run in ordinary) == settings * places
+
+
+GRID = {(rate, count) for rate in RATES for count in ITERATIONS}
+
+
+@pytest.mark.parametrize("solver", SOLVERS)
+def test_the_full_form_takes_every_case_over_all_rates_and_iterations(solver: str) -> None:
+    """In 2D all, in 3D the corners and the case's own; the explicit solver has no iterations."""
+    grid = {(rate, 1) for rate in RATES} if solver == "explicit" else GRID
+    for case in CASES:
+        if solver not in case.solvers or case.ladder or case.has_own_steps:
+            continue
+        runs = plan(Selection(cases=(case,), solvers=(solver,)))
+        assert len(runs) == len(set(runs))
+        own = (case.rate_hz, 1 if solver == "explicit" else case.iterations)
+        corners = {(rate, count) for rate, count in grid if rate in (15.0, 480.0) and count in (1, 20)}
+        for variant in case.all_variants:
+            fixed = variant in case.fixed_variants + case.long_variants
+            for dimension in {run.setting.dimension for run in runs if run.setting.variant == variant}:
+                expected = {own} if fixed else grid if dimension == 2 else {*corners, own}
+                assert places_of(runs, variant=variant, dimension=dimension) == expected, (case.id, variant)
+
+
+def test_rates_or_iterations_that_are_named_are_run_with_everything() -> None:
+    case = find_case("H03")
+    named = plan(Selection(cases=(case,), solvers=("dual",), rates=(30.0, 60.0), dimensions=(3,)))
+    assert places_of(named) == {(rate, count) for rate in (30.0, 60.0) for count in ITERATIONS}
+    assert places_of(plan(Selection(cases=(case,), solvers=("dual",), iterations=(2,), dimensions=(3,)))) == {(r, 2) for r in RATES}
+
+
+def test_a_case_with_its_own_steps_runs_at_one_rate() -> None:
+    runs = plan(Selection(cases=(find_case("H10"),), solvers=("dual",), dimensions=(2,)))
+    assert places_of(runs) == {(60.0, count) for count in ITERATIONS}
+
+
+def test_what_stays_at_its_own_setting_in_the_map_has_a_reason_to() -> None:
+    """Nothing else is fixed: a smaller scene takes its place, or neither rate nor iterations matter to it."""
+    independent = {"H07": ("plain",), "H16": ("impossible shapes",), "H21": ("denormal velocities",)}
+    for case in CASES:
+        if not case.map_variants:
+            assert case.fixed_variants == independent.get(case.id, ()), case.id
+    assert {case.id for case in CASES if case.map_variants} == {"H01", "H18"}
+    assert {case.id for case in CASES if case.has_own_steps} == {"H10"}
 
 
 def test_a_ladder_is_climbed_in_the_quick_form_and_brings_its_rates_into_the_full_one() -> None:
     case = find_case("H02")
-    quick = plan(Selection(cases=(case,), rates=None, iterations=None, dimensions=(2,), materials=("liquid",)))
+    quick = plan(Selection(cases=(case,), quick=True, dimensions=(2,), materials=("liquid",)))
     for solver, counts_of in (("dual", ITERATIONS), ("explicit", (1,))):
         places = [(run.setting.rate_hz, run.setting.iterations) for run in quick if run.setting.solver == solver]
         assert len(places) == len(set(places))
         assert set(places) == {(rate, count) for rate in (*RATES, 1200.0) for count in counts_of}
-    assert 1200.0 in {run.setting.rate_hz for run in plan(Selection(cases=(case,)))}
+    full = plan(Selection(cases=(case,), solvers=("dual",), materials=("liquid",), dimensions=(3,)))
+    assert places_of(full) == {(rate, count) for rate in (*RATES, 1200.0) for count in ITERATIONS}
 
 
 def test_long_variants_run_in_the_full_form_or_when_they_are_named() -> None:
@@ -59,15 +100,17 @@ def test_long_variants_run_in_the_full_form_or_when_they_are_named() -> None:
     (name,) = case.long_variants
     full = [run.setting for run in plan(Selection(cases=(case,))) if run.setting.variant == name]
     assert {(setting.rate_hz, setting.iterations) for setting in full} == {(case.rate_hz, case.iterations)}
-    assert len(full) == len(SOLVERS) * len(case.materials) * 2
+    assert {(setting.solver, setting.material) for setting in full} == {
+        (solver, material) for solver in ("paper", "dual", "primal") for material in case.materials
+    }
     some = Selection(cases=(case,), rates=(60.0,), iterations=(5,))
     assert all(run.setting.variant != name for run in plan(some))
-    assert all(run.setting.variant == name for run in plan(replace(some, variant=name, rates=None, iterations=None)))
+    assert all(run.setting.variant == name for run in plan(replace(some, variant=name, rates=None, iterations=None, quick=True)))
 
 
 def test_the_quick_form_runs_each_case_at_its_own_setting() -> None:
     """The same settings as the tests of the catalogue."""
-    runs = plan(Selection(rates=None, iterations=None, solvers=("paper", "dual")))
+    runs = plan(Selection(quick=True, solvers=("paper", "dual")))
     expected = {
         (case.id, setting) for case in CASES for solver in ("paper", "dual") for setting in case.settings(solver=solver)
     }
@@ -102,6 +145,85 @@ def test_cases_are_named_in_any_order_and_spelling() -> None:
     assert cases_named([]) == CASES
     with pytest.raises(InputError, match="H99"):
         cases_named(["H99"])
+
+
+CASE_OF_GOALS = HardCase(
+    "H04", "title", "origin", "criterion", lambda _: [], materials=("liquid",), variants=("point",), rate_hz=60.0, iterations=5
+)
+
+
+def judged(rate: float, iterations: int, *checks: Check, solver: str = "dual", case: HardCase = CASE_OF_GOALS) -> Outcome:
+    """The outcome of some checks at a setting of a case whose own is 60 Hz x 5."""
+    return case.outcome(Setting("liquid", 2, "point", rate, iterations, solver=solver), checks, 0.5)
+
+
+MET_BOUND, BROKEN_BOUND = Check("energy", 1.0, 1.001), Check("energy", 1.2, 1.001)
+MET_GOAL, MISSED_GOAL = (Check("volume", figure, 0.9, at_least=True, kind=Kind.GOAL) for figure in (0.95, 0.3))
+COARSER = [(15.0, 1), (30.0, 20), (480.0, 1), (59.0, 5), (60.0, 4)]
+AS_FINE = [(60.0, 5), (60.0, 6), (480.0, 5), (480.0, 20)]
+
+
+@pytest.mark.parametrize(("rate", "iterations"), COARSER + AS_FINE)
+def test_a_broken_bound_fails_at_any_setting(rate: float, iterations: int) -> None:
+    result = judged(rate, iterations, MET_GOAL, BROKEN_BOUND)
+    assert not result.passed and counts(result)
+    assert result.telling == BROKEN_BOUND
+
+
+@pytest.mark.parametrize(("rate", "iterations"), COARSER)
+def test_a_goal_missed_at_a_coarser_setting_is_shown_and_no_failure(rate: float, iterations: int) -> None:
+    result = judged(rate, iterations, MISSED_GOAL, MET_BOUND)
+    assert result.passed and not counts(result)
+    assert result.telling == MET_BOUND  # figure and limit of a row that passed are of what was judged
+    row = row_of(result)
+    assert (row["passed"], row["goals_judged"], row["goals_reached"]) == (True, False, False)
+    assert [(goal["check"], goal["figure"], goal["limit"]) for goal in row["goals_missed"]] == [("volume", 0.3, 0.9)]
+    assert f"0.3 (limit >= 0.9)\n      at {rate:g} Hz x {iterations}" in goals_text([result])
+    assert re.search(r"^    dual liquid 2D +o *$", map_text([result]), re.M)
+    assert "1 of 1 runs passed (1 without a goal" in summary([result])
+    assert "not reached here" in result.description and "FAILED" not in result.description
+
+
+@pytest.mark.parametrize(("rate", "iterations"), AS_FINE)
+def test_a_goal_missed_at_its_own_or_a_finer_setting_fails(rate: float, iterations: int) -> None:
+    result = judged(rate, iterations, MET_BOUND, MISSED_GOAL)
+    assert not result.passed and counts(result)
+    assert result.telling == MISSED_GOAL
+    assert goals_text([result]) == ""
+    assert re.search(r"^    dual liquid 2D +x *$", map_text([result]), re.M)
+
+
+def test_a_goal_without_a_figure_fails_at_any_setting() -> None:
+    assert not judged(15.0, 1, MET_BOUND, replace(MISSED_GOAL, figure=math.nan)).passed
+
+
+def test_a_ladder_is_judged_in_full() -> None:
+    ladder = replace(CASE_OF_GOALS, ladder=((15.0, 1), (60.0, 5)))
+    assert not judged(15.0, 1, MET_BOUND, MISSED_GOAL, case=ladder).passed
+
+
+def test_goals_of_the_explicit_solver_ask_for_the_rate_alone() -> None:
+    assert judged(60.0, 1, MET_BOUND, MISSED_GOAL, solver="explicit").passed is False
+    assert judged(30.0, 1, MET_BOUND, MISSED_GOAL, solver="explicit").passed is True
+
+
+def test_every_run_has_a_bound() -> None:
+    """Where goals do not count something must decide: the universal checks are bounds."""
+    for identifier, variant in (("H03", "plain"), ("H05", "flat F"), ("H14", "squashed to 0.05")):
+        case = find_case(identifier)
+        result = case.run(next(case.settings(15.0, 1, variants=(variant,))))
+        assert any(check.kind is Kind.BOUND for check in result.judged)
+        assert {check.kind for check in result.checks} == {Kind.BOUND, Kind.GOAL}
+
+
+@pytest.mark.parametrize("goal", [MET_GOAL, MISSED_GOAL])
+@pytest.mark.parametrize("bound", [MET_BOUND, BROKEN_BOUND])
+@pytest.mark.parametrize(("rate", "iterations"), [(15.0, 1), (60.0, 5)])
+def test_a_row_gives_back_what_was_judged_and_what_was_missed(goal: Check, bound: Check, rate: float, iterations: int) -> None:
+    result = replace(judged(rate, iterations, goal, bound), case="H04")
+    again = saved.outcome_of(json.loads(json_text(row_of(result))))
+    assert (again.passed, again.telling, again.goals_missed) == (result.passed, result.telling, result.goals_missed)
+    assert row_of(again) == row_of(result)
 
 
 def outcome(
@@ -290,14 +412,40 @@ def test_resume_needs_a_file() -> None:
     assert done.returncode == 2 and "--resume needs a file" in done.stderr
 
 
-def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figure() -> None:
-    """A press at 15 Hz with one iteration cannot bring the volume back in time."""
+def test_a_press_with_too_few_iterations_shows_the_goal_that_it_misses() -> None:
+    """At 15 Hz with one iteration it cannot bring the volume back in time; the row and its replay say by how much."""
     done = command("H03", "--solvers", "paper", "--dims", "2", "--rates", "15", "--iterations", "1")
-    assert done.returncode == 1
-    assert "share of particles with J in [0.8, 1.2]" in done.stdout
+    assert done.returncode == 0
+    _, _, goals = done.stdout.partition("where they do not count:\n")
+    assert "  H03 paper liquid 2D 'plain' share of particles with J in [0.8, 1.2]: worst" in goals
+
+
+def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figure(tmp_path: Path) -> None:
+    """A limit that nothing can meet, in a catalogue of its own: no real case is to fail."""
+    script = tmp_path / "failing.py"
+    script.write_text(
+        "import dataclasses, sys\n"
+        "from pbmpm.app import cli\n"
+        "from pbmpm.app.hardcases import Check, catalogue\n"
+        "case = catalogue.find_case('H04')\n"
+        "def function(setting):\n"
+        "    return [Check('half of the volume', 2.0 * case.function(setting)[0].figure, 0.1)]\n"
+        "catalogue.CASES = (dataclasses.replace(case, function=function),)\n"
+        "if __name__ == '__main__':\n"
+        "    cli.main()\n",
+        encoding="utf-8",
+    )
+
+    def run(*options: str) -> subprocess.CompletedProcess[str]:
+        arguments = [sys.executable, str(script), "stability", *options, "--processes", "1"]
+        return subprocess.run(arguments, capture_output=True, text=True, timeout=600, check=False)
+
+    done = run("H04", "--solvers", "paper", "--dims", "2", "--rates", "60", "--iterations", "5", "--variant", "line")
+    assert done.returncode == 1, done.stderr
     replay = next(line.strip() for line in done.stdout.splitlines() if line.strip().startswith("pbmpm stability"))
-    again = command(*shlex.split(replay)[2:])
-    figure = re.compile(r"share of particles[^(]*")
+    again = run(*shlex.split(replay)[2:])
+    figure = re.compile(r"half of the volume[^(]*")
+    assert len(figure.findall(done.stdout)) == 1
     assert figure.findall(again.stdout) == figure.findall(done.stdout)
 
 
@@ -335,7 +483,8 @@ def test_bad_usage(options: list[str]) -> None:
 
 @pytest.mark.skipif(browser() is None, reason="no browser")
 def test_page_opens_and_shows_the_map(tmp_path: Path) -> None:
-    outcomes = [outcome(True), outcome(False, variant="line"), outcome(False, solver="explicit")]
+    coarse = replace(judged(15.0, 1, MISSED_GOAL, MET_BOUND), case="H04")
+    outcomes = [outcome(True), outcome(False, variant="line"), outcome(False, solver="explicit"), coarse]
     machine = {
         "cpu": "c",
         "cores": os.cpu_count(),
@@ -350,4 +499,5 @@ def test_page_opens_and_shows_the_map(tmp_path: Path) -> None:
     document, messages = open_page(tmp_path / "map.html", tmp_path / "map.png")
     assert messages == []
     assert document.count('<td class="failed"') == 1 and document.count('<td class="expected"') == 1
+    assert document.count('<td class="bounds"') == 1 and "1 goals missed" in document
     assert "limit &gt;= 0.9" in document or "limit >= 0.9" in document

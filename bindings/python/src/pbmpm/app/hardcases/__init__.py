@@ -3,7 +3,7 @@
 The catalogue is defined here once; tests and the command line run it.
 """
 
-from .case import SOLVERS, Check, HardCase, Outcome, Setting
+from .case import SOLVERS, Check, HardCase, Kind, Outcome, Setting
 from .catalogue import CASES, find_case
 
-__all__ = ["CASES", "SOLVERS", "Check", "HardCase", "Outcome", "Setting", "find_case"]
+__all__ = ["CASES", "SOLVERS", "Check", "HardCase", "Kind", "Outcome", "Setting", "find_case"]

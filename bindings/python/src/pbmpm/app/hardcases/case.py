@@ -1,7 +1,14 @@
-"""What a hard case is, and what running it gives."""
+"""What a hard case is, and what running it gives.
+
+A case has checks of two kinds. Bounds hold at any rate and iteration count: nothing explodes, gains energy, is lost or leaves.
+Goals are of accuracy or recovery, and are stated for a setting: a solve that is cut short cannot reach them at 15 Hz with one
+iteration, by its own law. They are judged at the case's own rate and iterations and wherever both are at least as fine; at
+coarser settings they are shown as figures.
+"""
 
 from __future__ import annotations
 
+import enum
 import itertools
 import math
 import time
@@ -98,6 +105,13 @@ def _wave_modulus(matter: pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco) -> float:
     return matter.young_modulus * (1.0 - ratio) / ((1.0 + ratio) * (1.0 - 2.0 * ratio))
 
 
+class Kind(enum.Enum):
+    """Where a check decides."""
+
+    BOUND = "bound"  #: at any rate and iteration count: stability
+    GOAL = "goal"  #: at the case's own rate and iterations and at finer ones: accuracy and recovery
+
+
 @dataclass(frozen=True)
 class Check:
     """One figure beside its limit."""
@@ -106,6 +120,7 @@ class Check:
     figure: float
     limit: float
     at_least: bool = False  #: whether the limit is a lower one
+    kind: Kind = Kind.BOUND
 
     @property
     def passed(self) -> bool:
@@ -114,29 +129,51 @@ class Check:
             return False
         return self.figure >= self.limit if self.at_least else self.figure <= self.limit
 
-    def __str__(self) -> str:
-        sign = ">=" if self.at_least else "<="
-        return f"{self.name}: {self.figure:.4g} ({'ok' if self.passed else 'FAILED'}, limit {sign} {self.limit:g})"
+    @property
+    def limit_text(self) -> str:
+        """The limit with its sign."""
+        return f"{'>=' if self.at_least else '<='} {self.limit:g}"
+
+    def text(self, judged: bool = True) -> str:
+        """One line; a goal that is missed where it is not judged is no failure."""
+        verdict = "ok" if self.passed else "FAILED" if judged else "not reached here"
+        return f"{self.name}: {self.figure:.4g} ({verdict}, limit {self.limit_text})"
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """What came of a run. `figure` and `limit` are those of the first check that failed, or else of the first check."""
+    """What came of a run. `figure` and `limit` are those of the first judged check that failed, or else of the first judged."""
 
     case: str
     setting: Setting
     checks: tuple[Check, ...]
     seconds: float  #: wall time
     known_failure: str = ""  #: why the setting is known to fail
+    judges_goals: bool = True  #: whether the setting is fine enough for the goals to count
+
+    @property
+    def judged(self) -> tuple[Check, ...]:
+        """The checks that decide: all bounds, and the goals where they count. That a figure is finite is a bound of its own."""
+        return tuple(
+            check
+            for check in self.checks
+            if self.judges_goals or check.kind is Kind.BOUND or not math.isfinite(check.figure)
+        )
 
     @property
     def passed(self) -> bool:
-        return all(check.passed for check in self.checks)
+        return all(check.passed for check in self.judged)
+
+    @property
+    def goals_missed(self) -> tuple[Check, ...]:
+        """Goals that are not reached, whether they count here or not."""
+        return tuple(check for check in self.checks if check.kind is Kind.GOAL and not check.passed)
 
     @property
     def telling(self) -> Check:
         """The check that says most."""
-        return next((check for check in self.checks if not check.passed), self.checks[0])
+        judged = self.judged
+        return next((check for check in judged if not check.passed), judged[0])
 
     @property
     def figure(self) -> float:
@@ -149,7 +186,8 @@ class Outcome:
     @property
     def description(self) -> str:
         """All checks, one per line."""
-        return "\n".join(str(check) for check in self.checks)
+        judged = self.judged
+        return "\n".join(check.text(check in judged) for check in self.checks)
 
 
 @dataclass(frozen=True)
@@ -178,7 +216,8 @@ class KnownFailure:
 
 @dataclass(frozen=True)
 class HardCase:
-    """A scene with a criterion. `function` runs it at a setting and returns its checks, the most telling one first."""
+    """A scene with a criterion. `function` runs it at a setting and returns its checks, the most telling one first; one of them
+    at least is a bound."""
 
     id: str
     title: str
@@ -193,18 +232,32 @@ class HardCase:
     ladder: tuple[tuple[float, int], ...] = ()  #: rates and iterations at which it always runs in 2D, instead of its own
     solvers: tuple[str, ...] = SOLVERS  #: for which the criterion means something
     makes_sense: Callable[[Setting], bool] = lambda _: True  #: for settings that have no meaning
+    fixed_variants: tuple[str, ...] = ()  #: of the variants, those that the map leaves at the case's own rate and iterations,
+    #: as they depend on neither, or because a smaller scene of map_variants takes their place at the others
+    map_variants: tuple[str, ...] = ()  #: that only the full map runs, at its rates and iterations
+    has_own_steps: bool = False  #: whether the scene gives the length of each step, so that the rate means nothing
     long_variants: tuple[str, ...] = ()  #: that only the full map runs, and only at the case's own rate and iterations
     known_failures: tuple[KnownFailure, ...] = ()
 
+    @property
+    def all_variants(self) -> tuple[str, ...]:
+        """Those of the quick form, and those of the full map alone."""
+        return self.variants + self.map_variants + self.long_variants
+
     def settings(
-        self, rate_hz: float | None = None, iterations: int | None = None, solver: str = PAPER, *, long: bool = False
+        self,
+        rate_hz: float | None = None,
+        iterations: int | None = None,
+        solver: str = PAPER,
+        *,
+        variants: tuple[str, ...] | None = None,
     ) -> Iterator[Setting]:
-        """All settings of the case, at its own rate and iterations or at others; none for a solver that it does not
-        concern. `long`: those of the long variants instead."""
+        """All settings of the case, at its own rate and iterations or at others, for its variants or for some; none for a
+        solver that it does not concern."""
         if solver not in self.solvers:
             return
-        variants = self.long_variants if long else self.variants
-        for material, dimension, variant in itertools.product(self.materials, self.dimensions, variants):
+        chosen = self.variants if variants is None else variants
+        for material, dimension, variant in itertools.product(self.materials, self.dimensions, chosen):
             for rate, count in self._places(dimension, rate_hz, iterations):
                 setting = Setting(material, dimension, variant, rate, count, solver=solver)
                 if self.makes_sense(setting):
@@ -219,12 +272,23 @@ class HardCase:
         """Why a setting is known to fail; empty when it should pass."""
         return next((known.reason for known in self.known_failures if known.covers(setting)), "")
 
+    def judges_goals(self, setting: Setting) -> bool:
+        """Whether goals count at a setting: at the case's own, and where both are at least as fine. A case with a ladder is
+        judged in full on all of it. The explicit solver has no iterations."""
+        if self.ladder:
+            return True
+        return setting.rate_hz >= self.rate_hz and (setting.solver == EXPLICIT or setting.iterations >= self.iterations)
+
+    def outcome(self, setting: Setting, checks: Iterable[Check], seconds: float) -> Outcome:
+        """What the checks of a run mean."""
+        return Outcome(self.id, setting, tuple(checks), seconds, self.known_failure(setting), self.judges_goals(setting))
+
     def run(self, setting: Setting) -> Outcome:
         """Runs the case once."""
-        if setting.variant not in self.variants + self.long_variants or setting.material not in self.materials:
+        if setting.variant not in self.all_variants or setting.material not in self.materials:
             raise ValueError(f"{self.id} has no variant '{setting.variant}' for {setting.material}")
         if setting.solver not in self.solvers:
             raise ValueError(f"{self.id} says nothing about the solver '{setting.solver}'")
         start = time.perf_counter()
-        checks = tuple(self.function(setting))
-        return Outcome(self.id, setting, checks, time.perf_counter() - start, self.known_failure(setting))
+        checks = self.function(setting)
+        return self.outcome(setting, checks, time.perf_counter() - start)

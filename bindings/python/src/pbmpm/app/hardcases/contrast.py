@@ -8,7 +8,7 @@ import pbmpm
 from pbmpm.materials import Parameters
 
 from ..accuracy import laws
-from .case import DUAL, ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, KnownFailure, Setting, sound_modulus
+from .case import DUAL, ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, Kind, KnownFailure, Setting, sound_modulus
 from .watch import GRAVITY, Watch, highest_energy, make_world, vector
 
 # H09
@@ -58,7 +58,7 @@ def _heavy_block(setting: Setting) -> list[Check]:
             least = min(least, float(np.linalg.det(world.deformations.array()[rows].astype(float)).min()))
         carried = VARIANTS[setting.variant] <= CARRIED_RATIO
         return [
-            *([Check("smallest J of the light block", least, VOLUME_MIN, at_least=True)] if carried else []),
+            *([Check("smallest J of the light block", least, VOLUME_MIN, at_least=True, kind=Kind.GOAL)] if carried else []),
             Check("highest place over the start's height", top / (2.0 * side + gap), EJECTION),
             *watch.checks(),
         ]
@@ -85,7 +85,7 @@ def _overturn(setting: Setting) -> list[Check]:
         energy = highest_energy(watch, OVERTURN_SECONDS, setting.dt)
         heights, indices = world.positions.array()[:, 1], world.material_indices.array()
         means = [float(heights[indices == material.index].mean()) for material in (heavy, light)]
-        order = Check("mean height of the heavy liquid over that of the light one", means[0] / means[1], 1.0)
+        order = Check("mean height of the heavy liquid over that of the light one", means[0] / means[1], 1.0, kind=Kind.GOAL)
         return [energy, *([order] if crushed_share(setting, side) < CRUSHED_MAX else []), *watch.checks()]
 
 

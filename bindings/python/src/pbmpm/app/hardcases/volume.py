@@ -10,7 +10,7 @@ import numpy as np
 import pbmpm
 
 from ..accuracy import laws
-from .case import DUAL, LIQUID, PAPER, Check, HardCase, KnownFailure, Setting
+from .case import DUAL, LIQUID, PAPER, Check, HardCase, Kind, KnownFailure, Setting
 from .watch import ENERGY_SLACK, GRAVITY, Watch, make_world, occupied_share, potential_energy, total_energy, vector
 
 #: Share of the volume that has to come back, of what the solver's own compressibility leaves of it.
@@ -34,34 +34,36 @@ def volume_at_rest(setting: Setting, cell_size: float, height: float) -> float:
 
 # H01
 
-COLUMN_CELLS = {2: 64, 3: 16}
-COLUMN_DEPTH = 8  # cells along the third axis
+PLAIN, SMALL = "plain", "small column"
+COLUMN_CELLS = {PLAIN: {2: 64, 3: 16}, SMALL: {2: 16, 3: 8}}
 TANK_WIDTHS = 4
 COLUMN_CELL = 1.0  # [m]: 64 m of water; smaller cells would make the law's own compression larger
-COLUMN_SECONDS = 20.0
-COLUMN_AVERAGE_SECONDS = 5.0
+COLUMN_SECONDS = 20.0  # of the plain one
+COLUMN_AVERAGE_SHARE = 0.25  # of that time, in the end
 
 
 def dam_break(setting: Setting) -> list[Check]:
     """H01: a column falls over in a tank. The final volume is judged by what the solver's compressibility allows, for at
-    30 Hz and one iteration that law alone takes away more than a tenth."""
-    cells, depth = COLUMN_CELLS[setting.dimension], COLUMN_DEPTH * COLUMN_CELL
-    side = cells * COLUMN_CELL
+    30 Hz and one iteration that law alone takes away more than a tenth. In a smaller scene times are shorter by the square
+    root of lengths, as gravity wants."""
+    cells = COLUMN_CELLS[setting.variant][setting.dimension]
+    side, depth = cells * COLUMN_CELL, 0.5 * cells * COLUMN_CELL
+    seconds = COLUMN_SECONDS * math.sqrt(cells / COLUMN_CELLS[PLAIN][setting.dimension])
     world = make_world(setting, COLUMN_CELL, gravity=True, size=[TANK_WIDTHS * side, 2.0 * side, depth])
     with world:
         body = vector(setting.dimension, 0.5 * side, 0.5 * side, 0.5 * depth)
         world.fill(pbmpm.Box(body, body), world.add_material(setting.parameters(COLUMN_CELL)), seed=setting.seed)
         watch, start = Watch(world), potential_energy(world)
         peak, ratios = -math.inf, []
-        steps = round(COLUMN_SECONDS * setting.rate_hz)
+        steps = round(seconds * setting.rate_hz)
         for step in range(steps):
             peak = max(peak, total_energy(watch.step(setting.dt)) / start)
-            if (steps - step) * setting.dt <= COLUMN_AVERAGE_SECONDS:
+            if steps - step <= COLUMN_AVERAGE_SHARE * steps:
                 ratios.append(float(world.volume_ratios.array().mean()))
         share = float(np.mean(ratios)) / volume_at_rest(setting, COLUMN_CELL, side / TANK_WIDTHS)
         return [
             Check("highest energy over the start's", peak, 1.0 + ENERGY_SLACK),
-            Check("mean volume ratio over the law's", share, RECOVERED_VOLUME, at_least=True),
+            Check("mean volume ratio over the law's", share, RECOVERED_VOLUME, at_least=True, kind=Kind.GOAL),
             *watch.checks(),
         ]
 
@@ -142,8 +144,8 @@ def crush(setting: Setting) -> list[Check]:
         volume = occupied_share(world, cells**d) / volume_at_rest(setting, PRESS_CELL, side)
         return [
             Check("speed in the first 10 steps of release [m/s]", fastest, release_speed(setting, PRESS_CELL, side)),
-            Check("share of particles with J in [0.8, 1.2]", recovered, RECOVERED_SHARE, at_least=True),
-            Check("occupied volume over the law's", volume, RECOVERED_VOLUME, at_least=True),
+            Check("share of particles with J in [0.8, 1.2]", recovered, RECOVERED_SHARE, at_least=True, kind=Kind.GOAL),
+            Check("occupied volume over the law's", volume, RECOVERED_VOLUME, at_least=True, kind=Kind.GOAL),
             *watch.checks(),
         ]
 
@@ -183,7 +185,7 @@ def collapse(setting: Setting) -> list[Check]:
             drift = max(drift, float(np.abs(stats.momentum).max()) / unit - unbalanced)
         volume = occupied_share(world, COLLAPSED_CELLS**d)
         return [
-            Check("occupied over rest volume", volume, RECOVERED_VOLUME, at_least=True),
+            Check("occupied over rest volume", volume, RECOVERED_VOLUME, at_least=True, kind=Kind.GOAL),
             Check("highest displacement [cells/step]", watch.longest, COLLAPSED_DISPLACEMENT),
             Check("momentum over mass times a cell per step", drift, COLLAPSED_DRIFT),
             *watch.checks(),
@@ -206,6 +208,9 @@ CASES = (
         "energy never above the start's; mean volume ratio at least 0.9 of what the solver's compressibility allows",
         dam_break,
         materials=(LIQUID,),
+        variants=(PLAIN,),
+        fixed_variants=(PLAIN,),
+        map_variants=(SMALL,),
         rate_hz=30.0,
         iterations=1,
         known_failures=(_ONE_ITERATION,),

@@ -18,12 +18,14 @@ DIMENSIONS = (2, 3)
 
 @dataclass(frozen=True)
 class Selection:
-    """What to run. None for rates and iterations: the quick form, in which each case runs at its own."""
+    """What to run. Rates or iterations that are given are run with all that is selected; without them each case runs at its own
+    setting in the quick form and over the map in the full one."""
 
     cases: tuple[HardCase, ...] = CASES
     solvers: tuple[str, ...] = SOLVERS
-    rates: tuple[float, ...] | None = RATES
-    iterations: tuple[int, ...] | None = ITERATIONS
+    quick: bool = False
+    rates: tuple[float, ...] | None = None
+    iterations: tuple[int, ...] | None = None
     materials: tuple[str, ...] = MATERIALS
     dimensions: tuple[int, ...] = DIMENSIONS
     variant: str | None = None  #: None: all
@@ -81,27 +83,45 @@ def _settings(case: HardCase, selection: Selection) -> Iterator[Setting]:
 
 
 def _all_settings(case: HardCase, selection: Selection) -> Iterator[Setting]:
-    is_full = (selection.rates, selection.iterations) == (RATES, ITERATIONS)
     for solver in selection.solvers:
-        for rate, iterations in _rates_and_iterations(case, selection, solver):
-            yield from case.settings(rate, iterations, solver)
-        if is_full or selection.variant in case.long_variants:
-            yield from case.settings(solver=solver, long=True)
+        if selection.quick or selection.rates or selection.iterations:
+            yield from _chosen_settings(case, selection, solver)
+        else:
+            yield from _map_settings(case, solver)
 
 
-def _rates_and_iterations(
-    case: HardCase, selection: Selection, solver: str
-) -> Iterator[tuple[float | None, int | None]]:
-    """The explicit solver does not iterate: it runs once per rate. The full form takes in all rates of a case's ladder."""
-    rates: tuple[float | None, ...] = selection.rates or (None,)
-    if rates == RATES:
-        rates = tuple(dict.fromkeys((*RATES, *(rate for rate, _ in case.ladder))))
-    counts: tuple[int | None, ...] = (1,) if solver == EXPLICIT else selection.iterations or (None,)
-    return itertools.product(rates, counts)
+def _chosen_settings(case: HardCase, selection: Selection, solver: str) -> Iterator[Setting]:
+    """All variants at the rates and iterations that are given. What only the map has runs when it is named."""
+    rates: Sequence[float | None] = selection.rates or ((None,) if selection.quick else _rates(case))
+    counts: Sequence[int | None] = selection.iterations or ((None,) if selection.quick else ITERATIONS)
+    variants = (selection.variant,) if selection.variant in case.all_variants else case.variants
+    for rate, count in itertools.product(rates, (1,) if solver == EXPLICIT else counts):
+        yield from case.settings(rate, count, solver, variants=variants)
+
+
+def _map_settings(case: HardCase, solver: str) -> Iterator[Setting]:
+    """What varies with the setting: in 2D at all rates with all iterations, in 3D at the corners of the map and at the case's own
+    setting, for the kernels of both dimensions are one text. A ladder is climbed in full in both."""
+    counts = (1,) if solver == EXPLICIT else ITERATIONS
+    rates, own = _rates(case), (case.rate_hz, 1 if solver == EXPLICIT else case.iterations)
+    in_3d = {*itertools.product((rates[0], rates[-1]), (counts[0], counts[-1])), own}
+    spread = tuple(variant for variant in case.variants if variant not in case.fixed_variants) + case.map_variants
+    for place in itertools.product(rates, counts):
+        for setting in case.settings(*place, solver, variants=spread):
+            if setting.dimension == 2 or case.ladder or place in in_3d:
+                yield setting
+    yield from case.settings(None, own[1], solver, variants=case.fixed_variants + case.long_variants)
+
+
+def _rates(case: HardCase) -> tuple[float, ...]:
+    """Those of the map and of the case's ladder; only its own for a case that does not care."""
+    if case.has_own_steps:
+        return (case.rate_hz,)
+    return tuple(dict.fromkeys((*RATES, *(rate for rate, _ in case.ladder))))
 
 
 def _why_empty(selection: Selection) -> str:
-    variants = sorted({variant for case in selection.cases for variant in case.variants + case.long_variants})
+    variants = sorted({variant for case in selection.cases for variant in case.all_variants})
     if selection.variant is not None and selection.variant not in variants:
         return f"no variant '{selection.variant}'; there are: {', '.join(variants)}"
     return "none of these cases has these solvers, materials and dimensions"

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..hardcases import Outcome
+from ..hardcases import Check, Outcome
 from ..hardcases.case import EXPLICIT
 from .plan import Run
 
@@ -29,14 +29,25 @@ def row_of(outcome: Outcome) -> dict[str, Any]:
         "rate_hz": setting.rate_hz,
         "iterations": setting.iterations,
         "passed": bool(outcome.passed),
-        "check": outcome.telling.name,
-        "figure": float(outcome.figure),  # some are of numpy's types, which are no JSON
-        "limit": float(outcome.limit),
-        "limit_is_lowest": outcome.telling.at_least,
+        **check_entry(outcome.telling),
+        "goals_judged": outcome.judges_goals,
+        "goals_reached": not outcome.goals_missed,
+        "goals_missed": [check_entry(check) for check in outcome.goals_missed],
         "known_failure": outcome.known_failure,
         "seconds": outcome.seconds,
         "seed": setting.seed,
         "command": Run(outcome.case, setting).command,
+    }
+
+
+def check_entry(check: Check) -> dict[str, Any]:
+    """A check as it goes into JSON."""
+    return {
+        "check": check.name,
+        "kind": check.kind.value,
+        "figure": float(check.figure),  # some are of numpy's types, which are no JSON
+        "limit": float(check.limit),
+        "limit_is_lowest": check.at_least,
     }
 
 
@@ -77,15 +88,21 @@ class Cell:
         return tuple(outcome for outcome in self.outcomes if not outcome.passed)
 
     @property
+    def bounds_only(self) -> tuple[Outcome, ...]:
+        """Those that passed without their goals, at a setting too coarse for these to count."""
+        return tuple(outcome for outcome in self.outcomes if outcome.passed and outcome.goals_missed)
+
+    @property
     def telling(self) -> Outcome:
-        """The outcome that decides: a failure that counts, or else another failure, or else the first."""
-        return min(self.outcomes, key=lambda outcome: (not counts(outcome), outcome.passed))
+        """The outcome that decides: a failure that counts, or else another failure, or one without its goals, or else the first."""
+        return min(self.outcomes, key=lambda outcome: (not counts(outcome), outcome.passed, not outcome.goals_missed))
 
     @property
     def mark(self) -> str:
-        """One character: passed (.), failed (x), failed for a known reason (k), the explicit solver failed (e)."""
+        """One character: passed (.), passed without goals that do not count there (o), failed (x), failed for a known reason (k),
+        the explicit solver failed (e)."""
         if not self.failed:
-            return "."
+            return "o" if self.bounds_only else "."
         if any(map(counts, self.failed)):
             return "x"
         return "k" if self.telling.known_failure else "e"

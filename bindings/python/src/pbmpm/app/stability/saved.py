@@ -9,7 +9,7 @@ from typing import Any
 
 from ..errors import InputError
 from ..files import write_json
-from ..hardcases import Check, Outcome, Setting, find_case
+from ..hardcases import Check, Kind, Outcome, Setting, find_case
 from ..saved import read_report
 from .result import report_of
 
@@ -18,7 +18,8 @@ SAVE_SECONDS = 30.0
 
 
 def outcome_of(row: dict[str, Any]) -> Outcome:
-    """The outcome of a row, with the check that said most. Whether a failure is known is what the catalogue says now."""
+    """The outcome of a row, with the check that said most and the goals that were missed. Whether a failure is known and whether
+    goals count is what the catalogue says now."""
     setting = Setting(
         row["material"],
         row["dims"],
@@ -28,9 +29,14 @@ def outcome_of(row: dict[str, Any]) -> Outcome:
         solver=row["solver"],
         seed=row["seed"],
     )
-    figure, limit = (math.nan if row[name] is None else row[name] for name in ("figure", "limit"))
-    check = Check(row["check"], figure, limit, row["limit_is_lowest"])
-    return Outcome(row["case"], setting, (check,), row["seconds"], find_case(row["case"]).known_failure(setting))
+    checks = dict.fromkeys(check_of(entry) for entry in (row, *row["goals_missed"]))
+    return find_case(row["case"]).outcome(setting, checks, row["seconds"])
+
+
+def check_of(entry: dict[str, Any]) -> Check:
+    """The check of a row, or of a goal in it."""
+    figure, limit = (math.nan if entry[name] is None else entry[name] for name in ("figure", "limit"))
+    return Check(entry["check"], figure, limit, entry["limit_is_lowest"], Kind(entry["kind"]))
 
 
 class Record:

@@ -28,7 +28,7 @@ def run_one(run: Run) -> Outcome:
 
 def _failed(run: Run, what: str, seconds: float) -> Outcome:
     check = Check(what, math.nan, 0.0)
-    return Outcome(run.case, run.setting, (check,), seconds, find_case(run.case).known_failure(run.setting))
+    return find_case(run.case).outcome(run.setting, (check,), seconds)
 
 
 def sweep(runs: Sequence[Run], processes: int, told: Callable[[Outcome], None] = lambda _: None) -> list[Outcome]:
