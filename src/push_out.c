@@ -93,7 +93,9 @@ void contacts_keep_places(const ContactFrame *frame, const Particles *p, int32_t
     }
 }
 
-/* The share of the way [cells] from `from` [m] at which it runs into the solid, with the normal there; 1: it does not. */
+/* The share of the way [cells] from `from` [m] at which it runs into the solid, with the normal there; 1: it does not. A convex solid lies behind the
+ * plane through its nearest point, so the way to that plane is free, and a way that grazes a wall arrives after one step; steps as long as the
+ * distance alone would need ever more of them, the flatter it is. */
 static double share_until_hit(const Solid *solid, const double from[3], const double way[3], double length, double cell_size, double normal[3])
 {
     enum { STEPS = 48 };
@@ -105,7 +107,7 @@ static double share_until_hit(const Solid *solid, const double from[3], const do
         for (int a = 0; a < 3; a++) inward -= way[a] * normal[a];
         if (distance <= TOUCH && inward > 0.0) return share;
         if (inward <= 0.0 && !solid->grid) return 1.0; /* convex: it only gets further away */
-        share += fmax(distance, TOUCH) / length;
+        share += fmax(distance, TOUCH) / (solid->grid ? length : inward);
     }
     return 1.0;
 }

@@ -81,6 +81,15 @@ def test_hard_case(case: HardCase, setting: Setting) -> None:
     assert goals <= GOALS.get(case.id, set())
 
 
+@pytest.mark.parametrize(("rate_hz", "iterations"), [(15, 20), (30, 5)])
+def test_a_jet_that_grazes_a_thin_wall_stays_before_it(rate_hz: float, iterations: int) -> None:
+    """Thrown sideways by the ball's impact it moves along the wall by ten cells per step, and towards it by less than one: the
+    flatter its way, the more steps the search for its end takes that trusts the distance alone."""
+    setting = Setting("liquid", 2, "5 cells/step, wall of 0.2 cells", rate_hz, iterations, solver="primal")
+    outcome = find_case("H08").run(setting)
+    assert outcome.passed, outcome.description
+
+
 def test_catalogue_is_complete_and_in_order() -> None:
     identifiers = [case.id for case in CASES]
     assert identifiers == [f"H{number:02}" for number in range(1, 23)]
