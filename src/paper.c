@@ -64,11 +64,23 @@ static double pressure_bound(const World *world, float relaxation, float dt, dou
  * by r per substep and steps T, t in turn, the product of the two transfer matrices has |trace| <= 1 + det for every r only if
  * T/t + t/T <= 6. So when dt drops the relaxation is lowered at first: stiffness grows by at most 1/0.8^2 per substep. It drops at
  * once, and a constant dt is not touched. */
-static float softening(World *world, float dt)
+static float softening_of_step(World *world, float dt)
 {
     world->slow_dt = fmax((double)dt, 0.8 * world->slow_dt);
     const double ratio = (double)dt / world->slow_dt;
     return (float)(ratio * ratio);
+}
+
+/* Stiffness goes with N, too. A body that carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds
+ * r times as much and leaps. Made stiffer slowly it rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is
+ * (1 - 1/r) of what it held, whatever r is. Slowly: by about the factor e in the time in which its waves cross it twice. They
+ * travel sqrt(w N) / 2 cells per substep, so a block of 8 cells takes 26 substeps for N = 1. Fewer iterations soften at once. */
+static float softening_of_iterations(World *world)
+{
+    static const double GROWTH = 1.04; /* per substep */
+    const double now = (double)world->settings.iterations;
+    world->slow_iterations = world->slow_iterations > 0.0 ? fmin(now, GROWTH * world->slow_iterations) : now;
+    return (float)(world->slow_iterations / now);
 }
 
 double paper_viscous_share(const World *world, const pbmpm_material_def *def, double dt)
@@ -83,7 +95,7 @@ static const float WEIGHTLESS_REBOUND = 0.3f;
 void paper_set_materials(World *world, float dt)
 {
     const double head = pressure_head(world);
-    const float soft = softening(world, dt);
+    const float soft = softening_of_step(world, dt) * softening_of_iterations(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
         const pbmpm_material_def *def = &world->materials.def[slot];

@@ -182,14 +182,15 @@ static void load_settings(World *world, SnapshotIn in) { snapshot_take(&in, &wor
 typedef struct Counters {
     uint64_t step_count, deleted_total, clamped_total;
     double simulated_seconds;
-    double slow_dt;
+    double slow_dt, slow_iterations;
     uint64_t strain_unchecked;
 } Counters;
 
 static void save_counters(const World *world, SnapshotOut *out)
 {
     const Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
-                               world->simulated_seconds, world->slow_dt,       world->strain_unchecked};
+                               world->simulated_seconds, world->slow_dt,       world->slow_iterations,
+                               world->strain_unchecked};
     snapshot_put(out, &counters, sizeof counters);
 }
 
@@ -208,6 +209,7 @@ static void load_counters(World *world, SnapshotIn in)
     world->clamped_total = counters.clamped_total;
     world->simulated_seconds = counters.simulated_seconds;
     world->slow_dt = counters.slow_dt;
+    world->slow_iterations = counters.slow_iterations;
     world->strain_unchecked = counters.strain_unchecked != 0;
 }
 

@@ -50,7 +50,7 @@ namespace Pbmpm
         /// <summary>per world</summary>
         public const int MaxForces = 64;
         /// <summary>of the format that this library writes, and the only one it reads</summary>
-        public const int SnapshotVersion = 1;
+        public const int SnapshotVersion = 2;
     }
 
     /// <summary>What a call came to. Zero is success; everything else left the world as it was before the call, except
