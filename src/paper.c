@@ -8,18 +8,21 @@
 
 /* ---- The bound of the pressure ---- */
 
-/* What all liquid is, in one pass: its rest volume [m^d], and the mean square of its speed [m^2/s^2]. */
+/* What all liquid is, in one pass: its rest volume [m^d], the mean square of its speed [m^2/s^2], and the density of the heaviest. */
 typedef struct LiquidState {
-    double volume, speed2;
+    double volume, speed2, densest;
 } LiquidState;
+
+static const double SUM_ROUNDING = 1e-4; /* of sums over a block in single precision */
 
 static LiquidState measure_liquid(const World *world)
 {
     const Particles *p = &world->particles;
-    double mass = 0.0, volume = 0.0, energy = 0.0;
+    double mass = 0.0, volume = 0.0, energy = 0.0, lightness = INFINITY;
     for (uint32_t run = 0; run < world->grid.runs; run++) {
         const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
         if (material->kind != K_LIQUID) continue;
+        lightness = fmin(lightness, (double)material->inverse_density);
         for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++) {
             float speed2 = 0.0f;
             for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
@@ -30,32 +33,37 @@ static LiquidState measure_liquid(const World *world)
         }
     }
     for (uint32_t i = 0; i < world->sleep.asleep.count; i++) {
-        mass += (double)sleep_list_block(&world->sleep.asleep, i)->liquid_mass;
-        volume += (double)sleep_list_block(&world->sleep.asleep, i)->liquid_volume;
+        const SleepBlock *block = sleep_list_block(&world->sleep.asleep, i);
+        if (!(block->liquid_mass > 0.0f)) continue;
+        mass += (double)block->liquid_mass;
+        volume += (double)block->liquid_volume;
+        const double mean = (double)block->liquid_volume / (double)block->liquid_mass;
+        if (mean < (1.0 - SUM_ROUNDING) * lightness) lightness = mean;
     }
-    return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0};
+    return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0, 1.0 / lightness};
 }
 
 /* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
  * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
  * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
-static double pressure_head(const World *world)
+static double pressure_head(const World *world, const LiquidState *liquid)
 {
     const double strength = gravity_strength(world);
-    if (strength == 0.0) return 0.0;
-    const LiquidState liquid = measure_liquid(world);
-    if (liquid.volume == 0.0) return 0.0;
+    if (strength == 0.0 || liquid->volume == 0.0) return 0.0;
     const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
-    const double weight = fmax(stands, strength * pow(liquid.volume, 1.0 / world->def.dimension));
-    return 3.0 * weight + 0.5 * liquid.speed2;
+    const double weight = fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
+    return 3.0 * weight + 0.5 * liquid->speed2;
 }
 
-/* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). */
-static double pressure_bound(const World *world, float relaxation, float dt, double head)
+/* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
+ * the weight of the heaviest one, up to the pressure (1/J - 1) / J K that leaves it J = 0.73: what is crushed further gains energy when it grows. */
+static double pressure_bound(const World *world, const KernelMaterial *material, float dt, double head, double densest)
 {
+    static const double BEARS = 0.5;
     const double cells = (double)dt / (double)world->def.cell_size;
-    const double stiffness = (double)relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
-    return head / stiffness;
+    const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
+    const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
+    return heavier > 1.0 + SUM_ROUNDING ? fmin(own * heavier, fmax(own, BEARS)) : own;
 }
 
 /* ---- Parameters of the substep ---- */
@@ -94,7 +102,8 @@ static const float WEIGHTLESS_REBOUND = 0.3f;
 
 void paper_set_materials(World *world, float dt)
 {
-    const double head = pressure_head(world);
+    const LiquidState liquid = measure_liquid(world);
+    const double head = pressure_head(world, &liquid);
     const float soft = softening_of_step(world, dt) * softening_of_iterations(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
@@ -108,7 +117,7 @@ void paper_set_materials(World *world, float dt)
         material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
         const bool weightless = head == 0.0;
         material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
-        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material->relaxation, dt, head);
+        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, dt, head, liquid.densest);
     }
 }
 

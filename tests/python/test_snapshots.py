@@ -27,6 +27,25 @@ def test_a_restored_world_goes_on_as_the_saved_one(pool: pbmpm.World) -> None:
         assert pool.hash() == expected
 
 
+def test_matter_that_is_growing_stiffer_goes_on_doing_so(dimension: int) -> None:
+    """Raised iterations take effect over some dozens of steps: where they are is part of the state."""
+    with pbmpm.World(dimension, 0.1, capacity=4000, iterations=1) as world:
+        world.fill(pbmpm.Box([0.5] * dimension, [0.3] * dimension), world.add_material(pbmpm.Elastic()), velocity=[1.0] * dimension)
+        world.affine_velocities = np.tile(np.diag([3.0, -3.0, 0.0][:dimension]), (len(world), 1, 1))
+        world.step(0.01)
+        world.iterations = 20
+        for _ in range(5):
+            world.step(0.01)
+        saved = world.snapshot()
+        world.step(0.01)
+        expected = world.hash()
+        for _ in range(STEPS):
+            world.step(0.01)
+        world.restore(saved)
+        world.step(0.01)
+        assert world.hash() == expected
+
+
 def test_another_world_of_the_same_making(dimension: int) -> None:
     def make() -> pbmpm.World:
         world = pbmpm.World(dimension, 0.1, capacity=4000, gravity=[0, -10, 0][:dimension])

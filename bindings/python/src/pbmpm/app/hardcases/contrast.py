@@ -9,7 +9,7 @@ import pbmpm
 from pbmpm.materials import Parameters
 
 from ..accuracy import laws
-from .case import ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, Kind, KnownFailure, Setting, sound_modulus
+from .case import ELASTIC, EXPLICIT, LIQUID, MIXED, PAPER, PRIMAL, Check, HardCase, Kind, Setting, sound_modulus
 from .watch import GRAVITY, Watch, highest_energy, make_world, vector
 
 # H09
@@ -104,16 +104,6 @@ def contrast(setting: Setting) -> list[Check]:
     return _heavy_block(setting) if setting.material == ELASTIC else _overturn(setting)
 
 
-_KNOWN = (
-    KnownFailure(
-        "the light liquid loses its volume to the heavy one's weight, more than the law of a column says, and has not risen after "
-        "10 s: mean heights 9:1",
-        solvers=(PAPER,),
-        materials=(LIQUID,),
-        variants=("1:10",),
-    ),
-)
-
 # H20
 
 PILE_CELL = 0.1
@@ -161,7 +151,6 @@ CASES = (
         materials=(LIQUID, ELASTIC),
         variants=tuple(VARIANTS),
         makes_sense=lambda setting: setting.dimension == 2 or VARIANTS[setting.variant] in RATIOS_3D,
-        known_failures=_KNOWN,
     ),
     HardCase(
         "H20",
