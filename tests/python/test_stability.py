@@ -57,7 +57,7 @@ def test_the_full_form_takes_every_case_over_all_rates_and_iterations(solver: st
         corners = {(rate, count) for rate, count in grid if rate in (15.0, 480.0) and count in (1, 20)}
         for variant in case.all_variants:
             fixed = variant in case.fixed_variants + case.long_variants
-            for dimension in {run.setting.dimension for run in runs if run.setting.variant == variant}:
+            for dimension in {setting.dimension for setting in case.settings(solver=solver, variants=(variant,))}:
                 expected = {own} if fixed else grid if dimension == 2 else {*corners, own}
                 assert places_of(runs, variant=variant, dimension=dimension) == expected, (case.id, variant)
 
