@@ -247,9 +247,19 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
 }
 
+/* Feedback is for matter that moves or whose J is wrong; the noise of a pool at rest is left alone. */
+static double feedback_share(const RefStep *step, const double d[3], double missing)
+{
+    double way2 = 0.0;
+    if (step->feedback_way == 0.0) return 1.0;
+    for (int a = 0; a < step->dimension; a++) way2 += d[a] * d[a];
+    const double wrong = (fabs(missing) - REF_WRONG_MIN) / (REF_WRONG_MAX - REF_WRONG_MIN);
+    return fmin(fmax(fmax(sqrt(way2) / step->feedback_way, wrong), 0.0), 1.0);
+}
+
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
-static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
+static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
@@ -259,7 +269,8 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
         double densest = 0.0;
         for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
         const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
-        ratio += feedback * (fmin(1.0 / held, loose) - ratio);
+        const double missing = fmin(1.0 / held, loose) - ratio;
+        ratio += feedback * feedback_share(step, d, missing) * missing;
         if (held > REF_CROWDED) nudge(step, p);
     }
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), LOOSE_MAX);
@@ -310,16 +321,17 @@ static void keep_fine_motion(const RefStep *step, const RefParticle *p, const do
 
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)
 {
-    double d[3], D[9], motion[3];
+    double d[3], D[9], motion[3], way[3];
     reference_gather(grid, p, d, D);
     memcpy(motion, d, sizeof motion);
+    memcpy(way, d, sizeof way);
     if (reference_flips(step, p)) keep_fine_motion(step, p, D, d, motion);
     if (p->material.kind == K_ELASTIC) {
         double gradient[9];
         reference_gradient(grid, p, gradient);
         integrate_elastic(step, p, step->tensionless ? gradient : D); /* the paper's F follows D */
     } else if (step->tensionless) {
-        integrate_tensionless(step, grid, p, D);
+        integrate_tensionless(step, grid, p, way, D);
     } else {
         integrate_liquid(step, grid, p, D);
     }

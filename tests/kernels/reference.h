@@ -35,6 +35,7 @@ typedef struct RefStep {
     bool with_volume;
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
     double flip;         /* share of the motion lost in the transfers that liquids keep */
+    double feedback_way; /* [cells] that matter goes where feedback is full; 0: everywhere */
     const struct RefGrid *base; /* the predictor; null: nothing is kept */
 } RefStep;
 
@@ -92,6 +93,9 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
 
 /* Rest volume per cell where a liquid counts as compressed, and as crowded. */
 static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5;
+
+/* From what error of J on feedback begins where matter rests, and is full. */
+static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
 
 /* The rest volume per cell around the particle. */
 double reference_compression(const RefGrid *grid, const RefParticle *p);

@@ -177,6 +177,7 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.salt = args->salt;
     scene->step.with_volume = with_volume;
     scene->step.flip = (double)args->flip;
+    scene->step.feedback_way = (double)args->feedback_way;
     scene->step.tensionless = world->record.solver != PBMPM_SOLVER_PAPER;
     for (int a = 0; a < 3; a++) scene->step.gravity[a] = (double)args->gravity[a];
     find_extent(scene);

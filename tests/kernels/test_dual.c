@@ -86,6 +86,20 @@ static void test_all_densities(void)
     dual_check_spec(&spec, 2, check_rounds);
 }
 
+/* The feedback of matter at rest and on its way to where it is full, 0.01 cells per substep. */
+static void test_calm_liquid(void)
+{
+    static const double ways[] = {0.0, 1e-3, 1e-2, 3e-2};
+    for (int i = 0; i < 4; i++) {
+        SceneSpec spec = mixed_scene("dual: calm liquid");
+        spec.speed = ways[i];
+        spec.gradient = 0.1 * ways[i];
+        spec.ratio_min = 0.9;
+        spec.ratio_max = 1.1;
+        dual_check_spec(&spec, 1, check_rounds);
+    }
+}
+
 /* ---- ASFLIP ---- */
 
 static void test_fine_motion(void)
@@ -353,6 +367,7 @@ int main(void)
     RUN_TEST(test_single_particles_far_apart);
     RUN_TEST(test_crowded_cells);
     RUN_TEST(test_all_densities);
+    RUN_TEST(test_calm_liquid);
     RUN_TEST(test_fine_motion);
     RUN_TEST(test_all_fine_motion_is_all_of_the_velocity);
     RUN_TEST(test_stress_of_moderate_strain);

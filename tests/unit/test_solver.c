@@ -80,6 +80,18 @@ static void test_an_incompressible_liquid(void)
     world_destroy(world);
 }
 
+/* Feedback fades in the dual solver's liquid where it is slower than 2.4 cells per second. */
+static void test_feedback_of_calm_liquid(void)
+{
+    const pbmpm_material_def def = material_defaults();
+    for (pbmpm_solver solver = PBMPM_SOLVER_PAPER; solver <= PBMPM_SOLVER_EXPLICIT; solver++) {
+        World *world = open_world(2, 0.1f);
+        bound_material(world, &def, solver, 1.0f / 60);
+        TEST_ASSERT_FLOAT_WITHIN(1e-8f, solver == PBMPM_SOLVER_DUAL ? 0.04f : 0.0f, world->args.feedback_way);
+        world_destroy(world);
+    }
+}
+
 /* Stiffest and softest, longest and shortest: no infinity, no NaN. */
 static void test_moduli_stay_finite(void)
 {
@@ -338,6 +350,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_moduli_of_liquids);
     RUN_TEST(test_an_incompressible_liquid);
+    RUN_TEST(test_feedback_of_calm_liquid);
     RUN_TEST(test_moduli_stay_finite);
     RUN_TEST(test_moduli_of_elastic_bodies);
     RUN_TEST(test_what_the_dual_solver_holds);

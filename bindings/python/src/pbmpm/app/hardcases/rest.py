@@ -70,11 +70,6 @@ CASES = (
         makes_sense=lambda setting: setting.variant == SHORT or (setting.dimension == 2 and setting.solver != EXPLICIT),
         known_failures=(
             KnownFailure(
-                "pressures of particles stay noisy, and stir the pool: 4e-6 of m g H in 2D, 2e-6 in 3D, which is a speed of 5 mm/s",
-                solvers=(DUAL,),
-                materials=(LIQUID,),
-            ),
-            KnownFailure(
                 "with few iterations a body creeps under its weight: 0.9 % in 20 s",
                 solvers=(DUAL,),
                 materials=(ELASTIC,),
