@@ -75,23 +75,54 @@ static void eliminate(int count, double A[9][9], double *b)
     }
 }
 
-/* The gradient of shear |(I + X) F - R|^2 + dilation/2 (volume + <C, X - D> - 1)^2 + w/2 |X - Z|^2 is affine in X = Z + V:
- *     2 shear ((I + Z + V) F - R) F^T + dilation (volume + <C, Z - D + V> - 1) C + w V = 0,
- * and S' = w V. */
+/* The symmetric part of a in o; returns its size. */
+static double symmetric_part(int n, const double *a, double *o)
+{
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) o[r * 3 + c] = 0.5 * (a[r * 3 + c] + a[c * 3 + r]);
+    return matrix_norm(n, o);
+}
+
+void reference_near(int n, const double D[9], double near[9])
+{
+    double strain[9] = {0};
+    const double size = symmetric_part(n, D, strain), kept = fmin(1.0, REF_SUBSTEP_STRAIN / fmax(size, 1e-300));
+    memcpy(near, D, 9 * sizeof *near);
+    for (int k = 0; k < 9; k++) near[k] -= (1.0 - kept) * strain[k];
+}
+
+/* Raises the eigenvalues of a symmetric matrix to -REF_SUBSTEP_STRAIN: those of X + |X| I are its singular values. */
+static void limit_closing(int n, double *X)
+{
+    const double shift = matrix_norm(n, X);
+    double shifted[9], u[9], s[3], v[9];
+    memcpy(shifted, X, sizeof shifted);
+    for (int r = 0; r < n; r++) shifted[r * 4] += shift;
+    matrix_decompose(n, shifted, u, s, v);
+    for (int k = 0; k < n; k++)
+        for (int r = 0; r < n; r++)
+            for (int c = 0; c < n; c++) X[r * 3 + c] += fmax(0.0, shift - REF_SUBSTEP_STRAIN - s[k]) * v[r * 3 + k] * v[c * 3 + k];
+}
+
+/* The gradient of shear |(I + X) F - R|^2 + dilation/2 (volume + <C, X - N> - 1)^2 + w/2 |X - Z|^2 is affine in X = Z + V:
+ *     2 shear ((I + Z + V) F - R) F^T + dilation (volume + <C, Z - N + V> - 1) C + w V = 0,
+ * and S' = w (X' - Z), X' = sym X but for what closes too fast. */
 void reference_stress(int n, const KernelMaterial *material, const double F[9], const double D[9], const double Y[9], const double *R,
                       double S[9])
 {
     const double w = (double)material->relaxation, shear = 2.0 * (double)material->shear, dilation = (double)material->dilation;
-    double next[9] = {0}, turn[9] = {0}, C[9] = {0}, Z[9] = {0}, excess = volume_at(n, F, D) - 1.0, b[9], A[9][9], strain[9] = {0};
-    advance(n, D, F, next);
+    double next[9] = {0}, turn[9] = {0}, C[9] = {0}, Z[9] = {0}, near[9] = {0}, b[9], A[9][9], strain[9] = {0};
+    reference_near(n, D, near);
+    advance(n, near, F, next);
+    double excess = matrix_determinant(n, next) - 1.0;
     if (R)
         memcpy(turn, R, sizeof turn);
     else
         matrix_rotation(n, next, turn);
-    volume_derivative(n, F, D, C);
+    volume_derivative(n, F, near, C);
     for (int k = 0; k < 9; k++) {
         Z[k] = D[k] - Y[k] / w;
-        excess -= C[k] * Y[k] / w;
+        excess += C[k] * (Z[k] - near[k]);
     }
     advance(n, Z, F, strain);
     for (int k = 0; k < 9; k++) strain[k] -= turn[k];
@@ -105,9 +136,12 @@ void reference_stress(int n, const KernelMaterial *material, const double F[9], 
         }
     }
     eliminate(n * n, A, b);
-    for (int r = 0; r < n; r++)
-        for (int c = 0; c < n; c++)
-            S[r * 3 + c] = fmin(fmax(0.5 * w * (b[r * n + c] + b[c * n + r]), -(double)K_INCREMENT_MAX), (double)K_INCREMENT_MAX);
+    double X[9] = {0}, closed[9] = {0}, start[9] = {0};
+    for (int i = 0; i < n * n; i++) X[i / n * 3 + i % n] = Z[i / n * 3 + i % n] + b[i];
+    symmetric_part(n, X, closed);
+    symmetric_part(n, Z, start);
+    limit_closing(n, closed);
+    for (int k = 0; k < 9; k++) S[k] = fmin(fmax(w * (closed[k] - start[k]), -(double)K_INCREMENT_MAX), (double)K_INCREMENT_MAX);
 }
 
 /* ---- Energy ---- */
@@ -194,11 +228,12 @@ double bound_stress(int n, const KernelMaterial *material, const double F[9], co
     enum { ROUNDINGS = 24 }; /* in a product of three matrices with 3 terms per entry, and a division */
     const double each = ROUNDINGS * UNIT_ROUNDOFF, w = (double)material->relaxation;
     const double s = 2.0 * (double)material->shear / w, dilation = (double)material->dilation / w;
-    double u[9], sigma[3], v[9], next[9] = {0}, C[9] = {0}, S[9], X = 0.0, Z = 0.0, D_size = 0.0;
+    double u[9], sigma[3], v[9], near[9], next[9] = {0}, C[9] = {0}, S[9], X = 0.0, Z = 0.0, D_size = 0.0;
     matrix_decompose(n, F, u, sigma, v);
     const double norm = matrix_norm(n, F), M = 1.0 + s * sigma[0] * sigma[0], B = 1.0 / (1.0 + s * sigma[n - 1] * sigma[n - 1]);
-    advance(n, D, F, next);
-    volume_derivative(n, F, D, C);
+    reference_near(n, D, near);
+    advance(n, near, F, next);
+    volume_derivative(n, F, near, C);
     const double next_norm = matrix_norm(n, next), C_size = matrix_norm(n, C), volume = fabs(matrix_determinant(n, next));
     reference_stress(n, material, F, D, Y, NULL, S);
     D_size = matrix_norm(n, D);

@@ -10,14 +10,20 @@
 /* Growth per substep that a crushed liquid asks for at most. */
 static const double REF_GROWTH_MAX = 0.3;
 
+/* Strain per substep that a solid is asked for at most. */
+static const double REF_SUBSTEP_STRAIN = 0.6;
+
 /* The constant that makes an energy per rest volume [Pa] into phi: 4 dt^2 / (dx^2 density). */
 double reference_scale(const RefStep *step, double density);
 
 /* S' of a liquid: the root of s + L J (J (1 + tr D + d (s - y)/w) - 1) = 0, or 0 where that is tension. */
 double reference_pressure(int dimension, const KernelMaterial *material, double ratio, double trace, double y);
 
-/* S' of an elastic particle, of phi with the rotation R and the derivative of the determinant taken at D: a linear problem of d^2
- * unknowns, solved by elimination. R may be null: that of (I + D) F. */
+/* D with its symmetric part no longer than REF_SUBSTEP_STRAIN: where the dual solver linearises. */
+void reference_near(int dimension, const double D[9], double near[9]);
+
+/* S' of an elastic particle, of phi with the rotation R and the derivative of the determinant taken at N = reference_near(D): a linear problem
+ * of d^2 unknowns, solved by elimination. Its solution closes by REF_SUBSTEP_STRAIN at most. R may be null: that of (I + N) F. */
 void reference_stress(int dimension, const KernelMaterial *material, const double F[9], const double D[9], const double Y[9],
                       const double *R, double S[9]);
 

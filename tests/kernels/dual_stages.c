@@ -264,9 +264,11 @@ static void check_step(const RefGrid *nodes, const RefParticle *p, const double 
         check_near(s, S[0], bound, "pressure", index);
         return;
     }
-    matrix_multiply(n, D, p->deformation, next);
+    double near[9];
+    reference_near(n, D, near);
+    matrix_multiply(n, near, p->deformation, next);
     for (int k = 0; k < 9; k++) next[k] += p->deformation[k];
-    const double turned = bound_rotation(n, next, bound_advance(n, p->deformation, D, error.D));
+    const double turned = bound_rotation(n, next, bound_advance(n, p->deformation, near, error.D));
     const double bound = bound_stress(n, &p->material, p->deformation, D, Y, n * error.D, turned) + n * Y_error;
     reference_stress(n, &p->material, p->deformation, D, Y, NULL, expected);
     for (int r = 0; r < n; r++)

@@ -90,6 +90,14 @@ def test_a_jet_that_grazes_a_thin_wall_stays_before_it(rate_hz: float, iteration
     assert outcome.passed, outcome.description
 
 
+@pytest.mark.parametrize("iterations", [5, 50, 200])
+def test_a_bar_that_closes_faster_than_sound_does_not_pass_through_itself(iterations: int) -> None:
+    """With the dual solver, be its iterations few or many: no substep closes matter by more than it can take."""
+    setting = Setting("elastic", 2, "stretched to 10", 60.0, iterations, solver="dual")
+    checks = find_case("H14").function(setting)
+    assert all(check.passed for check in checks), checks
+
+
 def test_catalogue_is_complete_and_in_order() -> None:
     identifiers = [case.id for case in CASES]
     assert identifiers == [f"H{number:02}" for number in range(1, 23)]

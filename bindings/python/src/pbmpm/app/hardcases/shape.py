@@ -220,10 +220,11 @@ CASES = (
         iterations=20,
         known_failures=(
             KnownFailure(
-                "stretched ten times it closes at several times its speed of sound; unfinished iterates let it pass through itself, where F "
-                "is clamped and the way back forgotten: a third too small (2D), a sixth (3D)",
+                "at fine steps the bar's energy, 81 E/2 per volume, arrives as what it is: fixed corotated matter is crushed flat by far "
+                "less, E/2, and its particles below strain_min, where the way back is forgotten",
                 solvers=(DUAL,),
                 variants=("stretched to 10",),
+                rates=(240.0, 480.0),
             ),
             KnownFailure(
                 "some strain stays in particles that share a cell: 2.7 % too long",
