@@ -41,6 +41,7 @@ void crowd_add(Crowd *crowd, int dimension, const Spot *spot, double volume)
         for (int j = 0; j < 3; j++)
             for (int i = 0; i < 3; i++)
                 crowd->volume[spot_node(crowd, spot, i, j, k)] += (float)(volume * spot->w[0][i] * spot->w[1][j] * spot->w[2][k]);
+    crowd->held += volume;
 }
 
 /* Adds the particles of the rows [begin, end). */
@@ -72,16 +73,6 @@ static bool is_block_near(const World *world, const Crowd *crowd, const SleepBlo
     return true;
 }
 
-void crowd_measure(const World *world, Crowd *crowd)
-{
-    const SleepPiece *piece = world->sleep.piece.data;
-    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
-    for (uint32_t i = 0; i < world->sleep.pieces; i++)
-        if (is_block_near(world, crowd, sleep_list_block(&world->sleep.asleep, piece[i].block)))
-            measure_rows(world, crowd, piece[i].begin, piece[i].begin + piece[i].count);
-    measure_rows(world, crowd, world->sleep.rows, world->particles.count);
-}
-
 /* The share of a node's cell that obstacles leave open. */
 static double open_share_at(const World *world, const int32_t node[3])
 {
@@ -90,6 +81,57 @@ static double open_share_at(const World *world, const int32_t node[3])
     for (int i = 0; i < world->colliders.obstacle_count; i++)
         share *= obstacle_open_share(&world->colliders.obstacle[i], point, (double)world->def.cell_size);
     return share;
+}
+
+/* Farther inside of an obstacle than this [cells] a node has no room, and obstacle_open_share() says no more than that it is small. */
+static const double CLOSED = 1.001;
+
+static double room_at(const World *world, const int32_t node[3])
+{
+    double point[3] = {0}, normal[3];
+    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
+    for (int i = 0; i < world->colliders.obstacle_count; i++)
+        if (obstacle_distance(&world->colliders.obstacle[i], point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
+    return open_share_at(world, node);
+}
+
+/* The volume that obstacles leave open if they enclose it: whatever the gaps between particles look like, more does not fit. The outermost two nodes to
+ * each side do not know all of their particles and are left out; where one of the next is open, so is the room. */
+static double room_of(const World *world, const Crowd *crowd)
+{
+    const int d = world->def.dimension;
+    int32_t at[3] = {0}, first[3] = {0}, last[3] = {0};
+    double room = 0.0;
+    for (int a = 0; a < d; a++) {
+        first[a] = 2;
+        last[a] = crowd->size[a] - 3;
+    }
+    for (at[2] = first[2]; at[2] <= last[2]; at[2]++)
+        for (at[1] = first[1]; at[1] <= last[1]; at[1]++)
+            for (at[0] = first[0]; at[0] <= last[0]; at[0]++) {
+                int32_t node[3] = {0};
+                bool outermost = false;
+                for (int a = 0; a < d; a++) {
+                    node[a] = crowd->low[a] + at[a];
+                    outermost = outermost || at[a] == first[a] || at[a] == last[a];
+                }
+                const double share = room_at(world, node);
+                if (outermost && share > 0.0) return INFINITY;
+                room += share;
+            }
+    return room;
+}
+
+void crowd_measure(const World *world, Crowd *crowd)
+{
+    const SleepPiece *piece = world->sleep.piece.data;
+    crowd->held = 0.0;
+    crowd->room = world->colliders.obstacle_count > 0 ? room_of(world, crowd) : INFINITY;
+    memset(crowd->volume, 0, (size_t)crowd_nodes(crowd) * sizeof(float));
+    for (uint32_t i = 0; i < world->sleep.pieces; i++)
+        if (is_block_near(world, crowd, sleep_list_block(&world->sleep.asleep, piece[i].block)))
+            measure_rows(world, crowd, piece[i].begin, piece[i].begin + piece[i].count);
+    measure_rows(world, crowd, world->sleep.rows, world->particles.count);
 }
 
 /* How full the surroundings of a place are: rest volume per volume that obstacles leave open. Of the nodes up to CROWD_WIDE away, weighed by a tent:

@@ -10,6 +10,8 @@ typedef struct Crowd {
     int32_t low[3];
     int32_t size[3]; /* nodes */
     float *volume;
+    double held; /* rest volume of all particles [cells] */
+    double room; /* what a closed room around the nodes has [cells]; infinite where it is open */
 } Crowd;
 
 /* A point between the nodes of the crowd. */
@@ -20,7 +22,7 @@ typedef struct Spot {
 
 double crowd_nodes(const Crowd *crowd);
 
-/* Adds up the volumes of all particles that touch the nodes. */
+/* Adds up the volumes of all particles that touch the nodes, and finds the room that there is. */
 void crowd_measure(const World *world, Crowd *crowd);
 
 /* False: some node that a particle there touches is not in the crowd. `place` in cells. */

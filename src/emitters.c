@@ -379,6 +379,7 @@ static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *bi
     for (int a = 0; a < d; a++) place[a] = point[a] / dx;
     if (!crowd_find(crowd, d, place, &spot)) return false;
     const double limit = (double)emitter->def.fill_limit;
+    if (crowd->held + particle_volume(&emitter->def, d) > limit * crowd->room) return false;
     if (crowd_density(crowd, d, &spot) > DENSEST * limit || crowd_filling(world, crowd, place, clear < FREE) > limit) return false;
     NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index};
     for (int a = 0; a < d; a++) {

@@ -36,7 +36,8 @@ typedef enum pbmpm_emitter_region {
  *  Places follow a sequence that fills the region evenly.
  *
  *  A particle that is due is refused, and never made up for, when the matter at its place already fills the share
- *  `fill_limit` of the grid, when the budget is spent, or when the world has no room. Refusals are counted in
+ *  `fill_limit` of the grid, when that would fill more than this share of a room that obstacles close around the emitter, up to about four cells
+ *  away, when the budget is spent, or when the world has no room. Refusals are counted in
  *  pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
 typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */

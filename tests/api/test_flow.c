@@ -302,6 +302,45 @@ static void test_refusals_are_counted_by_reason(void)
     TEST_ASSERT_EQUAL_UINT32(0, world_events_of(world, PBMPM_EVENT_EMISSION_REFUSED, NULL));
 }
 
+/* Fills a room of `side` [m] to five times its volume per second; without a lid it is open above. Returns the share of it that was emitted. */
+static double filled_share(int dimension, float side, bool lid, float fill_limit)
+{
+    pbmpm_world_def room = default_world(dimension, 0.1f, 20000);
+    const pbmpm_world_id world = create_world(&room);
+    pbmpm_emitter_def def = default_emitter(create_material(world, PBMPM_LIQUID));
+    pbmpm_emitter_id emitter;
+    const float half = 0.5f * side, volume = dimension == 3 ? side * side * side : side * side;
+    for (int axis = 0; axis < dimension; axis++) {
+        const float n[3] = {axis == 0, axis == 1, axis == 2};
+        create_collider(world, plane_shape(0, 0, 0, n[0], n[1], n[2]), false);
+        if (axis != 1 || lid) create_collider(world, plane_shape(side * n[0], side * n[1], side * n[2], -n[0], -n[1], -n[2]), false);
+    }
+    set_gravity(world, 0, -9.81f, 0);
+    def.shape = box_shape(half, half, half, half, half, half);
+    def.rate = 5 * volume;
+    def.fill_limit = fill_limit;
+    OK(pbmpm_emitter_create(world, &def, &emitter));
+    for (int i = 0; i < 180; i++) OK(pbmpm_world_step(world, 1.0f / 60));
+    const double share = emitter_status(world, emitter).emitted * pow(0.05, dimension) / (double)volume;
+    OK(pbmpm_world_destroy(world));
+    return share;
+}
+
+/* However often matter that moves leaves a gap: a closed room takes what it holds, and all of it but for the last particles. Its walls may stand
+ * anywhere between the nodes. */
+static void test_a_closed_room_takes_no_more_than_it_holds(void)
+{
+    static const float sides[] = {0.6f, 0.65f, 0.72f};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+            const double share = filled_share(dimension, sides[i], true, 1);
+            TEST_ASSERT_TRUE_MESSAGE(share <= 1.0 + 1e-3 && share > 0.96, "a full room");
+        }
+    const double loose = filled_share(2, 0.6f, true, 0.5f);
+    TEST_ASSERT_TRUE_MESSAGE(loose <= 0.5 + 1e-3 && loose > 0.45, "filled by half");
+    TEST_ASSERT_TRUE_MESSAGE(filled_share(2, 0.6f, false, 1) > 1.05, "without a lid matter rises");
+}
+
 /* A rate that would bring more particles than can be counted to one by one is refused at once. */
 static void test_a_monstrous_rate_ends(void)
 {
@@ -473,6 +512,7 @@ int main(void)
     RUN_TEST(test_a_material_in_an_emitter_is_in_use);
     RUN_TEST(test_emission_does_not_depend_on_the_steps);
     RUN_TEST(test_refusals_are_counted_by_reason);
+    RUN_TEST(test_a_closed_room_takes_no_more_than_it_holds);
     RUN_TEST(test_a_monstrous_rate_ends);
     RUN_TEST(test_drains_count_what_they_take);
     RUN_TEST(test_kill_bounds_tell_of_what_they_take);

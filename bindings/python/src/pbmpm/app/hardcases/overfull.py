@@ -84,15 +84,6 @@ CASES = (
         variants=(JET, EVERYWHERE),
         fixed_variants=(JET, EVERYWHERE),
         map_variants=SMALL_VARIANTS,
-        known_failures=(
-            KnownFailure("sound travels two cells per step at 60 Hz", (EXPLICIT,)),
-            KnownFailure(
-                "gaps between particles that move let in a tenth too much over 30 s, which an incompressible liquid cannot "
-                "hold: J of one in 100 is down to 0.46",
-                ("dual",),
-                variants=("everywhere",),
-                dimensions=(2,),
-            ),
-        ),
+        known_failures=(KnownFailure("sound travels two cells per step at 60 Hz", (EXPLICIT,)),),
     ),
 )
