@@ -329,7 +329,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
     if (p->material.kind == K_ELASTIC) {
         double gradient[9];
         reference_gradient(grid, p, gradient);
-        integrate_elastic(step, p, step->tensionless ? gradient : D); /* the paper's F follows D */
+        integrate_elastic(step, p, gradient);
     } else if (step->tensionless) {
         integrate_tensionless(step, grid, p, way, D);
     } else {

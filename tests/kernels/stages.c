@@ -249,12 +249,11 @@ static void check_volume_ratio(const Scene *scene, const RefGrid *nodes, const R
 }
 
 static void check_elastic(const Scene *scene, const RefGrid *nodes, const RefParticle *before, const RefParticle *expected,
-                          const RefParticle *actual, const double D[9], double error, long index)
+                          const RefParticle *actual, long index)
 {
     const int n = scene->step.dimension;
     double unlimited[9] = {0}, change[9];
-    memcpy(change, D, sizeof change);
-    if (scene->step.tensionless) error = TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * reference_gradient(nodes, before, change) + FLUSHED;
+    const double error = TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * reference_gradient(nodes, before, change) + FLUSHED;
     const double F_error = bound_advance(n, before->deformation, change, error);
     matrix_multiply(n, change, before->deformation, unlimited);
     for (int k = 0; k < 9; k++) unlimited[k] += before->deformation[k];
@@ -341,7 +340,7 @@ void stages_check_integrate(Scene *scene)
         if (expected.material.kind == K_LIQUID)
             check_volume_ratio(scene, &nodes, &before[i], &expected, &actual, matrix_trace(scene->step.dimension, D), error, (long)i);
         else
-            check_elastic(scene, &nodes, &before[i], &expected, &actual, D, error.D, (long)i);
+            check_elastic(scene, &nodes, &before[i], &expected, &actual, (long)i);
         check_moved(scene, &before[i], &expected, &actual, D, error, (long)i);
     }
     check_counts(scene, before);

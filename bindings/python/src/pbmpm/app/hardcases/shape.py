@@ -8,7 +8,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import DUAL, ELASTIC, PAPER, PRIMAL, VISCO, Check, HardCase, Kind, KnownFailure, Setting, sound_modulus
+from .case import DUAL, ELASTIC, PRIMAL, VISCO, Check, HardCase, Kind, KnownFailure, Setting, sound_modulus
 from .watch import GRAVITY, Watch, make_world, vector
 
 CELL = 0.1  # [m]
@@ -225,12 +225,6 @@ CASES = (
                 solvers=(DUAL,),
                 variants=("stretched to 10",),
                 rates=(240.0, 480.0),
-            ),
-            KnownFailure(
-                "some strain stays in particles that share a cell: 2.7 % too long",
-                solvers=(PAPER,),
-                dimensions=(3,),
-                variants=("stretched to 10",),
             ),
         ),
     ),
