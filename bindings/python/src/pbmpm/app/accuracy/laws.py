@@ -20,6 +20,19 @@ def bulk_modulus_over_density(dimension: int, cell_size: float, dt: float, itera
     return relaxation * iterations * cell_size**2 / (4 * dimension * dt**2)
 
 
+#: Share of a particle's last pressure that the dual solver starts from.
+CARRIED_SHARE = 0.5
+
+
+def single_iteration_modulus_over_density(dimension: int, cell_size: float, dt: float, relaxation: float) -> float:
+    """K / rho [m^2/s^2] of the dual solver's incompressible liquid at rest with one iteration.
+
+    The iteration adds w/d (1/J - 1) to the pressure that it starts from, so at rest s = carried s + w/d (1/J - 1): 1 / (1 - carried)
+    times what the paper's iteration, which starts from nothing, bears at the same J.
+    """
+    return bulk_modulus_over_density(dimension, cell_size, dt, 1, relaxation) / (1.0 - CARRIED_SHARE)
+
+
 def column_profile(height: float, gravity: float, modulus: float) -> np.ndarray:
     """J of equally thick rest layers of a column at rest, from the bottom to the top."""
     rest_heights = (np.arange(_LAYERS) + 0.5) * height / _LAYERS
