@@ -203,6 +203,12 @@ bool solver_holds_liquid(const World *world)
     return false;
 }
 
+bool solver_mirrors(const World *world)
+{
+    const bool alone = world->record.solver == PBMPM_SOLVER_DUAL && !solver_holds_liquid(world);
+    return !alone || world->settings.iterations == 1;
+}
+
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep. */
 static bool holds_sand(const World *world)
 {

@@ -153,8 +153,9 @@ static pbmpm_result substep(World *world, float dt, int part)
 
     /* What they may meet on the way. */
     const double cell_size = (double)world->def.cell_size;
-    const bool mirrored = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
-    const Domain domain = mirrored ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
+    const bool could_mirror = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
+    const bool mirrored = could_mirror && solver_mirrors(world); /* walls stand where they do with liquid, which may come and go */
+    const Domain domain = could_mirror ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
     const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
                                    world->sleep.holds ? world->sleep.held.data : NULL};
     mirrors_clear(&world->mirrors);

@@ -98,6 +98,15 @@ def test_a_bar_that_closes_faster_than_sound_does_not_pass_through_itself(iterat
     assert all(check.passed for check in checks), checks
 
 
+@pytest.mark.parametrize(("dimension", "iterations"), [(2, 10), (3, 2)])
+def test_a_block_between_walls_does_not_creep_round_their_corners(dimension: int, iterations: int) -> None:
+    """Less than rounding adds up to in the 1200 steps."""
+    setting = Setting("elastic", dimension, "short", 60.0, iterations, solver="dual")
+    drift, *others = find_case("H19").function(setting)
+    assert drift.figure < 2e-4
+    assert all(check.passed for check in others), others
+
+
 def test_catalogue_is_complete_and_in_order() -> None:
     identifiers = [case.id for case in CASES]
     assert identifiers == [f"H{number:02}" for number in range(1, 23)]

@@ -5,6 +5,7 @@
 #include <unity.h>
 
 #include "clock.h"
+#include "depth.h"
 #include "dual.h"
 #include "dual_error.h"
 #include "random.h"
@@ -151,6 +152,54 @@ static void test_what_the_dual_solver_holds(void)
     TEST_ASSERT_TRUE(dual_stiffness_share(world, &def, 1.0 / 60) > 3.9 * once && once < 1.0);
     def.young_modulus = 1.0f;
     TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_share(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
+/* Where gravity pulls, solids by themselves are asked for more than they hold, so that a column of the world's depth is compressed by 1/20 at most:
+ * c (2 mu + lambda) >= 20 * 4 g dt^2/dx per cell of depth, 5 per iteration at most. Liquid, weightlessness and a single iteration end that. */
+static void test_what_solids_are_asked_to_bear(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def def = material_defaults();
+    def.kind = PBMPM_ELASTIC;
+    def.young_modulus = 1e9f;
+    world->settings.iterations = 5;
+    world->settings.gravity[0] = world->settings.gravity[1] = 0.0f;
+    const double held = dual_stiffness_share(world, &def, 1.0 / 60);
+    NEAR(held, dual_stiffness_cap(world, &def, 1.0 / 60));
+    world->settings.gravity[1] = -9.81f;
+    TEST_ASSERT_TRUE(matter_depth(world) > 0.0);
+    const double fall = (double)9.81f / (60.0 * 60.0) / (double)0.05f, weight = 80.0 * fall * matter_depth(world);
+    const double most = 25.0;
+    NEAR(fmax(1.0, fmin(weight, most) / 4.0) * held, dual_stiffness_cap(world, &def, 1.0 / 60)); /* 5 iterations hold (5 / 2.5)^2 */
+    world->settings.gravity[1] = -1e6f;
+    NEAR(most / 4.0 * held, dual_stiffness_cap(world, &def, 1.0 / 60));
+    world->settings.iterations = 1;
+    NEAR(held / 25.0, dual_stiffness_cap(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
+/* Walls have images where a liquid leans on them, and for what a single iteration lays on the floor. */
+static void test_who_has_images_behind_walls(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def body = material_defaults(), water = material_defaults();
+    pbmpm_material_id solid, liquid;
+    body.kind = PBMPM_ELASTIC;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &body, 1, &solid));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
+    world->settings.iterations = 5;
+    world->particles.of_material[solid.index] = 1;
+    world->record.solver = PBMPM_SOLVER_EXPLICIT;
+    TEST_ASSERT_TRUE(solver_mirrors(world));
+    world->record.solver = PBMPM_SOLVER_DUAL;
+    TEST_ASSERT_FALSE(solver_mirrors(world));
+    world->settings.iterations = 1;
+    TEST_ASSERT_TRUE(solver_mirrors(world));
+    world->settings.iterations = 5;
+    world->particles.of_material[liquid.index] = 1;
+    TEST_ASSERT_TRUE(solver_mirrors(world));
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
 
@@ -354,6 +403,8 @@ int main(void)
     RUN_TEST(test_moduli_stay_finite);
     RUN_TEST(test_moduli_of_elastic_bodies);
     RUN_TEST(test_what_the_dual_solver_holds);
+    RUN_TEST(test_what_solids_are_asked_to_bear);
+    RUN_TEST(test_who_has_images_behind_walls);
     RUN_TEST(test_rounds_of_solids_among_liquids);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
