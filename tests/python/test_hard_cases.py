@@ -126,6 +126,9 @@ def test_known_failure_covers_what_it_names() -> None:
     assert known.covers(setting)
     others = ({"solver": "dual"}, {"variant": "delete"}, {"iterations": 2})
     assert not any(known.covers(replace(setting, **other)) for other in others)
+    placed = KnownFailure("why", solvers=("paper",), places=((60.0, 1), (120.0, 2)))
+    assert placed.covers(setting)
+    assert not any(placed.covers(replace(setting, **other)) for other in ({"rate_hz": 120.0}, {"iterations": 2}))
 
 
 def test_find_case() -> None:

@@ -201,6 +201,7 @@ class KnownFailure:
     dimensions: tuple[int, ...] | None = None
     rates: tuple[float, ...] | None = None
     most_iterations: int | None = None
+    places: tuple[tuple[float, int], ...] | None = None  #: rates with iterations, where no rule says which
 
     def covers(self, setting: Setting) -> bool:
         """Whether a setting is one of them."""
@@ -211,6 +212,7 @@ class KnownFailure:
             and (self.dimensions is None or setting.dimension in self.dimensions)
             and (self.rates is None or setting.rate_hz in self.rates)
             and (self.most_iterations is None or setting.iterations <= self.most_iterations)
+            and (self.places is None or (setting.rate_hz, setting.iterations) in self.places)
         )
 
 

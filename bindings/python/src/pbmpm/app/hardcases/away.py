@@ -1,0 +1,98 @@
+"""What is known to fail away from the cases' own rates and iterations, as the full map finds it: where, why, and by how much."""
+
+from __future__ import annotations
+
+from .case import DUAL, ELASTIC, LIQUID, PAPER, PRIMAL, KnownFailure
+
+Places = tuple[tuple[float, int], ...]
+
+
+def _places(text: str) -> Places:
+    """From "60x5 120x10": rates with iterations."""
+    return tuple((float(rate), int(count)) for rate, _, count in (word.partition("x") for word in text.split()))
+
+
+_SLOT = ("trapped between boxes",)
+_LONE = "lone particles tremble: with ten and more iterations their extrapolated steps are too long, as a lone particle answers in full"
+KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
+    "H05": (
+        KnownFailure(f"{_LONE} (rms 4.7, zero F 30)", (DUAL,), ("zero F", "flat F", "reflected F"), places=_places("60x20")),
+        KnownFailure(
+            "particles that left the body tremble, each alone: rms up to 3.4",
+            (PAPER,),
+            ("zero F",),
+            places=_places("60x10 60x20 120x10 120x20 240x10"),
+        ),
+    ),
+    "H06": (KnownFailure(f"{_LONE} (rms up to 27, a rotation deleted)", (DUAL,), places=_places("60x10 60x20 15x20")),),
+    "H09": (
+        KnownFailure(
+            "light matter that is crushed under a block 1000 times as heavy rebounds to the ceiling, 2.7 times the start's height, without gain of energy",
+            (PAPER,),
+            ("1:1000", "1:10000"),
+            (ELASTIC,),
+            places=_places("60x10 120x1 120x2 120x5 120x10 120x20 240x1 240x2 240x5 240x10 480x1 480x2 480x5 480x10"),
+        ),
+        KnownFailure(
+            "one or two iterations let the heavy liquid crush the light one, whose recovery overshoots: energy up to 1.57 of the start's",
+            (DUAL,),
+            materials=(LIQUID,),
+            places=_places("60x1 60x2 120x1 120x2 240x1 480x1"),
+        ),
+    ),
+    "H11": (
+        KnownFailure(
+            "a solve that is cut short is soft; strained matter that gets 50 iterations stiffens and holds more energy: up to 3.6 of the start's",
+            (DUAL,),
+            materials=(ELASTIC,),
+            places=_places("15x5 15x10 30x2 30x5 30x10 60x2 60x5 120x1 120x2 240x1 480x1"),
+        ),
+    ),
+    "H14": (
+        KnownFailure(
+            "fast matter passes through itself, where F is clamped: size wrong by half to all",
+            (PRIMAL,),
+            ("stretched to 10",),
+            places=_places("120x20 240x20 480x20"),
+        ),
+    ),
+    "H16": (
+        KnownFailure(
+            "crushed to nothing and let go at once it leaves at up to 52 m/s, twice the bound; at 60 Hz x 20 0.94 of the particles recover",
+            (PAPER,),
+            _SLOT,
+            (LIQUID,),
+            places=_places("15x1 15x2 15x5 30x1 30x2 60x1 60x2 60x20 120x1 120x2 240x2"),
+        ),
+        KnownFailure(
+            "crushed to nothing and let go at once it leaves a sixth faster than its sound",
+            (PRIMAL,),
+            _SLOT,
+            (LIQUID,),
+            places=_places("30x1 60x1 60x2 120x2 120x10 120x20 240x5"),
+        ),
+        KnownFailure(
+            "0.80 to 0.94 of the particles recover their volume: some stay folded",
+            (PAPER, DUAL, PRIMAL),
+            _SLOT,
+            (ELASTIC,),
+            places=_places("60x20 240x5 240x10 240x20 480x5 480x10 480x20"),
+        ),
+    ),
+    "H18": (
+        KnownFailure(
+            "a box of 6 cells under a jet: J of one particle in 100 down to 0.14 (2D) and to 0.4975 (3D)",
+            (PAPER,),
+            ("jet, small box",),
+            places=_places("60x5 60x10 60x20 120x5 120x10 120x20 240x5 240x10 240x20 480x5 480x10"),
+        ),
+    ),
+    "H19": (
+        KnownFailure(
+            "what little motion is left goes up and down: the second half of the run may have 4.4 times the energy of the first",
+            (PAPER, DUAL),
+            materials=(LIQUID, ELASTIC),
+            places=_places("15x1 30x1 60x1 60x10 240x1"),
+        ),
+    ),
+}
