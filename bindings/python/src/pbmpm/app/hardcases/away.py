@@ -21,10 +21,10 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             "particles that left the body tremble, each alone: rms up to 3.4",
             (PAPER,),
             ("zero F",),
-            places=_places("60x10 60x20 120x10 120x20 240x10"),
+            places=_places("60x10 60x20 120x10 120x20 240x10 240x20"),
         ),
     ),
-    "H06": (KnownFailure(f"{_LONE} (rms up to 27, a rotation deleted)", (DUAL,), places=_places("60x10 60x20 15x20")),),
+    "H06": (KnownFailure(f"{_LONE} (rms up to 27, a rotation deleted)", (DUAL,), places=_places("15x20 60x10 60x20 480x20")),),
     "H09": (
         KnownFailure(
             "light matter that is crushed under a block 1000 times as heavy rebounds to the ceiling, 2.7 times the start's height, without gain of energy",
