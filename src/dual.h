@@ -31,4 +31,7 @@ void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);
 
+/* The longest relaxation that solids stay calm with in so many iterations. */
+float dual_longest_relaxation(int iterations);
+
 #endif

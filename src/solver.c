@@ -55,7 +55,10 @@ static void set_moduli(World *world, float dt)
         } else {
             const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
             const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
-            if (world->record.solver == PBMPM_SOLVER_DUAL) c *= dual_stiffness_cap(world, def, (double)dt);
+            if (world->record.solver == PBMPM_SOLVER_DUAL) {
+                c *= dual_stiffness_cap(world, def, (double)dt);
+                material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
+            }
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
             plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));

@@ -205,6 +205,33 @@ static void test_who_has_images_behind_walls(void)
 
 /* Sound crosses half a root of the stiffness cells per substep; a body takes that many iterations 2.5 / 0.5 times, and at most 16 rounds more
  * than all matter does. A world without liquid takes none. */
+/* What a step leaves of the stress of a lone particle, which answers it in full: the 200th, all of them with the extrapolation of the last iteration. */
+static double lone_stress(int iterations, double relaxation)
+{
+    double t = 1.0, b = 0.0, before = 1.0, now = 1.0;
+    for (int i = 1; i < iterations; i++) {
+        const double next = 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t));
+        b = (t - 1.0) / next;
+        t = next;
+    }
+    for (int i = 0; i < 200; i++) {
+        const double next = (1.0 - relaxation) * (now + b * (now - before));
+        before = now;
+        now = next;
+    }
+    return fabs(now / before);
+}
+
+static void test_a_lone_solid_comes_to_rest_with_any_number_of_iterations(void)
+{
+    for (int iterations = 1; iterations <= 1000; iterations++) {
+        const double longest = (double)dual_longest_relaxation(iterations);
+        TEST_ASSERT_TRUE(longest > 1.2 && longest < 2.0);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.8, lone_stress(iterations, longest)); /* float */
+    }
+    TEST_ASSERT_TRUE(lone_stress(20, 1.5) > 1.0); /* the control */
+}
+
 static void test_rounds_of_solids_among_liquids(void)
 {
     TEST_ASSERT_EQUAL_INT(0, rounds_wanted(0.0, 3));
@@ -405,6 +432,7 @@ int main(void)
     RUN_TEST(test_what_the_dual_solver_holds);
     RUN_TEST(test_what_solids_are_asked_to_bear);
     RUN_TEST(test_who_has_images_behind_walls);
+    RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);
     RUN_TEST(test_rounds_of_solids_among_liquids);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
