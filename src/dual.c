@@ -38,6 +38,13 @@ static int guess_iterations(const World *world)
 /* How many iterations a substep has that are no guess. */
 static int own_iterations(const World *world) { return world->settings.iterations - guess_iterations(world); }
 
+/* What solids are asked to hold follows them, slowly where they were raised; see solver.c. */
+static double trusted_iterations(const World *world)
+{
+    const double share = world->slow_iterations > 0.0 ? fmin(1.0, world->slow_iterations / (double)world->settings.iterations) : 1.0;
+    return share * own_iterations(world);
+}
+
 static bool takes_rounds(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
 
 pbmpm_result dual_prepare(World *world)
@@ -290,7 +297,7 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
-    const double stiffness = stiffness_of(world, def, substep), iterations = own_iterations(world);
+    const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, own_iterations(world)) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
@@ -311,12 +318,12 @@ static double weight_stiffness(const World *world, double substep)
 static double most_asked(double iterations)
 {
     static const double PER_ITERATION = 5.0;
-    return iterations > 1.0 ? PER_ITERATION * iterations : 0.0;
+    return PER_ITERATION * iterations * fmax(0.0, fmin(1.0, iterations - 1.0)); /* without a leap where iterations are raised slowly */
 }
 
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
-    const double stiffness = stiffness_of(world, def, substep), iterations = own_iterations(world);
+    const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     if (solver_holds_liquid(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;

@@ -79,18 +79,6 @@ static float softening_of_step(World *world, float dt)
     return (float)(ratio * ratio);
 }
 
-/* Stiffness goes with N, too. A body that carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds
- * r times as much and leaps. Made stiffer slowly it rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is
- * (1 - 1/r) of what it held, whatever r is. Slowly: by about the factor e in the time in which its waves cross it twice. They
- * travel sqrt(w N) / 2 cells per substep, so a block of 8 cells takes 26 substeps for N = 1. Fewer iterations soften at once. */
-static float softening_of_iterations(World *world)
-{
-    static const double GROWTH = 1.04; /* per substep */
-    const double now = (double)world->settings.iterations;
-    world->slow_iterations = world->slow_iterations > 0.0 ? fmin(now, GROWTH * world->slow_iterations) : now;
-    return (float)(world->slow_iterations / now);
-}
-
 double paper_viscous_share(const World *world, const pbmpm_material_def *def, double dt)
 {
     const double dx = (double)world->def.cell_size;
@@ -104,7 +92,7 @@ void paper_set_materials(World *world, float dt)
 {
     const LiquidState liquid = measure_liquid(world);
     const double head = pressure_head(world, &liquid);
-    const float soft = softening_of_step(world, dt) * softening_of_iterations(world);
+    const float soft = softening_of_step(world, dt) * (float)(world->slow_iterations / (double)world->settings.iterations);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
         const pbmpm_material_def *def = &world->materials.def[slot];

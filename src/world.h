@@ -102,7 +102,7 @@ typedef struct World {
     PrimalState primal;
     Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see paper.c */
-    double slow_iterations; /* follows the iterations down at once and up slowly, see paper.c; 0 before the first substep */
+    double slow_iterations; /* follows the iterations down at once and up slowly, see solver.c; 0 before the first substep */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     Lookup lookup;          /* of queries; empty until the first */

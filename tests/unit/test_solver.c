@@ -155,6 +155,30 @@ static void test_what_the_dual_solver_holds(void)
     world_destroy(world);
 }
 
+/* Iterations that were raised count as those that they grow from, 4 % per substep; fewer at once. */
+static void test_raised_iterations_take_effect_slowly(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def def = material_defaults();
+    def.kind = PBMPM_ELASTIC;
+    def.young_modulus = 1e9f;
+    world->record.solver = PBMPM_SOLVER_DUAL;
+    world->settings.iterations = 10;
+    const double ten = dual_stiffness_share(world, &def, 1.0 / 60);
+    solver_bind(world, 1.0f / 60, false);
+    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    world->settings.iterations = 40;
+    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    solver_bind(world, 1.0f / 60, false);
+    NEAR(1.04 * 1.04 * ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    for (int i = 0; i < 40; i++) solver_bind(world, 1.0f / 60, false);
+    NEAR(16.0 * ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    world->settings.iterations = 10;
+    solver_bind(world, 1.0f / 60, false);
+    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
 /* Where gravity pulls, solids by themselves are asked for more than they hold, so that a column of the world's depth is compressed by 1/20 at most:
  * c (2 mu + lambda) >= 20 * 4 g dt^2/dx per cell of depth, 5 per iteration at most. Liquid, weightlessness and a single iteration end that. */
 static void test_what_solids_are_asked_to_bear(void)
@@ -430,6 +454,7 @@ int main(void)
     RUN_TEST(test_moduli_stay_finite);
     RUN_TEST(test_moduli_of_elastic_bodies);
     RUN_TEST(test_what_the_dual_solver_holds);
+    RUN_TEST(test_raised_iterations_take_effect_slowly);
     RUN_TEST(test_what_solids_are_asked_to_bear);
     RUN_TEST(test_who_has_images_behind_walls);
     RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);

@@ -46,10 +46,10 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
     ),
     "H11": (
         KnownFailure(
-            "a solve that is cut short is soft; strained matter that gets 50 iterations stiffens and holds more energy: up to 3.6 of the start's",
+            "a solve of one or two iterations is soft; strained matter that gets 50 stiffens and holds more energy: up to 1.4 of the start's",
             (DUAL,),
             materials=(ELASTIC,),
-            places=_places("15x5 15x10 30x2 30x5 30x10 60x2 60x5 120x1 120x2 240x1 480x1"),
+            places=_places("60x2 120x1 120x2 240x1"),
         ),
     ),
     "H14": (
