@@ -250,6 +250,59 @@ def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.M
     assert "would take 11 s" in next(left.text() for left in explorer.left_out.values() if left.setting.rate_hz == 480.0)
 
 
+def test_what_the_search_begins_with_takes_no_time_from_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the dearest settings of the sweep each solver but one has spent more than a fifth of the 20 s before the search
+    begins. Each gets its third of them all the same: at half a second per setting 13 or 14 of them, as no search is over
+    before."""
+    clock = [0.0]
+    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: clock[0])
+    case = Priced()
+    begun, searched = set(case.start(8)), dict.fromkeys(("paper", "dual", "explicit"), 0)
+
+    def measure(setting: Setting) -> dict[str, Any]:
+        clock[0] += 8.0 if setting in begun else 0.5
+        searched[setting.solver] += setting not in begun
+        # Better and dearer with the rate: all are on the front, and the search has no end.
+        found = Measurement({"error": 1.0 / (1.0 + setting.work)}, setting.work, 1.0, 0.0, True)
+        return row_of(case, setting, found, None)
+
+    monkeypatch.setattr(Explorer, "affordable", lambda *_: True)
+    explorer = Explorer(case, measure, 20.0, 8)
+    explorer.run()
+    assert set(searched.values()) <= {13, 14}
+
+
+class Converging(Priced):
+    """Its converged solutions leave an error that falls with the rate; the good settings and their costs are the law's."""
+
+    def solve(self, setting: Setting) -> Measurement:
+        self.measured.append(setting)
+        Priced.clock += 1.0
+        return Measurement({"error": 1.0 / setting.rate_hz}, 1.0, 1.0, 0.0, True, observed=(1.0 / setting.rate_hz,))
+
+
+def test_all_good_accelerated_settings_are_compared_with_converged_ones(priced: Priced) -> None:
+    """Also those that others on the front undercut, so that no timing decides which."""
+    report = Sweep(with_converged=True).search(Converging(), 300.0)
+    rows = [row for row in report.rows if row["solver"] == "dual" and row["cells"] == 8]
+    good = [row for row in rows if row["error"] <= 0.05]
+    assert any(beats(other, row) for row in good for other in good)
+    assert [row["converged_error"] for row in good] == pytest.approx([1.0 / row["rate_hz"] for row in good])
+
+
+def test_converged_solutions_that_take_too_long_are_those_of_the_worse_settings(
+    priced: Priced, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Time for two of them: those of the two rates with the least errors. The dearest part of the dual's equals the paper's
+    converged solution, which costs nothing again."""
+    monkeypatch.setattr("pbmpm.app.accuracy.sweep.REFERENCES_SHARE", 0.02)
+    report = Sweep(with_converged=True).search(Converging(), 100.0)
+    rows = [row for row in report.rows if row["solver"] == "dual" and row["cells"] == 8]
+    known = {(row["variant"], row["rate_hz"]) for row in rows if row["converged_error"] is not None}
+    assert len(known) == 2
+    assert min(rows, key=lambda row: row["error"])["converged_error"] is not None
+
+
 def test_search_on_several_grids_begins_with_the_same_courant_numbers(priced: Priced) -> None:
     """Twice as many cells: the explicit solver at twice the rate, the paper's also, the dual as it was."""
     start = priced.start(16)

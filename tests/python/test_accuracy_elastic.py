@@ -200,6 +200,19 @@ def test_cantilever_hangs_as_the_elastica_says() -> None:
     assert found.errors["tip"] < 0.05
 
 
+def test_both_integrators_of_a_cantilever_have_one_converged_solution() -> None:
+    """At rest no integrator matters, and that is all it needs to measure: the tip is that of a whole measurement."""
+    case = CantileverCase()
+    euler = Setting("primal", 30.0, 5, 4)
+    target = case.converged(euler)
+    assert target is not None and case.converged(replace(euler, integrator="bdf2")) == target
+    assert case.converged(replace(euler, solver="explicit")) is None
+    small = replace(target, iterations=5)
+    whole, alone = case.measure(replace(small, integrator="bdf2")), case.solve(small)
+    assert alone.observed == whole.observed and set(alone.errors) == {"tip"}
+    assert alone.stable and alone.errors["tip"] is not None and alone.errors["tip"] == whole.errors["tip"]
+
+
 def test_a_swinging_beam_does_not_creep() -> None:
     """With F following the affine fit of the grid instead of the motion the middle of the swing sinks by 5 % more."""
     found = CantileverCase().measure(Setting("primal", 240.0, 20, 8, integrator="bdf2"))

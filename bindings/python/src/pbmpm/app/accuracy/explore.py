@@ -4,7 +4,8 @@ A case's own sweep is measured first. Then, for each solver by itself, the neigh
 other of its settings beats in both cost and error, as long as there is time (Pareto local search: L. Paquete, M. Chiarandini
 and T. Stuetzle, "Pareto local optimum sets in the biobjective traveling salesman problem", 2004). Neighbours have the
 next rate or number of iterations of a ladder, or another option that the case's sweep tries. Solvers get equal shares of
-the time, whether they are ours or what ours are compared with.
+the time, whether they are ours or what ours are compared with; where the search begins costs some of them far more than
+others, so it is not taken from the share.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ _SOUND_STEP = 2.0
 _SOUNDS = (2.5, 100.0)  # beyond: a liquid that is none, a modulus that changes nothing any more
 _LONGEST_SHARE = 0.25  # of the time that one setting may take; those with which the search begins may take it all
 REFERENCE_SHARE = 0.5  # that a converged solution may take: without that of the finest time steps the floor of the errors is that of coarse ones
+REFERENCES_SHARE = 1.0  # that all converged solutions of a grid may take
 
 
 @dataclass(frozen=True)
@@ -51,13 +53,15 @@ class Explorer:
     measure: Callable[[Setting], dict[str, Any]]
     """Measures a setting and gives its row."""
     seconds: float
-    """Processor time for the search."""
+    """Processor time for the search around the fronts, after that for the settings with which it begins."""
     cells: int
     """The grid that is searched."""
     rows: dict[Setting, dict[str, Any]] = field(default_factory=dict)
     left_out: dict[Setting, LeftOut] = field(default_factory=dict)
     spent: dict[Setting, float] = field(default_factory=dict)
     """Processor time that measuring each took [s]."""
+    _begun: set[Setting] = field(default_factory=set)
+    """With which the search began."""
     _points: dict[str, dict[Setting, Point]] = field(default_factory=dict)
     """Stable settings, by solver."""
     _around: dict[Setting, list[Setting]] = field(default_factory=dict)
@@ -78,14 +82,15 @@ class Explorer:
             first = setting.variant == self._variants[setting.solver][0]
             if own_grid or setting.solver not in ACCELERATED or (first and self.affordable(setting)):
                 self.attempt(setting, 1.0)
+        self._begun = set(self.spent)
         self._search()
 
     def _search(self) -> None:
         while True:
             # The solver that has had the least time goes next.
-            for solver in sorted(self._variants, key=self._spent_on):
+            for solver in sorted(self._variants, key=self._searched):
                 following = next(self._candidates(solver), None)
-                if following is not None and self._spent_on(solver) < self.seconds / len(self._variants):
+                if following is not None and self._searched(solver) < self.seconds / len(self._variants):
                     self.attempt(following)
                     break
             else:
@@ -100,6 +105,18 @@ class Explorer:
     def worthwhile(self) -> list[Setting]:
         """The settings on the fronts of the solvers, as far as their errors matter for the verdict."""
         return [setting for solver in self._variants for setting in self._front(solver)]
+
+    def referenced(self) -> list[Setting]:
+        """Whose converged solutions are wanted, the most wanted first: all accelerated settings that are good, the best ones
+        before the others, and then what else is worthwhile.
+
+        The verdict's floor is the least error of the converged solutions. Were it only those of the front, a cost that other
+        programs have raised could take a setting off it and move the floor; errors do not depend on who else runs.
+        """
+        good = good_error(self.case.headline.tolerance)
+        points = {item: point for name in ACCELERATED for item, point in self._points.get(name, {}).items()}
+        found = sorted((item for item in points if points[item].error <= good), key=lambda item: points[item].error)
+        return list(dict.fromkeys(found + self.worthwhile()))
 
     def affordable(self, setting: Setting | None, share: float = _LONGEST_SHARE) -> bool:
         """Whether measuring a setting takes no more than this share of the case's time."""
@@ -116,8 +133,9 @@ class Explorer:
         if setting.cells == self.cells and counts(row):
             self._points.setdefault(setting.solver, {})[setting] = point_of(row)
 
-    def _spent_on(self, solver: str) -> float:
-        return sum(seconds for setting, seconds in self.spent.items() if setting.solver == solver)
+    def _searched(self, solver: str) -> float:
+        """Processor time that the search has spent on a solver [s], without where it began."""
+        return sum(self.spent[item] for item in self.spent if item.solver == solver and item not in self._begun)
 
     def _expected_seconds(self, setting: Setting) -> float:
         """What measuring a setting will take, judged by the one of the same solver and grid with the most similar work;

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import time
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -12,7 +13,7 @@ from ..machine import machine_facts
 from ..progress import progress_bar
 from ..simulation import versions
 from .case import Case, Measurement, Setting, settings_of
-from .explore import REFERENCE_SHARE, Explorer, LeftOut
+from .explore import REFERENCE_SHARE, REFERENCES_SHARE, Explorer, LeftOut
 from .stability import DEFINITION
 
 TIMINGS = 2
@@ -135,11 +136,12 @@ class Sweep:
 
     def search(self, case: Case, seconds: float, grids: Sequence[int] = ()) -> CaseReport:
         """The case's own sweep and what lies around the fronts of its solvers, for about ``seconds`` of processor time per
-        grid, or as many times that as the case says: on the grids on which the case compares solvers, or on ``grids``.
+        grid beyond the sweep, or as many times that as the case says: on the grids on which the case compares solvers, or
+        on ``grids``.
 
         Settings on the fronts are measured TIMINGS times in all, and the cheapest counts: other programs only ever add to
-        a cost, though less to the mean of a run that took STEADY_SECONDS. They alone get their distance from the converged
-        solution.
+        a cost, though less to the mean of a run that took STEADY_SECONDS. They and the good accelerated ones get their
+        distance from the converged solution, as far as REFERENCES_SHARE of that time goes.
         """
         measurements: dict[Setting, Measurement] = {}
         rows: dict[Setting, dict[str, Any]] = {}
@@ -159,7 +161,9 @@ class Sweep:
                 cut_short += [(cells, solver) for solver in explorer.cut_short()]
                 for setting in explorer.worthwhile():
                     bar.set_postfix_str(f"again: {setting.text()}")
-                    explorer.rows[setting] = self._again(explorer, setting, measurements[setting])
+                    explorer.rows[setting] = _again(explorer, setting, measurements[setting])
+                bar.set_postfix_str("converged solutions")
+                self._compare_with_converged(explorer, measurements)
                 for setting in [] if grids else _beside(case, cells):
                     explorer.attempt(setting)
                 rows |= explorer.rows
@@ -168,15 +172,17 @@ class Sweep:
         found = [measurements[setting] for setting in settings]
         return CaseReport(case, settings, found, [rows[setting] for setting in settings], left_out, cut_short, tuple(grids))
 
-    def _again(self, explorer: Explorer, setting: Setting, found: Measurement) -> dict[str, Any]:
-        """The row of a setting on a front: timed again, with its distance from the converged solution where there is time."""
-        case = explorer.case
-        costs = [found.ms_per_simulated_second]
-        if explorer.spent[setting] < STEADY_SECONDS:
-            costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
-        found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
-        reference = self._reference(case, setting) if explorer.affordable(case.converged(setting), REFERENCE_SHARE) else None
-        return row_of(case, setting, found, reference)
+    def _compare_with_converged(self, explorer: Explorer, measurements: Mapping[Setting, Measurement]) -> None:
+        """Gives the rows for which there is time their distance from the converged solution."""
+        case, spent = explorer.case, 0.0
+        for setting in explorer.referenced():
+            target = case.converged(setting)
+            known = (case.name, target) in self._converged
+            if not known and (spent >= REFERENCES_SHARE * explorer.seconds or not explorer.affordable(target, REFERENCE_SHARE)):
+                continue
+            begin = time.process_time()
+            explorer.rows[setting] = row_of(case, setting, measurements[setting], self._reference(case, setting))
+            spent += time.process_time() - begin
 
     def _reference(self, case: Case, setting: Setting) -> Measurement | None:
         target = case.converged(setting) if self.with_converged else None
@@ -186,6 +192,15 @@ class Sweep:
         if key not in self._converged:
             self._converged[key] = case.solve(target)
         return self._converged[key]
+
+
+def _again(explorer: Explorer, setting: Setting, found: Measurement) -> dict[str, Any]:
+    """The row of a setting on a front, timed again unless it took long; its measurement gets the least cost."""
+    case, costs = explorer.case, [found.ms_per_simulated_second]
+    if explorer.spent[setting] < STEADY_SECONDS:
+        costs += [case.measure(setting).ms_per_simulated_second for _ in range(TIMINGS - 1)]
+    found.ms_per_simulated_second = min(cost for cost in costs if cost is not None)
+    return row_of(case, setting, found, None)
 
 
 def _beside(case: Case, cells: int) -> list[Setting]:

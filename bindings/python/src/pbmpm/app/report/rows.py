@@ -76,9 +76,9 @@ class CaseRows:
 
 
 def _least_converged(rows: list[dict[str, Any]]) -> float | None:
-    """The least error of converged solutions. Not known where the best of the rows has none: those of others may be the errors
-    of coarser time steps."""
-    best = min(rows, key=lambda row: float(row["error"]), default=None)
+    """The least error of converged solutions. Not known where the best of the rows has none, nor any other that is as good:
+    those of others may be the errors of coarser time steps."""
+    best = min(rows, key=lambda row: (float(row["error"]), row.get("converged_error") is None), default=None)
     if best is None or best.get("converged_error") is None:
         return None
     return min(float(row["converged_error"]) for row in rows if row.get("converged_error") is not None)
