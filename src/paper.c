@@ -43,16 +43,27 @@ static LiquidState measure_liquid(const World *world)
     return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0, 1.0 / lightness};
 }
 
-/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of the weight of matter as high as it
- * stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), and that of its motion when it is
- * stopped, once: more would feed on the speed that it makes. 0 without gravity or liquid. */
-static double pressure_head(const World *world, const LiquidState *liquid)
+/* The weight of matter as high as it stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), as a pressure
+ * over density g h [m^2/s^2]. 0 without gravity or liquid. */
+static double weight_head(const World *world, const LiquidState *liquid)
 {
     const double strength = gravity_strength(world);
     if (strength == 0.0 || liquid->volume == 0.0) return 0.0;
     const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
-    const double weight = fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
-    return 3.0 * weight + 0.5 * liquid->speed2;
+    return fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
+}
+
+/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of its weight, and that of its motion when it is
+ * stopped, once: more would feed on the speed that it makes. */
+static double pressure_head(double weight, const LiquidState *liquid) { return 3.0 * weight + 0.5 * liquid->speed2; }
+
+/* What crushed liquid may grow by in a substep. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; what weighs g h leaves
+ * an opening at sqrt(2 g h) (Torricelli), and the square of its motion adds to that. The pressure alone does not bound the speed: a sheet that is
+ * thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so its J does not follow and it would be
+ * pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a lower J bears the same pressure. */
+static double growth_bound(const World *world, const LiquidState *liquid, double weight, float dt)
+{
+    return sqrt(2.0 * weight + liquid->speed2) * (double)dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
@@ -91,7 +102,7 @@ static const float WEIGHTLESS_REBOUND = 0.3f;
 void paper_set_materials(World *world, float dt)
 {
     const LiquidState liquid = measure_liquid(world);
-    const double head = pressure_head(world, &liquid);
+    const double weight = weight_head(world, &liquid), head = pressure_head(weight, &liquid);
     const float soft = softening_of_step(world, dt) * (float)(world->slow_iterations / (double)world->settings.iterations);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
@@ -103,8 +114,8 @@ void paper_set_materials(World *world, float dt)
         if (material->kind != K_LIQUID) continue;
         material->volume_feedback = def->volume_feedback;
         material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
-        const bool weightless = head == 0.0;
-        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
+        const bool weightless = weight == 0.0;
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, weight, dt);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, dt, head, liquid.densest);
     }
 }

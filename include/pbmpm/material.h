@@ -40,9 +40,9 @@ typedef enum pbmpm_elastic_model {
 } pbmpm_elastic_model;
 
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
- *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion; where the
- *  grid holds more than 1.5 times its rest volume, J is at most what there is room for, and particles are moved by up to 1/40 cell
- *  per substep so that they part (unless volume_feedback is 0).
+ *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion, and parts by no
+ *  more per cell than what falls from that height goes. Where the grid holds more than 1.5 times its rest volume, J is at most what there is
+ *  room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0).
  *
  *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
  *  takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
