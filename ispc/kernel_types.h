@@ -123,6 +123,7 @@ struct KernelArgs {
     K_PTR(float) node_base;   /* per node block: displacement of the predictor, unconstrained, and mass; not the paper's solver */
     K_PTR(float) node_before; /* the same without forces: what particles brought, and gravity */
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
+    K_PTR(float) node_density; /* per node block: mass over rest volume of all matter there; null unless liquids differ in density */
     K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */
     K_PTR(uint32_t) moved;    /* out, per particle block: particles that left their cell */

@@ -28,9 +28,10 @@ void grid_free(Grid *grid, Memory *memory)
     const size_t bytes = ((size_t)grid->capacity + 1) * 4;
     void *whole[] = {grid->run_begin, grid->run_key, grid->block_of, grid->order, grid->order_scratch};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) memory_give(memory, whole[i], bytes);
-    Array *arrays[] = {&grid->coordinate, &grid->neighbour,   &grid->block_begin, &grid->block_run, &grid->tile,  &grid->tile_volume,
-                       &grid->node,       &grid->node_base,   &grid->node_volume, &grid->node_reach, &grid->clamped, &grid->moved,
-                       &grid->lost,       &grid->travel,      &grid->found,       &grid->sorted,    &grid->table};
+    Array *arrays[] = {&grid->coordinate,  &grid->neighbour,    &grid->block_begin, &grid->block_run, &grid->tile,  &grid->tile_volume,
+                       &grid->node,        &grid->node_base,    &grid->node_volume, &grid->node_density,
+                       &grid->node_reach,  &grid->clamped,      &grid->moved,       &grid->lost,      &grid->travel,
+                       &grid->found,       &grid->sorted,       &grid->table};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     *grid = (Grid){0};
 }

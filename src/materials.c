@@ -149,6 +149,17 @@ bool materials_want_volume(const Materials *materials, const Particles *particle
     return false;
 }
 
+bool materials_differ_in_density(const Materials *materials, const Particles *particles)
+{
+    float density = 0.0f;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (particles->of_material[slot] == 0 || material_is_solid(materials, slot)) continue;
+        if (density != 0.0f && materials->def[slot].density != density) return true;
+        density = materials->def[slot].density;
+    }
+    return false;
+}
+
 bool materials_want_modulus(const Materials *materials)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)

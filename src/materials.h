@@ -34,6 +34,9 @@ static inline bool material_is_solid(const Materials *materials, uint32_t slot) 
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 
+/* Whether there are particles of liquids of different density. */
+bool materials_differ_in_density(const Materials *materials, const Particles *particles);
+
 /* Whether there is a liquid without a bulk modulus. */
 bool materials_want_modulus(const Materials *materials);
 

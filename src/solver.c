@@ -80,6 +80,12 @@ static void follow_iterations(World *world)
 
 /* ---- Running kernels ---- */
 
+/* Whether liquids find each other by their mass, see held_for() in ispc/kernels.isph. The paper's solver bounds what crushed liquid grows with instead. */
+static bool weighs_liquids(const World *world)
+{
+    return world->record.solver != PBMPM_SOLVER_PAPER && materials_differ_in_density(&world->materials, &world->particles);
+}
+
 void solver_bind(World *world, float dt, bool with_volume)
 {
     Particles *p = &world->particles;
@@ -101,6 +107,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
                       .node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
                       .node_volume = with_volume ? grid->node_volume.data : NULL,
+                      .node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
                       .node_reach = grid->node_reach.data,
                       .clamped = grid->clamped.data,
                       .moved = grid->moved.data,
@@ -240,8 +247,9 @@ pbmpm_result solver_prepare(World *world)
     world->record.solver = solver;
     if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
-    const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    if (!array_reserve(&world->memory, &world->grid.node_base, floats, sizeof(float)))
+    const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    if (!array_reserve(&world->memory, &world->grid.node_base, nodes * K_NODE_WIDTH, sizeof(float)) ||
+        (weighs_liquids(world) && !array_reserve(&world->memory, &world->grid.node_density, nodes, sizeof(float))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the predictor of %d blocks", world->grid.node_blocks);
     const pbmpm_result result = viscosity_prepare(world);
     return result == PBMPM_OK ? kinds[solver].prepare(world) : result;

@@ -251,3 +251,43 @@ def test_outcome_tells_the_check_that_failed() -> None:
     assert not outcome.passed
     assert (outcome.figure, outcome.limit) == (outcome.telling.figure, outcome.telling.limit)
     assert "FAILED" in outcome.description
+
+
+@pytest.mark.parametrize(("rate_hz", "iterations", "variant"), [(60, 1, "1:100"), (120, 1, "1:1000"), (480, 1, "1:10000")])
+def test_a_heavy_liquid_does_not_rebound_by_the_volume_that_a_light_one_lost(rate_hz: int, iterations: int, variant: str) -> None:
+    """With the dual solver. When feedback counts crushed light liquid in full, the heavy one gains 20, 44 and 40 % of energy."""
+    highest, *others = find_case("H09").function(Setting("liquid", 2, variant, rate_hz, iterations, solver="dual"))
+    assert highest.passed, highest
+    assert all(check.passed for check in others if check.kind is Kind.BOUND), others
+
+
+@pytest.mark.parametrize("ratio", [1, 10, 1000])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_feedback_of_a_heavy_liquid_counts_a_light_one_by_its_mass(dimension: int, ratio: int) -> None:
+    """Both fill the same cells. In one substep at 60 Hz feedback moves J a share of the way to one over what the grid holds: 2 for the light
+    one, 1 + 1/ratio for the heavy one. The lattice is even, so that nothing moves and the grid shows no noise."""
+    cells = 6
+    with pbmpm.World(
+        dimension,
+        1.0,
+        capacity=8000,
+        domain=([0.0] * dimension, [float(cells)] * dimension),
+        solver=pbmpm.Solver.DUAL,
+        threads=1,
+    ) as world:
+        axis = (np.arange(2 * cells) + 0.5) / 2.0
+        places = np.stack(np.meshgrid(*[axis] * dimension), axis=-1).reshape(-1, dimension)
+        liquids = [pbmpm.Liquid(density=100.0 * factor) for factor in (1, ratio)]
+        light, heavy = (world.add_material(liquid) for liquid in liquids)
+        for material in (light, heavy):
+            world.add_particles(material, places, volumes=0.5**dimension)
+        world.step(1 / 60)
+        inside = (np.abs(world.positions.array() - 0.5 * cells) < 0.5 * cells - 2.0).all(axis=1)
+        ratios, rows = world.volume_ratios.array(), world.material_indices.array()
+        share = liquids[0].volume_feedback
+        for material, held in ((light, 2.0), (heavy, 1.0 + 1.0 / ratio)):
+            seen = ratios[inside & (rows == material.index)]
+            assert len(seen)
+            # Single precision; the share fades where less than 15 % is wrong.
+            wanted = 1.0 - share * min(1.0, max(0.0, (1.0 - 1.0 / held - 0.05) / 0.1)) * (1.0 - 1.0 / held)
+            assert seen == pytest.approx(wanted, abs=1e-4)

@@ -38,10 +38,20 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             places=_places("60x10 120x1 120x2 120x5 120x10 120x20 240x1 240x2 240x5 240x10 480x1 480x2 480x5 480x10"),
         ),
         KnownFailure(
-            "one or two iterations let the heavy liquid crush the light one, whose recovery overshoots: energy up to 1.57 of the start's",
+            "two iterations let the heavy liquid bounce on the light one: energy up to 1.006 of the start's",
             (DUAL,),
-            materials=(LIQUID,),
-            places=_places("60x1 60x2 120x1 120x2 240x1 480x1"),
+            ("1:10",),
+            (LIQUID,),
+            (2,),
+            places=_places("60x2 120x2"),
+        ),
+        KnownFailure(
+            "the light liquid, crushed to a twentieth by 10,000 times its weight, cannot lift it in so few iterations and stays below",
+            (DUAL,),
+            ("1:10000",),
+            (LIQUID,),
+            (2,),
+            places=_places("60x20 240x5"),
         ),
     ),
     "H11": (
