@@ -141,6 +141,16 @@ double reference_compression(const RefGrid *grid, const RefParticle *p)
     return sum;
 }
 
+double reference_held(const RefStep *step, const RefGrid *grid, const RefParticle *p)
+{
+    const double held = reference_compression(grid, p);
+    if (!step->weighs) return held;
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double mass = 0.0;
+    for (int i = 0; i < s.count; i++) mass += s.weight[i] * grid->node[reference_index(grid, s.node[i])].mass;
+    return fmin(held, fmax(1.0, mass * (double)p->material.inverse_density));
+}
+
 /* ---- Materials ---- */
 
 /* J (1 + tr D) = 1. A compression that goes on is stopped in full; of growth no more than rebound_max is asked for, and it presses
@@ -265,7 +275,7 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const RefStencil s = reference_stencil(grid->dimension, p);
-        const double held = reference_compression(grid, p);
+        const double held = reference_held(step, grid, p);
         double densest = 0.0;
         for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
         const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);

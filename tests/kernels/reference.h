@@ -34,6 +34,7 @@ typedef struct RefStep {
     uint32_t salt; /* of the nudges */
     bool with_volume;
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
+    bool weighs;         /* liquids differ in density: they count what is lighter by its mass */
     double flip;         /* share of the motion lost in the transfers that liquids keep */
     double feedback_way; /* [cells] that matter goes where feedback is full; 0: everywhere */
     const struct RefGrid *base; /* the predictor; null: nothing is kept */
@@ -99,5 +100,8 @@ static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
 
 /* The rest volume per cell around the particle. */
 double reference_compression(const RefGrid *grid, const RefParticle *p);
+
+/* The same as a liquid without tension counts it. Above 1 it is no more than the mass around the particle over its own density, or 1. */
+double reference_held(const RefStep *step, const RefGrid *grid, const RefParticle *p);
 
 #endif

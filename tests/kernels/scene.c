@@ -176,6 +176,7 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.max_cell = args->max_cell;
     scene->step.salt = args->salt;
     scene->step.with_volume = with_volume;
+    scene->step.weighs = args->node_density != NULL;
     scene->step.flip = (double)args->flip;
     scene->step.feedback_way = (double)args->feedback_way;
     scene->step.tensionless = world->record.solver != PBMPM_SOLVER_PAPER;

@@ -207,7 +207,7 @@ static bool crowding_is_unclear(const Scene *scene, const RefGrid *nodes, const 
 {
     if (!uses_volume(scene, p)) return false;
     const double own = 2.0 * TRANSFER_ROUNDINGS * UNIT_ROUNDOFF;
-    return fabs(reference_compression(nodes, p) - REF_CROWDED) <= own * REF_CROWDED;
+    return fabs(reference_held(&scene->step, nodes, p) - REF_CROWDED) <= own * REF_CROWDED;
 }
 
 /* How much J may differ where it is so close to a threshold of the feedback that either answer is right; else 0. */
@@ -239,7 +239,7 @@ static void check_volume_ratio(const Scene *scene, const RefGrid *nodes, const R
     double bound = before->volume_ratio * (n * error + 8.0 * UNIT_ROUNDOFF * (1.0 + fabs(trace)));
     if (uses_volume(scene, before)) {
         const double claimed = 1.0 + before->volume_ratio * (1.0 + fabs(trace));
-        const double most = scene->step.tensionless ? claimed + 1.0 / reference_compression(nodes, before)
+        const double most = scene->step.tensionless ? claimed + 1.0 / reference_held(&scene->step, nodes, before)
                                                     : fmin(REF_CROWDED / reference_compression(nodes, before), claimed);
         bound += (TRANSFER_ROUNDINGS + 8.0) * UNIT_ROUNDOFF * (most + fabs(expected->volume_ratio));
         if (scene->step.tensionless) bound += share_error(scene, before, most + fabs(expected->volume_ratio), gathered, bound);

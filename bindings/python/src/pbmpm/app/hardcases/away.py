@@ -42,7 +42,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             (DUAL,),
             ("1:10",),
             (LIQUID,),
-            (2,),
             places=_places("60x2 120x2"),
         ),
         KnownFailure(
