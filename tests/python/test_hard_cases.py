@@ -17,7 +17,8 @@ from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, 
 from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
 from pbmpm.app.hardcases.compatible import movable_strain, unremovable_strain
 from pbmpm.app.hardcases.energy import energy_density
-from pbmpm.app.hardcases.strain import strain_residual
+from pbmpm.app.hardcases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
+from pbmpm.app.hardcases.watch import make_world
 from pbmpm.app.stability.plan import Selection, plan
 
 #: The explicit solver is the one to compare with: it is expected to fail.
@@ -291,3 +292,20 @@ def test_feedback_of_a_heavy_liquid_counts_a_light_one_by_its_mass(dimension: in
             # Single precision; the share fades where less than 15 % is wrong.
             wanted = 1.0 - share * min(1.0, max(0.0, (1.0 - 1.0 / held - 0.05) / 0.1)) * (1.0 - 1.0 / held)
             assert seen == pytest.approx(wanted, abs=1e-4)
+
+
+@pytest.mark.parametrize(("solver", "rate_hz", "iterations"), [("dual", 240, 20), ("dual", 480, 10), ("primal", 480, 10)])
+def test_what_is_left_of_one_random_strain_is_what_no_motion_removes(solver: str, rate_hz: int, iterations: int) -> None:
+    """At first the nodes' motion can remove all of it but what the surface of the body holds; in the end almost nothing."""
+    setting = Setting("elastic", 2, SCRAMBLE_SHARED, rate_hz, iterations, solver=solver)
+    with make_world(setting, CELL) as world:
+        side = BLOCK_CELLS[2] * CELL
+        world.fill(pbmpm.Box([0.3 * CELL] * 2, [0.5 * side] * 2), world.add_material(setting.parameters(CELL)), seed=setting.seed)
+        world.set(pbmpm.Field.DEFORMATION, scrambled(setting.variant, len(world), 2, setting.seed))
+        at_first = strain_residual(world) - unremovable_strain(world)
+        for _ in range(3 * rate_hz):
+            world.step(setting.dt)
+        residual, unremovable = strain_residual(world), unremovable_strain(world)
+    assert at_first > 0.5
+    assert unremovable > 0.04
+    assert residual - unremovable < 0.02

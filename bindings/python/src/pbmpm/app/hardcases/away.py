@@ -16,13 +16,6 @@ _SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
     "H05": (
         KnownFailure(
-            "the body still swings after 3 s, since finer steps take less of its energy: rms up to 0.074 (2D), the same for any number of iterations",
-            (DUAL, PRIMAL),
-            ("one random F",),
-            dimensions=(2,),
-            rates=(120.0, 240.0, 480.0),
-        ),
-        KnownFailure(
             "particles that left the body tremble, each alone: rms up to 3.4",
             (PAPER,),
             ("zero F",),
