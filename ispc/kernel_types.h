@@ -161,6 +161,7 @@ struct KernelArgs {
     K_CONST_PTR(struct KernelMaterial) material;
     float flip;             /* share of motion below the grid's resolution that liquids keep */
     float feedback_way;     /* [cells] per substep from which on the volume feedback of liquids without tension is full; 0: always full */
+    float quiet_way;        /* the same for liquids that store energy, where it fades faster; 0: see feedback_way */
     float dt;               /* [s] */
     float cells_per_metre;  /* 1/dx */
     float gravity[3];       /* g dt^2 / dx: added to the predictor */

@@ -179,7 +179,8 @@ void primal_evaluate(Primal *p)
 }
 
 /* The preconditioner's N = m + k, the nodes' mass and stiffness; and for the multilevel one the mass per axis, which where a node is held is
- * the stiffness of the jump, and the stiffness. These stand in p->change[0] and [1] while there are no pairs. After the first pass and
+ * the stiffness of the jump, and the stiffness. Not less than the mass: a contact that holds now may let go in a later step, and liquid
+ * that has come apart has no stiffness. These stand in p->change[0] and [1] while there are no pairs. After the first pass and
  * holds_find(). */
 static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
@@ -189,7 +190,7 @@ static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, doub
     for (size_t i = begin; i < end; i += W) {
         const float mass = p->base[i + 3], stiffness = p->force[i + 3];
         inverse[i / W] = mass > 0.0f ? 1.0f / (mass + stiffness) : 0.0f;
-        for (size_t c = 0; c < 3; c++) weight[i + c] = mass + share[i + c] * (stiffness - mass);
+        for (size_t c = 0; c < 3; c++) weight[i + c] = mass + share[i + c] * fmaxf(stiffness - mass, 0.0f);
         weight[i + 3] = mass;
         stiff[i / W] = stiffness;
         sum[0] += (double)mass;

@@ -54,10 +54,11 @@ static bool has_liquid(const World *world, int32_t block)
 }
 
 /* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
- * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. */
+ * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that:
+ * of a body that starts at rest and without strain nothing else could. */
 static bool gained(const BodySum *body)
 {
-    const double after = body->with_liquid ? body->elastic : body->after;
+    const double after = body->with_liquid ? body->elastic - body->fallen : body->after;
     return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * body->before;
 }
 
@@ -78,6 +79,7 @@ uint32_t primal_check_bodies(Primal *p)
         b->work += sum[2];
         b->mass += sum[3];
         b->kinetic += sum[8];
+        if (!primal_is_multistep(p, block)) b->fallen += sum[8] - sum[0];
         for (int c = 0; c < 3; c++) {
             b->momentum[c] += sum[4 + c];
             b->moved[c] += sum[9 + c];

@@ -14,6 +14,7 @@ enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4 };
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
     double before, after, work;
+    double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */

@@ -25,7 +25,7 @@ static float feedback_share(const pbmpm_material_def *def, float dt)
     return (float)(1.0 - pow(1.0 - (double)def->volume_feedback, fmin(60.0 * (double)dt, 1.0)));
 }
 
-/* Where the dual solver's liquid is slower than this [cells/s], feedback fades. By itself it moves matter by less: 6 per second (0.1 per 1/60 s) of
+/* Where the dual and the primal solver's liquid is slower than this [cells/s], feedback fades. By itself it moves matter by less: 6 per second (0.1 per 1/60 s) of
  * 5 % of noise are 0.3 cells/s. */
 static const double CALM_SPEED = 2.4;
 
@@ -92,6 +92,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     Grid *grid = &world->grid;
     KernelArgs *a = &world->args;
     const double cells_per_metre = 1.0 / (double)world->def.cell_size;
+    const float calm_way = (float)(CALM_SPEED * (double)dt);
     *a = (KernelArgs){.volume_ratio = p->volume_ratio,
                       .mass = p->mass,
                       .identity = (const uint32_t *)(const void *)p->id,
@@ -115,7 +116,8 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
                       .flip = world->settings.flip,
-                      .feedback_way = world->record.solver == PBMPM_SOLVER_DUAL ? (float)(CALM_SPEED * (double)dt) : 0.0f,
+                      .feedback_way = world->record.solver == PBMPM_SOLVER_DUAL ? calm_way : 0.0f,
+                      .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
                       .dt = dt,
                       .cells_per_metre = (float)cells_per_metre,
                       .max_displacement = world->settings.max_displacement,

@@ -267,6 +267,17 @@ static double feedback_share(const RefStep *step, const double d[3], double miss
     return fmin(fmax(fmax(sqrt(way2) / step->feedback_way, wrong), 0.0), 1.0);
 }
 
+/* The square of the way, or what is wrong beyond noise where liquid bears pressure; the rest of the share brings J > 1 back to 1. */
+static double quiet_feedback(const RefStep *step, const double d[3], double ratio, double seen)
+{
+    double way2 = 0.0;
+    for (int a = 0; a < step->dimension; a++) way2 += d[a] * d[a];
+    const double missing = fabs(fmin(seen, 1.0) - fmin(ratio, 1.0));
+    const double wrong = (missing - REF_QUIET_MIN) / (REF_QUIET_MAX - REF_QUIET_MIN);
+    const double share = fmin(fmax(fmax(way2 / (step->quiet_way * step->quiet_way), wrong), 0.0), 1.0);
+    return share * (seen - ratio) + (1.0 - share) * fmin(1.0 - ratio, 0.0);
+}
+
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], const double D[9])
@@ -280,7 +291,7 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
         for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
         const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
-        ratio += feedback * feedback_share(step, d, missing) * missing;
+        ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
         if (held > REF_CROWDED) nudge(step, p);
     }
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), LOOSE_MAX);

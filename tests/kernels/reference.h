@@ -37,6 +37,7 @@ typedef struct RefStep {
     bool weighs;         /* liquids differ in density: they count what is lighter by its mass */
     double flip;         /* share of the motion lost in the transfers that liquids keep */
     double feedback_way; /* [cells] that matter goes where feedback is full; 0: everywhere */
+    double quiet_way;    /* the same where feedback grows with the square of the way; 0: see feedback_way */
     const struct RefGrid *base; /* the predictor; null: nothing is kept */
 } RefStep;
 
@@ -97,6 +98,7 @@ static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5;
 
 /* From what error of J on feedback begins where matter rests, and is full. */
 static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
+static const double REF_QUIET_MIN = 0.15, REF_QUIET_MAX = 0.3;
 
 /* The rest volume per cell around the particle. */
 double reference_compression(const RefGrid *grid, const RefParticle *p);

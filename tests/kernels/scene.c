@@ -179,6 +179,7 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.weighs = args->node_density != NULL;
     scene->step.flip = (double)args->flip;
     scene->step.feedback_way = (double)args->feedback_way;
+    scene->step.quiet_way = (double)args->quiet_way;
     scene->step.tensionless = world->record.solver != PBMPM_SOLVER_PAPER;
     for (int a = 0; a < 3; a++) scene->step.gravity[a] = (double)args->gravity[a];
     find_extent(scene);

@@ -220,10 +220,20 @@ static double unclear_feedback(const Scene *scene, const RefGrid *nodes, const R
     return clear ? 0.0 : (double)before->material.volume_feedback * fabs(seen - claimed);
 }
 
+/* The same for feedback that grows with the square of the way, whose slope is at most 2 / quiet_way. There the share multiplies up to 0.15,
+ * by which J may exceed 1, more than what is wrong. */
+static double quiet_error(const Scene *scene, const RefParticle *before, double missing, BoundParticle error, double J_error)
+{
+    const double slope = fmin(fabs(missing), REF_QUIET_MAX + 0.15) / (REF_QUIET_MAX - REF_QUIET_MIN) * J_error;
+    const double way = fabs(missing) * (2.0 * sqrt(3.0) * error.d / scene->step.quiet_way + 8.0 * UNIT_ROUNDOFF);
+    return (double)before->material.volume_feedback * (slope + way);
+}
+
 /* What the share of the feedback adds to the error of J: by its slopes, 1 / feedback_way in the displacement, and in what J lacks one over the
  * range in which the share grows. It multiplies at most the error at the end of that range, or what is lacking at full share. */
 static double share_error(const Scene *scene, const RefParticle *before, double missing, BoundParticle error, double J_error)
 {
+    if (scene->step.quiet_way > 0.0) return quiet_error(scene, before, missing, error, J_error);
     if (scene->step.feedback_way == 0.0) return 0.0;
     const double slope = fmin(fabs(missing), REF_WRONG_MAX) / (REF_WRONG_MAX - REF_WRONG_MIN) * J_error;
     const double way = fabs(missing) * (sqrt(3.0) * error.d / scene->step.feedback_way + 8.0 * UNIT_ROUNDOFF);

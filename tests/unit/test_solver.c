@@ -81,7 +81,7 @@ static void test_an_incompressible_liquid(void)
     world_destroy(world);
 }
 
-/* Feedback fades in the dual solver's liquid where it is slower than 2.4 cells per second. */
+/* Feedback fades in the liquid of the dual and the primal solver where it is slower than 2.4 cells per second. */
 static void test_feedback_of_calm_liquid(void)
 {
     const pbmpm_material_def def = material_defaults();
@@ -89,6 +89,7 @@ static void test_feedback_of_calm_liquid(void)
         World *world = open_world(2, 0.1f);
         bound_material(world, &def, solver, 1.0f / 60);
         TEST_ASSERT_FLOAT_WITHIN(1e-8f, solver == PBMPM_SOLVER_DUAL ? 0.04f : 0.0f, world->args.feedback_way);
+        TEST_ASSERT_FLOAT_WITHIN(1e-8f, solver == PBMPM_SOLVER_PRIMAL ? 0.04f : 0.0f, world->args.quiet_way);
         world_destroy(world);
     }
 }

@@ -6,7 +6,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import EXPLICIT, LIQUID, PRIMAL, SOLID_AND_LIQUID, Check, HardCase, Kind, KnownFailure, Setting
+from .case import EXPLICIT, SOLID_AND_LIQUID, Check, HardCase, Kind, Setting
 from .watch import GRAVITY, Watch, make_world
 
 # H19
@@ -68,13 +68,5 @@ CASES = (
         long_variants=(MILLION,),
         # The explicit solver is there to be compared with. One dimension less: what sums up rounding is the same.
         makes_sense=lambda setting: setting.variant == SHORT or (setting.dimension == 2 and setting.solver != EXPLICIT),
-        known_failures=(
-            KnownFailure(
-                "volume feedback takes the noise of particles' places for compression and stirs the pool, with 5 iterations as with 40: it rises "
-                "and sinks by 1.9 % (2D) and keeps 1.4e-5 of m g H (3D)",
-                solvers=(PRIMAL,),
-                materials=(LIQUID,),
-            ),
-        ),
     ),
 )
