@@ -100,6 +100,7 @@ typedef struct ContactFrame {
     float max_displacement; /* cells */
     bool mirrored;          /* walls of the domain have images behind them, see mirror.h, and no contacts with those nodes */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
+    const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 

@@ -26,6 +26,21 @@ static void put_back(const ContactFrame *frame, const Obstacle *o, Particles *p,
     if (sum && inward < 0.0) impulse_add(sum, point, gained);
 }
 
+static const double TOUCH = 1e-3; /* [cells] */
+
+/* Whether the way out of an obstacle, to a point [m], leads into another one: where they overlap there is none. Walls do not count: what gets behind
+ * them comes back at once. */
+static bool leads_into_another(const ContactFrame *frame, const Obstacle *o, const double point[3])
+{
+    double normal[3];
+    for (int i = 0; i < frame->colliders->obstacle_count; i++) {
+        const Obstacle *other = &frame->colliders->obstacle[i];
+        if (other == o || other->wall) continue;
+        if (solid_distance(&other->end, point, normal) < -TOUCH * frame->cell_size) return true;
+    }
+    return false;
+}
+
 /* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
  * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
 static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
@@ -34,8 +49,11 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
     for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
     double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
     if (depth <= 0.0) return;
+    double way[3] = {0}, out[3] = {0};
+    for (int a = 0; a < p->dimension; a++) out[a] = point[a] + depth * frame->cell_size * normal[a];
+    const bool stays = frame->stays && !o->wall && frame->stays[p->material[row]].kind == K_LIQUID;
+    if (stays && leads_into_another(frame, o, out)) return;
     if (!o->wall) depth = fmin(depth, 1.0);
-    double way[3] = {0};
     for (int a = 0; a < p->dimension; a++) way[a] = depth * normal[a];
     put_back(frame, o, p, row, dt, way, normal, sum);
 }
@@ -46,7 +64,6 @@ static void push_particle(const ContactFrame *frame, const Obstacle *o, Particle
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
  * tracing: J. Hart, "Sphere tracing", The Visual Computer 12, 1996). Shorter ways than these end inside, where they are noticed. */
 static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells] */
-static const double TOUCH = 1e-3;                                       /* [cells] */
 static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
 static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along */
 

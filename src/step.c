@@ -156,8 +156,11 @@ static pbmpm_result substep(World *world, float dt, int part)
     const bool could_mirror = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
     const bool mirrored = could_mirror && solver_mirrors(world); /* walls stand where they do with liquid, which may come and go */
     const Domain domain = could_mirror ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
+    /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
+     * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
+    const bool by_ratio = record->solver == PBMPM_SOLVER_PAPER;
     const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
-                                   world->sleep.holds ? world->sleep.held.data : NULL};
+                                   world->sleep.holds ? world->sleep.held.data : NULL, by_ratio ? world->materials.kernel : NULL};
     mirrors_clear(&world->mirrors);
     if (mirrored && (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size) ||
                      !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures)))
@@ -166,8 +169,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     result = contacts_find(&contacts, &world->memory, world->pool);
     if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
     if (result != PBMPM_OK) return result;
-    /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part. */
-    if (with_volume) contacts_open_volume(&contacts, world->pool, record->solver == PBMPM_SOLVER_PAPER);
+    if (with_volume) contacts_open_volume(&contacts, world->pool, by_ratio);
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */

@@ -23,7 +23,7 @@ static void obey_contact(const Contact *contact, float u[3])
     Contact copy = *contact;
     Colliders colliders = {.contact = {&copy, sizeof copy}, .contact_begin = {begin, sizeof begin}, .contacts = 1};
     Grid grid = {.dimension = 3, .block_cells = 64, .node_blocks = 1, .node = {nodes, sizeof nodes}};
-    const ContactFrame frame = {&colliders, &grid, CELL_SIZE, LIMIT, false, NULL};
+    const ContactFrame frame = {&colliders, &grid, CELL_SIZE, LIMIT, false, NULL, NULL};
     for (int i = 0; i < 64 * K_NODE_WIDTH; i++) nodes[i] = (float)i;
     memcpy(nodes + contact->node * K_NODE_WIDTH, u, 3 * sizeof *u);
     contacts_apply(&frame, 0, 1);
@@ -161,7 +161,7 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
                 particles_append(&s->particles, &particle, s->particles.count + 1);
             }
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
-    s->frame = (ContactFrame){&s->colliders, &s->grid, CELL_SIZE, LIMIT, false, NULL};
+    s->frame = (ContactFrame){&s->colliders, &s->grid, CELL_SIZE, LIMIT, false, NULL, NULL};
 }
 
 static void setting_close(Setting *s)
@@ -400,6 +400,45 @@ static void test_particles_are_pushed_out(void)
     setting_close(&s);
 }
 
+/* Where each is after a push, of a row of particles through two boxes that overlap from -1/2 to 1/2 cells, as liquid that stays or not [cells]. */
+static void push_between_boxes(const KernelMaterial *stays, double place[9])
+{
+    static Setting s;
+    pbmpm_shape box = shape_defaults();
+    setting_open(&s, 2, 4);
+    s.frame.stays = stays;
+    box.half_extents[0] = (float)(2.0 * CELL_SIZE);
+    box.half_extents[1] = (float)(20.0 * CELL_SIZE);
+    for (int side = -1; side <= 1; side += 2) {
+        box.position[0] = (float)(1.5 * side * CELL_SIZE);
+        add_collider(&s, &box, PBMPM_FRICTION_SLIP);
+    }
+    set_nodes(&s, (const float[3]){0, 0, 0});
+    find_and_apply(&s, 0, 1);
+    contacts_push_out(&s.frame, &s.particles, 0.01f, 0, s.grid.particle_blocks);
+    for (uint32_t i = 0; i < s.particles.count; i++)
+        if (fabs(particles_coordinate(&s.particles, i, 1)) < 0.1) place[s.particles.id[i].index % 9] = particles_coordinate(&s.particles, i, 0);
+    setting_close(&s);
+}
+
+/* Liquid of the paper's solver stays where two boxes overlap, since the way out of each leads into the other; solids, and liquid of other solvers,
+ * are put on a surface. What is deeper in one of them than its own way out is long leaves it. */
+static void test_what_overlapping_boxes_trap_stays_if_it_is_liquid(void)
+{
+    const KernelMaterial liquid = {.kind = K_LIQUID}, solid = {.kind = K_ELASTIC};
+    double stayed[9], pushed[9], as_solid[9];
+    push_between_boxes(&liquid, stayed);
+    push_between_boxes(NULL, pushed);
+    push_between_boxes(&solid, as_solid);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, stayed[4]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.5, fabs(pushed[4]));
+    for (int i = 0; i < 9; i++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, pushed[i], as_solid[i]);
+    for (int i = 0; i < 9; i++)
+        if (i < 3 || i > 5) TEST_ASSERT_DOUBLE_WITHIN(1e-9, pushed[i], stayed[i]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 3.5, stayed[7]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, -3.5, stayed[1]);
+}
+
 /* ---- Boxes that stand on something ---- */
 
 /* The obstacle of a box on a turned plane, `above` cells over it, that goes `way` cells along the plane in the substep. */
@@ -512,6 +551,7 @@ int main(void)
     RUN_TEST(test_motion_of_obstacles_is_clamped);
     RUN_TEST(test_teleported_obstacles_do_not_push);
     RUN_TEST(test_particles_are_pushed_out);
+    RUN_TEST(test_what_overlapping_boxes_trap_stays_if_it_is_liquid);
     RUN_TEST(test_a_box_that_stands_is_closed_below);
     RUN_TEST(test_a_standing_box_moves_as_any);
     RUN_TEST(test_slots_and_generations);
