@@ -58,12 +58,14 @@ static double weight_head(const World *world, const LiquidState *liquid)
 static double pressure_head(double weight, const LiquidState *liquid) { return 3.0 * weight + 0.5 * liquid->speed2; }
 
 /* What crushed liquid may grow by in a substep. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; what weighs g h leaves
- * an opening at sqrt(2 g h) (Torricelli), and the square of its motion adds to that. The pressure alone does not bound the speed: a sheet that is
- * thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so its J does not follow and it would be
- * pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a lower J bears the same pressure. */
-static double growth_bound(const World *world, const LiquidState *liquid, double weight, float dt)
+ * an opening at sqrt(2 g h) (Torricelli), faster where the weight is that of something heavier, and the square of its motion adds to that. The
+ * pressure alone does not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is
+ * twice as wide, so its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the
+ * motion, and a lower J bears the same pressure. */
+static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight, float dt)
 {
-    return sqrt(2.0 * weight + liquid->speed2) * (double)dt / (double)world->def.cell_size;
+    const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
+    return sqrt(2.0 * weight * heavier + liquid->speed2) * (double)dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
@@ -115,7 +117,7 @@ void paper_set_materials(World *world, float dt)
         material->volume_feedback = def->volume_feedback;
         material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
         const bool weightless = weight == 0.0;
-        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, weight, dt);
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight, dt);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, dt, head, liquid.densest);
     }
 }
