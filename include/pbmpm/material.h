@@ -54,7 +54,8 @@ typedef enum pbmpm_elastic_model {
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
  *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
  *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
- *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once. */
+ *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once. With it particles of
+ *  solids spin by at most 60 degrees per substep. */
 typedef struct pbmpm_material_def {
     uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
     pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
@@ -64,7 +65,8 @@ typedef struct pbmpm_material_def {
     float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid: share per substep by which J follows the volume measured on the grid where
-                                     that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing.
+                                     that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
+                                     nothing.
                                      Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). The dual
                                      solver's fades where liquid is slower than 2.4 cells/s and J is off by less than 0.15: there the noise
                                      of particles' places would stir it */

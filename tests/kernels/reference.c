@@ -247,8 +247,8 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     double ratio = p->volume_ratio * (1.0 + matrix_trace(step->dimension, D));
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_compression(grid, p);
-        const double seen = REF_COMPRESSED / held;
-        if (seen < 1.0 && (ratio > seen || ratio < REF_STALE * seen)) ratio += feedback * (seen - ratio);
+        const double seen = fmin(REF_COMPRESSED / held, 1.0);
+        if ((seen < 1.0 && ratio > seen) || ratio < REF_STALE * seen) ratio += feedback * (seen - ratio);
         if (held > REF_CROWDED) {
             ratio = fmin(ratio, REF_CROWDED / held);
             nudge(step, p);
@@ -306,6 +306,17 @@ static void integrate_elastic(const RefStep *step, RefParticle *p, const double 
     p->volume_ratio = matrix_determinant(step->dimension, next);
 }
 
+/* No turn has a skew part above 1; faster spin is cut to that of 60 degrees per substep. */
+static void limit_spin(int n, double D[9])
+{
+    double spin = 0.0, old[9];
+    memcpy(old, D, sizeof old);
+    for (int r = 0; r < n; r++)
+        for (int c = r + 1; c < n; c++) spin = hypot(spin, 0.5 * (old[r * 3 + c] - old[c * 3 + r]));
+    for (int r = 0; r < n && spin > REF_SPIN_MAX; r++)
+        for (int c = 0; c < n; c++) D[r * 3 + c] -= (1.0 - REF_SPIN_MAX / spin) * 0.5 * (old[r * 3 + c] - old[c * 3 + r]);
+}
+
 /* `motion` is what becomes the velocity. */
 static void move(const RefStep *step, RefParticle *p, const double d[3], const double motion[3])
 {
@@ -351,6 +362,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
         double gradient[9];
         reference_gradient(grid, p, gradient);
         integrate_elastic(step, p, gradient);
+        if (!step->tensionless) limit_spin(step->dimension, D);
     } else if (step->tensionless) {
         integrate_tensionless(step, grid, p, way, D);
     } else {

@@ -432,7 +432,8 @@ namespace Pbmpm
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
     /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
     /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
-    /// from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once.</summary>
+    /// from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once. With it particles of
+    /// solids spin by at most 60 degrees per substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MaterialDef
     {
@@ -449,7 +450,8 @@ namespace Pbmpm
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
         /// <summary>liquid: share per substep by which J follows the volume measured on the grid where
-        /// that shows compression, in [0, 1]; default 0.1. 0 switches it off and costs nothing.
+        /// that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
+        /// nothing.
         /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). The dual
         /// solver's fades where liquid is slower than 2.4 cells/s and J is off by less than 0.15: there the noise
         /// of particles' places would stir it</summary>

@@ -14,14 +14,6 @@ def _places(text: str) -> Places:
 
 _SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
-    "H05": (
-        KnownFailure(
-            "particles that left the body tremble, each alone: rms up to 3.4",
-            (PAPER,),
-            ("zero F",),
-            places=_places("60x10 60x20 120x10 120x20 240x10 240x20"),
-        ),
-    ),
     "H09": (
         KnownFailure(
             "light matter that is crushed under a block 1000 times as heavy rebounds to the ceiling, 2.7 times the start's height, without gain of energy",
@@ -64,13 +56,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
     ),
     "H16": (
         KnownFailure(
-            "0.949 of the particles recover their volume in time: where jets of what was squeezed upwards land, J is below 0.8",
-            (PAPER,),
-            _SLOT,
-            (LIQUID,),
-            places=_places("60x10"),
-        ),
-        KnownFailure(
             "crushed to nothing and let go at once it leaves a sixth faster than its sound",
             (PRIMAL,),
             _SLOT,
@@ -83,14 +68,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             _SLOT,
             (ELASTIC,),
             places=_places("60x20 240x5 240x10 240x20 480x5 480x10 480x20"),
-        ),
-    ),
-    "H18": (
-        KnownFailure(
-            "a box of 6 cells under a jet: J of one particle in 100 down to 0.14 (2D) and to 0.4975 (3D)",
-            (PAPER,),
-            ("jet, small box",),
-            places=_places("60x5 60x10 60x20 120x5 120x10 120x20 240x5 240x10 240x20 480x5 480x10"),
         ),
     ),
     "H19": (
