@@ -240,6 +240,22 @@ def test_a_liquid_takes_part() -> None:
             assert failed <= 6
 
 
+def test_no_step_leaps_where_liquid_lets_go_of_a_wall() -> None:
+    """Nodes that a wall holds have no stiffness where the liquid at it is loose; let go, they have their mass.
+
+    A step of a pool at rest corrects at most what gravity moves, g dt^2 = 0.014 cells of 0.2 m; leaps were 10 cells and more.
+    """
+    walls = ((0.0, 0.0, 0.0), (0.8, 1.6, 0.8))
+    gravity = (0.0, -9.81, 0.0)
+    world = pbmpm.World(3, 0.2, capacity=4096, solver=Solver.PRIMAL, threads=1, iterations=5, gravity=gravity, domain=walls)
+    with world:
+        water = world.add_material(Liquid(bulk_modulus=576e3))
+        world.fill(pbmpm.Box((0.4, 0.4, 0.4), (0.4, 0.4, 0.4)), water, seed=1)
+        for step in range(20):
+            world.step(1.0 / 60.0)
+            assert world.stats.residual < 0.014, step
+
+
 @pytest.mark.parametrize("rate, stays", ((2400, True), (60, False)))
 def test_explicit_is_stable_while_sound_is_slow(rate: int, stays: bool) -> None:
     """Below one cell per step a stretched block swings; far above it explodes, but stays finite."""
