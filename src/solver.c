@@ -69,13 +69,14 @@ static void set_moduli(World *world, float dt)
 /* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that
  * carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds r times as much and leaps. Made stiffer slowly it
  * rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is (1 - 1/r) of what it held, whatever r is. Slowly: by
- * about the factor e in the time in which its waves cross it twice. They travel sqrt(w N) / 2 cells per substep, so a block of 8 cells takes 26
- * substeps for N = 1. Fewer iterations soften at once. */
+ * about the factor e in the time in which its waves cross it twice. With the paper's solver, where M goes with N, they travel sqrt(w N) / 2 cells per
+ * substep, so a block of 8 cells takes 26 substeps for N = 1; for the dual see dual_stiffened(). Fewer iterations soften at once. */
 static void follow_iterations(World *world)
 {
     static const double GROWTH = 1.04; /* per substep */
-    const double now = (double)world->settings.iterations;
-    world->slow_iterations = world->slow_iterations > 0.0 ? fmin(now, GROWTH * world->slow_iterations) : now;
+    const double now = (double)world->settings.iterations, before = world->slow_iterations;
+    const double risen = world->record.solver == PBMPM_SOLVER_DUAL ? dual_stiffened(before) : GROWTH * before;
+    world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
 /* ---- Running kernels ---- */

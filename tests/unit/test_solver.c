@@ -156,7 +156,8 @@ static void test_what_the_dual_solver_holds(void)
     world_destroy(world);
 }
 
-/* Iterations that were raised count as those that they grow from, 4 % per substep; fewer at once. */
+/* Iterations that were raised count as those that they grow from, as slowly as those let matter swing; fewer at once. From 10 on what is asked for goes with
+ * n alone, and n grows by exp(n / 160) per substep. */
 static void test_raised_iterations_take_effect_slowly(void)
 {
     World *world = open_world(2, 0.05f);
@@ -171,7 +172,7 @@ static void test_raised_iterations_take_effect_slowly(void)
     world->settings.iterations = 40;
     NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
     solver_bind(world, 1.0f / 60, false);
-    NEAR(1.04 * 1.04 * ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    NEAR(exp(2.0 * 10.0 / 160.0) * ten, dual_stiffness_share(world, &def, 1.0 / 60));
     for (int i = 0; i < 40; i++) solver_bind(world, 1.0f / 60, false);
     NEAR(16.0 * ten, dual_stiffness_share(world, &def, 1.0 / 60));
     world->settings.iterations = 10;
@@ -201,6 +202,33 @@ static void test_what_solids_are_asked_to_bear(void)
     NEAR(most / 4.0 * held, dual_stiffness_cap(world, &def, 1.0 / 60));
     world->settings.iterations = 1;
     NEAR(held / 25.0, dual_stiffness_cap(world, &def, 1.0 / 60));
+    world_destroy(world);
+}
+
+/* From one iteration on, what solids are asked to bear under great weight first rises thirty times as fast as the iterations that they count on:
+ * it, not they, grows by the factor e per slowest swing, which takes 160 / n substeps. In the end all that 50 are asked for is there. */
+static void test_what_is_asked_of_raised_iterations_grows_with_their_swing(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def def = material_defaults();
+    def.kind = PBMPM_ELASTIC;
+    def.young_modulus = 1e9f;
+    world->settings.gravity[1] = -1e6f;
+    world->record.solver = PBMPM_SOLVER_DUAL;
+    world->settings.iterations = 50;
+    const double all = dual_stiffness_cap(world, &def, 1.0 / 60);
+    world->settings.iterations = 1;
+    solver_bind(world, 1.0f / 60, false);
+    double before = dual_stiffness_cap(world, &def, 1.0 / 60);
+    world->settings.iterations = 50;
+    for (int i = 0; i < 700 && before < all; i++) {
+        const double swing = 160.0 / world->slow_iterations;
+        solver_bind(world, 1.0f / 60, false);
+        const double asked = dual_stiffness_cap(world, &def, 1.0 / 60);
+        TEST_ASSERT_TRUE(asked > before && asked < (1.0 + 1e-9) * exp(1.0 / swing) * before);
+        before = asked;
+    }
+    NEAR(all, before);
     world_destroy(world);
 }
 
@@ -457,6 +485,7 @@ int main(void)
     RUN_TEST(test_what_the_dual_solver_holds);
     RUN_TEST(test_raised_iterations_take_effect_slowly);
     RUN_TEST(test_what_solids_are_asked_to_bear);
+    RUN_TEST(test_what_is_asked_of_raised_iterations_grows_with_their_swing);
     RUN_TEST(test_who_has_images_behind_walls);
     RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);
     RUN_TEST(test_rounds_of_solids_among_liquids);
