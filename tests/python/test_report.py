@@ -307,6 +307,14 @@ def test_a_case_that_is_not_compared_says_why(report: dict[str, Any]) -> None:
     assert "poor: no verdict: it measures something else" in text and "of 1 cases" in text
 
 
+def test_verdicts_without_a_search_say_so(report: dict[str, Any]) -> None:
+    report["cases"][0]["explored"], report["cases"][1]["explored"] = False, True
+    text = verdict_table(cases_of(report))
+    assert "Few settings" in text and text.rstrip().endswith("say nothing about the solvers: good.")
+    report["cases"][0]["explored"] = True
+    assert "Few settings" not in verdict_table(cases_of(report))
+
+
 def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, Any]) -> None:
     judged = verdicts_of(cases_of(report))[0]
     crosses = [trace for trace in accuracy_figure(judged.case).data if trace.name and "not stable" in trace.name]

@@ -91,6 +91,8 @@ class CaseReport:
     """Grids and solvers whose search had to end for want of time."""
     grids: tuple[int, ...] = ()
     """On which the solvers are compared [cells]; empty: as the case has it."""
+    explored: bool = False
+    """Whether each solver was searched for its best settings."""
 
     def facts(self) -> dict[str, Any]:
         """What a report says about the case, once."""
@@ -110,6 +112,7 @@ class CaseReport:
             "compared_cells": list(self.grids or case.compared_cells),
             "left_out": [left.text() for left in self.left_out],
             "cut_short": self.cut_short,
+            "explored": self.explored,
         }
 
 
@@ -170,7 +173,7 @@ class Sweep:
                 left_out += explorer.left_out.values()
         settings = sorted(rows, key=lambda item: (item.variant, item.cells, item.rate_hz, item.iterations))
         found = [measurements[setting] for setting in settings]
-        return CaseReport(case, settings, found, [rows[setting] for setting in settings], left_out, cut_short, tuple(grids))
+        return CaseReport(case, settings, found, [rows[setting] for setting in settings], left_out, cut_short, tuple(grids), True)
 
     def _compare_with_converged(self, explorer: Explorer, measurements: Mapping[Setting, Measurement]) -> None:
         """Gives the rows for which there is time their distance from the converged solution."""

@@ -118,8 +118,14 @@ MEANING = (
 
 
 def not_compared(cases: Sequence[CaseRows]) -> list[str]:
-    """The cases without a verdict, and why."""
+    """The cases without a verdict, or with one about a few settings alone, and why."""
     said = [f"{case.name}: no verdict: {case.facts['not_compared']}" for case in cases if case.facts.get("not_compared")]
+    few = [case.name for case in cases if case.compared and not case.facts.get("explored", True)]
+    if few:
+        said.append(
+            "Few settings, as --quick or options chose them, and no search for better ones, so that these verdicts say nothing about"
+            f" the solvers: {', '.join(few)}."
+        )
     claims = [case.name for case in cases if not case.compared and not case.facts.get("not_compared")]
     return said + ([f"No comparison of costs, so without a verdict: {', '.join(claims)}."] if claims else [])
 
