@@ -6,7 +6,7 @@ import numpy as np
 
 import pbmpm
 
-from .case import EXPLICIT, SOLID_AND_LIQUID, Check, HardCase, Kind, Setting
+from .case import DUAL, EXPLICIT, LIQUID, PAPER, PRIMAL, SOLID_AND_LIQUID, Check, HardCase, Kind, KnownFailure, Setting
 from .watch import GRAVITY, Watch, make_world
 
 # H19
@@ -66,6 +66,15 @@ CASES = (
         materials=SOLID_AND_LIQUID,
         variants=(SHORT,),
         long_variants=(MILLION,),
+        known_failures=(
+            KnownFailure(
+                "a pool of 48 particles that were strewn at random goes on settling after its 10 s, and comes to rest within the next hour (paper, dual) or"
+                " minute (primal): 3 and 1.2 % of its height",
+                (PAPER, DUAL, PRIMAL),
+                (MILLION,),
+                (LIQUID,),
+            ),
+        ),
         # The explicit solver is there to be compared with. One dimension less: what sums up rounding is the same.
         makes_sense=lambda setting: setting.variant == SHORT or (setting.dimension == 2 and setting.solver != EXPLICIT),
     ),
