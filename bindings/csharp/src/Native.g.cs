@@ -452,9 +452,9 @@ namespace Pbmpm
         /// <summary>liquid: share per substep by which J follows the volume measured on the grid where
         /// that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
         /// nothing.
-        /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). The dual
-        /// solver's fades where liquid is slower than 2.4 cells/s and J is off by less than 0.15: there the noise
-        /// of particles' places would stir it</summary>
+        /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
+        /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
+        /// by less than 0.3: there the noise of particles' places would stir it</summary>
         public float VolumeFeedback;
         /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
         public float ElasticityRatio;

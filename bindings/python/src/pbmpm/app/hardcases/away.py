@@ -124,7 +124,7 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
     ),
     "H21": (
         KnownFailure(
-            "a splash makes of any difference many times as much: one in the last bit, of the post's distance, grows by a third (2D) or tenfold (3D) per step",
+            "a splash makes of any difference many times as much: one in the last bit nearly doubles (2D) or grows tenfold (3D) in each step",
             (PRIMAL,),
             ("a million cells away",),
             (LIQUID,),
