@@ -432,65 +432,6 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     return PBMPM_OK;
 }
 
-/* ---- Open volume ---- */
-
-/* The share of a node's weight that lies outside an obstacle whose surface is at `distance` [cells]: the integral of the quadratic spline
- * up to there, as the surface is nearly flat over a cell. At least what is left one cell inside, 1/48: behind that nothing is known. */
-static double open_share(double distance)
-{
-    if (distance >= NODE_REACH) return 1.0;
-    if (distance <= -1.0) return 1.0 / 48.0;
-    const double rest = NODE_REACH - fabs(distance);
-    if (distance > 0.5) return 1.0 - rest * rest * rest / 6.0;
-    if (distance < -0.5) return rest * rest * rest / 6.0;
-    return 0.5 + distance * (0.75 - distance * distance / 3.0);
-}
-
-double obstacle_open_share(const Obstacle *o, const double node[3], double cell_size)
-{
-    double normal[3];
-    return open_share(obstacle_distance(o, node, normal) / cell_size);
-}
-
-static void open_block(const ContactFrame *frame, const Obstacle *o, int32_t block)
-{
-    const int cells = frame->grid->block_cells;
-    float *volume = (float *)frame->grid->node_volume.data + (size_t)block * (size_t)cells;
-    for (int i = 0; i < cells; i++) {
-        double point[3], normal[3];
-        if (volume[i] == 0.0f) continue;
-        contacts_node_position(frame, block, i, point);
-        volume[i] /= (float)open_share(solid_distance(&o->start, point, normal) / frame->cell_size);
-    }
-}
-
-typedef struct OpenJob {
-    const ContactFrame *frame;
-    bool resting_only;
-} OpenJob;
-
-static void open_blocks(void *context, int32_t begin, int32_t end)
-{
-    const OpenJob *job = context;
-    const ContactFrame *frame = job->frame;
-    const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension);
-    for (int32_t block = begin; block < end; block++) {
-        double centre[3];
-        contacts_block_centre(frame, block, centre);
-        for (int i = 0; i < frame->colliders->obstacle_count; i++) {
-            const Obstacle *o = &frame->colliders->obstacle[i];
-            if (job->resting_only && o->moves) continue;
-            if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + NODE_REACH) open_block(frame, o, block);
-        }
-    }
-}
-
-void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only)
-{
-    OpenJob job = {frame, resting_only};
-    if (frame->colliders->obstacle_count) pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &job);
-}
-
 /* ---- Obeying contacts ---- */
 
 /* Relative to the surface the node may approach by the gap and no further: u.n >= -gap. The impulse that this takes limits

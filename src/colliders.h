@@ -86,9 +86,6 @@ void colliders_end_step(Colliders *colliders);
 /* Distance [m] of a point from an obstacle at the end of the substep, negative inside, and the outward normal. */
 double obstacle_distance(const Obstacle *obstacle, const double point[3], double normal[3]);
 
-/* The share of the support of a node [m] that an obstacle leaves open at the end of the substep; never 0. */
-double obstacle_open_share(const Obstacle *obstacle, const double node[3], double cell_size);
-
 /* Where the obstacle carries a point of its own in the substep [cells], at most `limit`. */
 void obstacle_motion(const Obstacle *obstacle, const double point[3], double cell_size, float limit, float out[3]);
 
@@ -110,10 +107,6 @@ uint32_t colliders_contacts(const Colliders *colliders);
 /* Where a node is, and the middle of a block's nodes [m]. */
 void contacts_node_position(const ContactFrame *frame, int32_t block, int node, double point[3]);
 void contacts_block_centre(const ContactFrame *frame, int32_t block, double centre[3]);
-
-/* Divides the rest volume of each node by the share of its cell that obstacles leave open, so that it is 1 where matter at rest
- * fills what is open. */
-void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only);
 
 /* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. Books what that takes. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "open_volume.h"
+
 double crowd_nodes(const Crowd *crowd) { return (double)crowd->size[0] * (double)crowd->size[1] * (double)crowd->size[2]; }
 
 /* Quadratic B-spline weights of the nodes below, at and above the nearest; f in [-1/2, 1/2). */
@@ -73,26 +75,28 @@ static bool is_block_near(const World *world, const Crowd *crowd, const SleepBlo
     return true;
 }
 
-/* The share of a node's cell that obstacles leave open. */
-static double open_share_at(const World *world, const int32_t node[3])
+static void node_place(const World *world, const int32_t node[3], double place[3])
 {
-    double share = 1.0, point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
-    for (int i = 0; i < world->colliders.obstacle_count; i++)
-        share *= obstacle_open_share(&world->colliders.obstacle[i], point, (double)world->def.cell_size);
-    return share;
+    for (int a = 0; a < 3; a++) place[a] = a < world->def.dimension ? node[a] * (double)world->def.cell_size : 0.0;
 }
 
-/* Farther inside of an obstacle than this [cells] a node has no room, and obstacle_open_share() says no more than that it is small. */
+static double open_share_of(const World *world, const int32_t node[3])
+{
+    double place[3];
+    node_place(world, node, place);
+    return open_share_at(&world->colliders, place, (double)world->def.cell_size);
+}
+
+/* Farther inside of an obstacle than this [cells] a node has no room, and open_share_at() says no more than that it is small. */
 static const double CLOSED = 1.001;
 
 static double room_at(const World *world, const int32_t node[3])
 {
-    double point[3] = {0}, normal[3];
-    for (int a = 0; a < world->def.dimension; a++) point[a] = node[a] * (double)world->def.cell_size;
+    double point[3], normal[3];
+    node_place(world, node, point);
     for (int i = 0; i < world->colliders.obstacle_count; i++)
         if (obstacle_distance(&world->colliders.obstacle[i], point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
-    return open_share_at(world, node);
+    return open_share_of(world, node);
 }
 
 /* The volume that obstacles leave open if they enclose it: whatever the gaps between particles look like, more does not fit. The outermost two nodes to
@@ -155,7 +159,7 @@ double crowd_filling(const World *world, const Crowd *crowd, const double place[
                     weight *= CROWD_WIDE + 1 - abs(offset[a]);
                 }
                 held += weight * (double)crowd->volume[at];
-                open += weight * (walled ? open_share_at(world, node) : 1.0);
+                open += weight * (walled ? open_share_of(world, node) : 1.0);
             }
     return held / open;
 }

@@ -115,7 +115,7 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .kind = liquid ? K_LIQUID : K_ELASTIC,
         .relaxation = def->relaxation,
         .viscosity = liquid ? def->viscosity : 0.0f,
-        .volume_feedback = liquid ? def->volume_feedback : 0.0f,
+        .volume_feedback = material_flows(def) ? def->volume_feedback : 0.0f,
         .elasticity_ratio = def->elasticity_ratio,
         .strain_min = def->strain_min,
         .strain_max = def->strain_max,

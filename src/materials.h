@@ -31,6 +31,9 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
 /* Whether particles of a live material have a deformation gradient: all but liquids. */
 static inline bool material_is_solid(const Materials *materials, uint32_t slot) { return materials->kernel[slot].kind != K_LIQUID; }
 
+/* Whether it keeps no shape, so that its volume is told by the grid: see pbmpm_material_def.volume_feedback. */
+static inline bool material_flows(const pbmpm_material_def *def) { return def->kind == PBMPM_LIQUID || def->kind == PBMPM_VISCO; }
+
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 

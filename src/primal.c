@@ -16,6 +16,8 @@ static const double ARMIJO = 1e-4;          /* share of the promised decrease of
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double SMALLEST_STEP = 1e-6;
 static const double FAR_FROM_DONE = 0.1;     /* residual over what forces changed */
+static const float LOOSE = 10.0f;            /* stiffness over mass with which a node of a liquid joins half in the levels' corrections */
+static const float JOINS_MIN = 1e-20f;      /* of the levels' corrections: less is none, and no float may overflow */
 static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the change of the gradient */
 
 /* LANES: floats that a pass takes at once, four nodes; every block is a multiple of it. */
@@ -178,21 +180,34 @@ void primal_evaluate(Primal *p)
     p->slope_after = p->total[2];
 }
 
+/* Levels straddle what has come apart: a droplet that feels no pressure would be flung by the correction of matter around it that does. So nodes of
+ * a body with liquid take part by the share k / (m LOOSE + k), k their stiffness: where sound crosses some cells per substep a tenth of a node's mass
+ * under pressure already makes k larger than m, and what is flung then is the rest. Solids always have stiffness. LOOSE is by trial, on liquids crushed
+ * between boxes: with 1 droplets are flung still, with 20 pools take longer to come to rest. */
+static float share_of_levels(const Primal *p, const BodySum *body, size_t node)
+{
+    if (!body->with_liquid) return 1.0f;
+    const float inert = p->base[node * W + 3] * ((const float *)p->world->primal.inverse.data)[node]; /* m / (m + k) */
+    return fmaxf(0.0f, 1.0f - inert) / (1.0f + (LOOSE - 1.0f) * inert);
+}
+
 /* The preconditioner's N = m + k, the nodes' mass and stiffness; and for the multilevel one the mass per axis, which where a node is held is
  * the stiffness of the jump, and the stiffness. Not less than the mass: a contact that holds now may let go in a later step, and liquid
  * that has come apart has no stiffness. These stand in p->change[0] and [1] while there are no pairs. After the first pass and
  * holds_find(). */
 static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
+    const BodySum *body = primal_body_of(p, block);
     float *inverse = p->world->primal.inverse.data, *share = p->step[0], *weight = p->change[0], *stiff = p->change[1];
     memset(share + begin, 0, (end - begin) * sizeof *share);
     holds_share(p->contacts, share, block, block + 1);
     for (size_t i = begin; i < end; i += W) {
         const float mass = p->base[i + 3], stiffness = p->force[i + 3];
         inverse[i / W] = mass > 0.0f ? 1.0f / (mass + stiffness) : 0.0f;
-        for (size_t c = 0; c < 3; c++) weight[i + c] = mass + share[i + c] * fmaxf(stiffness - mass, 0.0f);
-        weight[i + 3] = mass;
-        stiff[i / W] = stiffness;
+        const float joins = share_of_levels(p, body, i / W), counts = joins * joins;
+        for (size_t c = 0; c < 3; c++) weight[i + c] = counts * (mass + share[i + c] * fmaxf(stiffness - mass, 0.0f));
+        weight[i + 3] = counts * mass;
+        stiff[i / W] = counts * stiffness;
         sum[0] += (double)mass;
     }
 }
@@ -274,17 +289,25 @@ static void add_changes(Primal *p, int32_t block, size_t begin, size_t end, doub
     (void)sum;
     for (int k = 0; k < p->pairs; k++) add(p->right, -p->first[k], p->change[k], begin, end);
     holds_remove(p->contacts, p->right, block, block + 1);
+    const BodySum *body = primal_body_of(p, block);
     const float *restrict right = p->right;
-    float *restrict direction = p->direction;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < W; c++) direction[i + c] = inverse[i / W] * right[i + c];
+    float *restrict joining = p->force, *restrict direction = p->direction;
+    for (size_t i = begin; i < end; i += W) {
+        const float joins = share_of_levels(p, body, i / W);
+        const float own = joins > JOINS_MIN ? inverse[i / W] / joins : 0.0f; /* project_direction() multiplies it with what the levels add */
+        for (size_t c = 0; c < W; c++) joining[i + c] = joins * right[i + c];
+        for (size_t c = 0; c < W; c++) direction[i + c] = own * right[i + c];
+    }
 }
 
 static void project_direction(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const float *inverse = p->world->primal.inverse.data;
-    for (size_t i = begin; i < end; i += W)
-        if (!(inverse[i / W] > 0.0f)) memset(p->direction + i, 0, W * sizeof(float));
+    const BodySum *body = primal_body_of(p, block);
+    for (size_t i = begin; i < end; i += W) {
+        const float joins = inverse[i / W] > 0.0f ? share_of_levels(p, body, i / W) : 0.0f;
+        for (size_t c = 0; c < W; c++) p->direction[i + c] = joins > JOINS_MIN ? joins * p->direction[i + c] : inverse[i / W] * p->right[i + c];
+    }
     holds_remove(p->contacts, p->direction, block, block + 1);
     for (int k = 0; k < p->pairs; k++) sum[k] = dot(p->change[k], p->direction, begin, end);
 }
@@ -306,7 +329,7 @@ double primal_find_direction(Primal *p)
         p->first[i] = along / p->product[i][i];
     }
     primal_over_blocks(p, add_changes);
-    multilevel_add(&p->world->primal.multilevel, p->world->pool, p->right, p->direction);
+    multilevel_add(&p->world->primal.multilevel, p->world->pool, p->force, p->direction);
     primal_over_blocks(p, project_direction);
     memcpy(coefficient, p->total, sizeof coefficient);
     for (int i = p->pairs - 1; i >= 0; i--) {

@@ -20,7 +20,7 @@ enum { BLOCK_GRAIN = 2 };
 
 /* The share per substep that makes the same share per 1/60 s at any rate: what J is corrected by becomes a velocity, correction / dt, and
  * so noise of the density heats liquid the more the shorter the substep. */
-static float feedback_share(const pbmpm_material_def *def, float dt)
+float solver_feedback_share(const pbmpm_material_def *def, float dt)
 {
     return (float)(1.0 - pow(1.0 - (double)def->volume_feedback, fmin(60.0 * (double)dt, 1.0)));
 }
@@ -33,6 +33,16 @@ static const double CALM_SPEED = 2.4;
  * iterations that was tried, and worth twice as many. */
 static const double CARRIED_SHARE = 0.5;
 
+/* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
+ * carried lags by CARRIED / (1 - CARRIED) substeps behind that, which is one ahead: the force answers to the strain (1 - 2 CARRIED) / (1 - CARRIED)
+ * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. */
+static const double CARRIED_SHARE_OF_ONE = 0.45;
+
+static double carried_share(const World *world)
+{
+    return world->settings.iterations == 1 ? CARRIED_SHARE_OF_ONE : CARRIED_SHARE;
+}
+
 /* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
 static void set_moduli(World *world, float dt)
 {
@@ -42,14 +52,15 @@ static void set_moduli(World *world, float dt)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation;
+        if (material_flows(def)) material->volume_feedback = solver_feedback_share(def, dt);
         double c = 4.0 * cells * cells / (double)def->density;
         if (material->kind == K_LIQUID) {
             const bool incompressible = def->bulk_modulus == 0.0f;
             const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_stiffest(world->settings.iterations) : FLT_MAX;
             material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
             material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
-            material->volume_feedback = feedback_share(def, dt);
-            material->carried = (float)fmin(CARRIED_SHARE * c, 1e30);
+            material->rebound_max = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_growth(material->dilation) : FLT_MAX;
+            material->carried = (float)fmin(carried_share(world) * c, 1e30);
             material->pascal = (float)fmin(1.0 / c, 1e30);
             material->viscous_share = (float)viscosity_share(world, def, (double)dt);
         } else {

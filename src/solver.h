@@ -36,6 +36,9 @@ void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contact
 /* Whether the grid was built with a particle of a liquid. */
 bool solver_holds_liquid(const World *world);
 
+/* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
+float solver_feedback_share(const pbmpm_material_def *def, float dt);
+
 /* Whether walls have images of the matter, see mirror.h: they carry the pressure of a liquid to the wall. Solids of the dual solver without liquid
  * have none, for what leans on two walls would creep round the corner between them: a block in a box as wide as itself sank by 1 to 4 % in 20 s. One
  * iteration bears no weight whatever it does; with images what lies in a row of cells then has no strain that later, stiffer substeps throw up. */

@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "clock.h"
+#include "open_volume.h"
 #include "result.h"
 #include "solver.h"
 

@@ -91,17 +91,52 @@ void reference_near(int n, const double D[9], double near[9])
     for (int k = 0; k < 9; k++) near[k] -= (1.0 - kept) * strain[k];
 }
 
-/* Raises the eigenvalues of a symmetric matrix to -REF_SUBSTEP_STRAIN: those of X + |X| I are its singular values. */
-static void limit_closing(int n, double *X)
+/* The closing y of a principal direction, of which `asked` is asked for, where 4 c^2 y^2 = w (asked - y); by bisection. */
+static double closing_left(double asked, double w)
+{
+    double low = 0.0, high = asked;
+    for (int k = 0; k < 60; k++) {
+        const double y = 0.5 * (low + high);
+        if (4.0 * REF_CLOSING_VISCOSITY * y * y < w * (asked - y))
+            low = y;
+        else
+            high = y;
+    }
+    return fmin(low, REF_SUBSTEP_STRAIN - REF_CLOSING_FROM);
+}
+
+/* By how much the eigenvalues of a symmetric matrix are below -REF_CLOSING_FROM, and their directions, the columns of v: those of X + |X| I are
+ * its singular values. */
+static void closing_of(int n, const double *X, double asked[3], double *v)
 {
     const double shift = matrix_norm(n, X);
-    double shifted[9], u[9], s[3], v[9];
+    double shifted[9], u[9], s[3];
     memcpy(shifted, X, sizeof shifted);
     for (int r = 0; r < n; r++) shifted[r * 4] += shift;
     matrix_decompose(n, shifted, u, s, v);
+    for (int k = 0; k < n; k++) asked[k] = fmax(0.0, shift - REF_CLOSING_FROM - s[k]);
+}
+
+static void limit_closing(int n, double w, double *X)
+{
+    double asked[3], v[9];
+    closing_of(n, X, asked, v);
     for (int k = 0; k < n; k++)
         for (int r = 0; r < n; r++)
-            for (int c = 0; c < n; c++) X[r * 3 + c] += fmax(0.0, shift - REF_SUBSTEP_STRAIN - s[k]) * v[r * 3 + k] * v[c * 3 + k];
+            for (int c = 0; c < n; c++) X[r * 3 + c] += (asked[k] - closing_left(asked[k], w)) * v[r * 3 + k] * v[c * 3 + k];
+}
+
+/* 4 c^2 y^2 along each direction in which D closes, as far as the substep may. */
+static void closing_stress(int n, const double *D, double *push)
+{
+    double rate[9] = {0}, asked[3], v[9];
+    symmetric_part(n, D, rate);
+    closing_of(n, rate, asked, v);
+    for (int k = 0; k < n; k++) {
+        const double y = fmin(asked[k], REF_SUBSTEP_STRAIN - REF_CLOSING_FROM);
+        for (int r = 0; r < n; r++)
+            for (int c = 0; c < n; c++) push[r * 3 + c] += 4.0 * REF_CLOSING_VISCOSITY * y * y * v[r * 3 + k] * v[c * 3 + k];
+    }
 }
 
 /* The gradient of shear |(I + X) F - R|^2 + dilation/2 (volume + <C, X - N> - 1)^2 + w/2 |X - Z|^2 is affine in X = Z + V:
@@ -114,14 +149,15 @@ void reference_stress(int n, const KernelMaterial *material, const double F[9], 
     double next[9] = {0}, turn[9] = {0}, C[9] = {0}, Z[9] = {0}, near[9] = {0}, b[9], A[9][9], strain[9] = {0};
     reference_near(n, D, near);
     advance(n, near, F, next);
-    double excess = matrix_determinant(n, next) - 1.0;
+    double excess = matrix_determinant(n, next) - 1.0, push[9] = {0};
+    closing_stress(n, D, push);
     if (R)
         memcpy(turn, R, sizeof turn);
     else
         matrix_rotation(n, next, turn);
     volume_derivative(n, F, near, C);
     for (int k = 0; k < 9; k++) {
-        Z[k] = D[k] - Y[k] / w;
+        Z[k] = D[k] - (Y[k] - push[k]) / w;
         excess += C[k] * (Z[k] - near[k]);
     }
     advance(n, Z, F, strain);
@@ -137,14 +173,24 @@ void reference_stress(int n, const KernelMaterial *material, const double F[9], 
     }
     eliminate(n * n, A, b);
     double X[9] = {0}, closed[9] = {0}, start[9] = {0};
-    for (int i = 0; i < n * n; i++) X[i / n * 3 + i % n] = Z[i / n * 3 + i % n] + b[i];
+    for (int i = 0; i < n * n; i++) X[i / n * 3 + i % n] = Z[i / n * 3 + i % n] + b[i] - push[i / n * 3 + i % n] / w;
+    for (int k = 0; k < 9; k++) Z[k] -= push[k] / w;
     symmetric_part(n, X, closed);
     symmetric_part(n, Z, start);
-    limit_closing(n, closed);
+    limit_closing(n, w, closed);
     for (int k = 0; k < 9; k++) S[k] = fmin(fmax(w * (closed[k] - start[k]), -(double)K_INCREMENT_MAX), (double)K_INCREMENT_MAX);
 }
 
 /* ---- Energy ---- */
+
+static double energy_of_closing(int n, const double *D)
+{
+    double rate[9] = {0}, asked[3], v[9], energy = 0.0;
+    symmetric_part(n, D, rate);
+    closing_of(n, rate, asked, v);
+    for (int k = 0; k < n; k++) energy += 4.0 / 3.0 * REF_CLOSING_VISCOSITY * asked[k] * asked[k] * asked[k];
+    return energy;
+}
 
 double reference_energy(int n, const RefParticle *p, const double D[9])
 {
@@ -159,7 +205,7 @@ double reference_energy(int n, const RefParticle *p, const double D[9])
     for (int r = 0; r < n; r++)
         for (int c = 0; c < n; c++) strain += (next[r * 3 + c] - R[r * 3 + c]) * (next[r * 3 + c] - R[r * 3 + c]);
     const double excess = matrix_determinant(n, next) - 1.0;
-    return (double)material->shear * strain + 0.5 * (double)material->dilation * excess * excess;
+    return (double)material->shear * strain + 0.5 * (double)material->dilation * excess * excess + energy_of_closing(n, D);
 }
 
 void reference_multiplier(int n, const RefParticle *p, const double D[9], double S[9])

@@ -13,6 +13,10 @@ static const double REF_GROWTH_MAX = 0.3;
 /* Strain per substep that a solid is asked for at most. */
 static const double REF_SUBSTEP_STRAIN = 0.6;
 
+/* Closing per substep from which on a solid resists it by 4 c^2 y^2, y what is beyond, and c^2. */
+static const double REF_CLOSING_FROM = 0.1;
+static const double REF_CLOSING_VISCOSITY = 4.0;
+
 /* The constant that makes an energy per rest volume [Pa] into phi: 4 dt^2 / (dx^2 density). */
 double reference_scale(const RefStep *step, double density);
 
@@ -23,7 +27,7 @@ double reference_pressure(int dimension, const KernelMaterial *material, double 
 void reference_near(int dimension, const double D[9], double near[9]);
 
 /* S' of an elastic particle, of phi with the rotation R and the derivative of the determinant taken at N = reference_near(D): a linear problem
- * of d^2 unknowns, solved by elimination. Its solution closes by REF_SUBSTEP_STRAIN at most. R may be null: that of (I + N) F. */
+ * of d^2 unknowns, solved by elimination. What its solution closes is resisted, and REF_SUBSTEP_STRAIN at most. R may be null: that of (I + N) F. */
 void reference_stress(int dimension, const KernelMaterial *material, const double F[9], const double D[9], const double Y[9],
                       const double *R, double S[9]);
 

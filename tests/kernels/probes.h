@@ -14,8 +14,12 @@ typedef void StressAll(const KernelMaterial *material, const float *f, const flo
 typedef void PressureAll(const KernelMaterial *material, const float *ratio, const float *trace, const float *y, float *s, int32_t count);
 /* Elastic energies and stresses at the displacement gradients `d`: matrices as above. */
 typedef void EnergyAll(const KernelMaterial *material, const float *f, const float *d, float *stress, float *energy, int32_t count);
+/* The energies of what the displacement gradients `d` close, and their stresses: matrices as above. */
+typedef void CloseAll(const float *d, float *stress, float *energy, int32_t count);
 /* Deformations after the return of a plastic material, and multipliers after the cut: matrices as above. */
 typedef void YieldAll(const KernelMaterial *material, const float *before, float *after, int32_t count);
+/* Deformations after giving up volume for which there is `room`, one number per matrix. */
+typedef void CrowdAll(const KernelMaterial *material, const float *room, const float *before, float *after, int32_t count);
 /* `out`: see LAYOUT_VALUES. */
 typedef void WriteLayout(int32_t *out);
 
@@ -25,7 +29,9 @@ typedef struct Probes {
     StressAll *stress_all;
     PressureAll *pressure_all;
     EnergyAll *energy_all;
+    CloseAll *close_all;
     YieldAll *yield_all, *cut_all;
+    CrowdAll *crowd_all;
 } Probes;
 
 const Probes *probes_for(pbmpm_isa isa, int dimension);

@@ -18,9 +18,16 @@ export void energy_all2(const uniform struct KernelMaterial *uniform material, c
                         uniform float stress[], uniform float energy[], uniform int count) {
     energy_all(material, f, d, stress, energy, count);
 }
+export void close_all2(const uniform float d[], uniform float stress[], uniform float energy[], uniform int count) {
+    close_all(d, stress, energy, count);
+}
 export void yield_all2(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[],
                        uniform int count) {
     yield_all(material, before, after, count);
+}
+export void crowd_all2(const uniform struct KernelMaterial *uniform material, const uniform float room[], const uniform float before[],
+                       uniform float after[], uniform int count) {
+    crowd_all(material, room, before, after, count);
 }
 export void cut_all2(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[], uniform int count) {
     cut_all(material, before, after, count);

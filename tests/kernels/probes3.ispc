@@ -37,9 +37,16 @@ export void layout_of_args3(uniform int32 out[]) {
     out[n++] = sizeof(probe);
     KERNEL_ARGS_FIELDS(WRITE_FIELD)
 }
+export void close_all3(const uniform float d[], uniform float stress[], uniform float energy[], uniform int count) {
+    close_all(d, stress, energy, count);
+}
 export void yield_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[],
                        uniform int count) {
     yield_all(material, before, after, count);
+}
+export void crowd_all3(const uniform struct KernelMaterial *uniform material, const uniform float room[], const uniform float before[],
+                       uniform float after[], uniform int count) {
+    crowd_all(material, room, before, after, count);
 }
 export void cut_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[], uniform int count) {
     cut_all(material, before, after, count);

@@ -278,9 +278,19 @@ static double quiet_feedback(const RefStep *step, const double d[3], double rati
     return share * (seen - ratio) + (1.0 - share) * fmin(1.0 - ratio, 0.0);
 }
 
+/* Crowded matter grows by `most` at the most; its turn stays. */
+static void limit_growth(int n, double most, double D[9])
+{
+    const double growth = matrix_trace(n, D), taken = growth > most ? 1.0 - most / growth : 0.0;
+    double old[9];
+    memcpy(old, D, sizeof old);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) D[r * 3 + c] -= taken * 0.5 * (old[r * 3 + c] + old[c * 3 + r]);
+}
+
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
-static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], const double D[9])
+static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
@@ -292,7 +302,10 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
         const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
-        if (held > REF_CROWDED) nudge(step, p);
+        if (held > REF_CROWDED) {
+            nudge(step, p);
+            limit_growth(step->dimension, (double)p->material.rebound_max, D);
+        }
     }
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), LOOSE_MAX);
 }

@@ -10,8 +10,6 @@
 #include "cpu.h"
 #include "solver.h"
 
-static const float CELL_SIZE = 0.05f, TIME_STEP = 0.004f;
-
 pbmpm_material_def scene_material(pbmpm_material_kind kind)
 {
     pbmpm_material_def def = material_defaults();

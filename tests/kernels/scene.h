@@ -11,6 +11,8 @@ enum { SCENE_MATERIALS = 4 };
 /* Makes the deformation gradient of a particle. */
 typedef void MakeDeformation(Random *random, int dimension, double *F);
 
+static const float CELL_SIZE = 0.05f, TIME_STEP = 0.004f; /* [m], [s] of all scenes */
+
 typedef struct SceneSpec {
     const char *name;
     pbmpm_material_def material[SCENE_MATERIALS];

@@ -313,7 +313,7 @@ static void test_stress_of_inverted_matter(void) { check_stress("inverted", inve
 static void test_stress_of_singular_matter(void) { check_stress("singular", singular, true); }
 static void test_stress_of_no_matter(void) { check_stress("F = 0", nothing, true); }
 
-/* Matter that hardly resists is left alone, X = sym(D + (S' - Y) / w) = sym(D - Y / w), but for eigenvalues below -REF_SUBSTEP_STRAIN. Turns
+/* Matter that hardly resists is left alone, X = sym(D + (S' - Y) / w) = sym(D - Y / w), but that what closes is resisted, and no eigenvalue is below -REF_SUBSTEP_STRAIN. Turns
  * are no closing: those by a radian and more change nothing. */
 static void check_closing(Batch *batch, pbmpm_isa isa)
 {

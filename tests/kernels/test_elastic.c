@@ -180,6 +180,81 @@ static void test_any_deformation_is_finite(void)
             }
 }
 
+/* What a substep closes: 4/3 c^2 y^3 for each eigenvalue -0.1 - y of sym D, c^2 = 4, and 150 (y - 0.5)^2 beyond 0.5. See ispc/closing.isph. */
+static double energy_of_closing(int dimension, const double *D)
+{
+    double shifted[9] = {0}, u[9], v[9], s[3], energy = 0.0;
+    for (int r = 0; r < dimension; r++)
+        for (int c = 0; c < dimension; c++) shifted[r * 3 + c] = 0.5 * (D[r * 3 + c] + D[c * 3 + r]);
+    const double shift = matrix_norm(dimension, shifted); /* makes eigenvalues singular values */
+    for (int a = 0; a < dimension; a++) shifted[a * 4] += shift;
+    matrix_decompose(dimension, shifted, u, s, v);
+    for (int a = 0; a < dimension; a++) {
+        const double y = fmax(shift - s[a] - 0.1, 0.0), beyond = fmax(y - 0.5, 0.0);
+        energy += 16.0 / 3.0 * y * y * y + 150.0 * beyond * beyond;
+    }
+    return energy;
+}
+
+/* In single precision an eigenvalue is off by some roundings of the matrix, whose size `gradient` is a bound of; what follows from it by the second
+ * derivative. Differences by h miss what the third derivative jumps by, at 0.1 and 0.6. */
+static void compare_closing(int dimension, double gradient)
+{
+    const double h = 1e-5, off = 40.0 * FLT_EPSILON * dimension * gradient, steepest = 300.0 + 32.0 * dimension * gradient;
+    for (int i = 0; i < COUNT; i++) {
+        double D[9], largest = 0.0;
+        read_matrix(sample.d + 9 * i, D);
+        for (int r = 0; r < dimension; r++)
+            for (int c = 0; c < dimension; c++) {
+                double up[9], down[9];
+                memcpy(up, D, sizeof up);
+                memcpy(down, D, sizeof down);
+                up[r * 3 + c] += h;
+                down[r * 3 + c] -= h;
+                const double slope = (energy_of_closing(dimension, up) - energy_of_closing(dimension, down)) / (2.0 * h);
+                largest = fmax(largest, fabs(slope));
+                check_near(slope, (double)sample.stress[9 * i + 3 * r + c], steepest * (off + h), "stress", 9 * i + 3 * r + c);
+            }
+        const double energy = energy_of_closing(dimension, D);
+        check_near(energy, (double)sample.energy[i], dimension * off * (largest + steepest * off) + 1e-6 * energy, "energy", i);
+    }
+}
+
+static void test_closing(void)
+{
+    static const double gradients[] = {0.1, 0.3, 2.0};
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int g = 0; g < 3; g++)
+            EACH_ISA(isa)
+            {
+                Random random = {29};
+                check_subject("closing", isa, dimension);
+                draw(&random, dimension, 0.5, 2.0, gradients[g]);
+                probes_for(isa, dimension)->close_all(sample.d, sample.stress, sample.energy, COUNT);
+                compare_closing(dimension, gradients[g]);
+            }
+}
+
+/* Turns close nothing, nor does what opens, nor what closes by less than a tenth. */
+static void test_slow_closing_is_free(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            check_subject("slow closing", isa, dimension);
+            memset(&sample, 0, sizeof sample);
+            for (int i = 0; i < COUNT; i++)
+                for (int r = 0; r < dimension; r++)
+                    for (int c = 0; c < dimension; c++) {
+                        const float turn = 0.01f * (float)(r < c ? i : -i), growth = i % 2 ? 0.01f * (float)i : -0.099f / 1.7320508f;
+                        sample.d[9 * i + 3 * r + c] = r == c ? growth : turn;
+                    }
+            probes_for(isa, dimension)->close_all(sample.d, sample.stress, sample.energy, COUNT);
+            for (int i = 0; i < COUNT; i++) check_near(0.0, (double)sample.energy[i], 0.0, "energy", i);
+            for (int i = 0; i < NUMBERS; i++) check_near(0.0, (double)sample.stress[i], 0.0, "stress", i);
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -188,5 +263,7 @@ int main(void)
     RUN_TEST(test_large_strain);
     RUN_TEST(test_rest);
     RUN_TEST(test_any_deformation_is_finite);
+    RUN_TEST(test_closing);
+    RUN_TEST(test_slow_closing_is_free);
     return UNITY_END();
 }

@@ -177,6 +177,39 @@ static void test_nothing_changes_below_yield(void)
             }
 }
 
+/* ---- Crowded matter ---- */
+
+/* det F goes a share of the way to what there is room for, at least to .67; the shape, F / det F^(1/d), stays, and so do the bits of what has room. */
+static void test_crowded_visco_gives_up_volume(void)
+{
+    static float room[COUNT];
+    KernelMaterial material = visco();
+    material.volume_feedback = 0.3f;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            Random random = {5};
+            int gave = 0;
+            check_subject("crowded visco", isa, dimension);
+            draw(dimension, 0.6, 1.5, 21);
+            for (int i = 0; i < COUNT; i++) room[i] = (float)random_in(&random, 0.1, 1.5);
+            probes_for(isa, dimension)->crowd_all(&material, room, before, after, COUNT);
+            for (int i = 0; i < COUNT; i++) {
+                double was[9], is[9];
+                read_matrix(before + 9 * i, was);
+                read_matrix(after + 9 * i, is);
+                const double volume = matrix_determinant(dimension, was), least = fmax((double)room[i], 0.67);
+                const bool claims = room[i] < 1.0f && volume > least * (1.0 + ROUNDING);
+                const double next = claims ? volume + 0.3 * (least - volume) : volume;
+                gave += claims;
+                for (int k = 0; k < 9; k++)
+                    if (k / 3 < dimension && k % 3 < dimension)
+                        check_near(was[k] * pow(next / volume, 1.0 / dimension), is[k], claims ? ROUNDING : ROUNDING * FLT_EPSILON, "F", i);
+            }
+            check_true(gave > COUNT / 4 && gave < COUNT, "some give up volume, some do not", gave);
+        }
+}
+
 /* ---- What no strain should be ---- */
 
 /* Every seventh matrix becomes one that a step would have caught before: no number, infinite, nothing at all, turned inside out. */
@@ -367,6 +400,7 @@ int main(void)
     RUN_TEST(test_cohesion_holds_sand_together);
     RUN_TEST(test_visco_relaxes_at_constant_volume);
     RUN_TEST(test_nothing_changes_below_yield);
+    RUN_TEST(test_crowded_visco_gives_up_volume);
     RUN_TEST(test_bad_lanes_disturb_nobody);
     RUN_TEST(test_extreme_strains_obey_the_law);
     RUN_TEST(test_stress_in_the_iterations_obeys_friction);

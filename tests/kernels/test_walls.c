@@ -9,6 +9,7 @@
 #include "check.h"
 #include "cpu.h"
 #include "mirror.h"
+#include "open_volume.h"
 #include "scene.h"
 #include "solver.h"
 
@@ -52,20 +53,42 @@ static void test_the_open_share_is_the_integral_of_the_spline(void)
     for (int degrees = 0; degrees <= 90; degrees += 15)
         for (double distance = -0.95; distance < 1.6; distance += 0.15) {
             const double angle = degrees * acos(-1.0) / 180.0;
-            const Obstacle plane = plane_at(angle);
+            Obstacle plane = plane_at(angle);
+            const Colliders one = {.obstacle = &plane, .obstacle_count = 1};
             const double node[3] = {distance * CELL * cos(angle), distance * CELL * sin(angle), 0.0};
-            const double share = obstacle_open_share(&plane, node, CELL), bound = degrees % 90 == 0 ? 0.75 * 0.005 + 1e-6 : 0.01;
+            const double share = open_share_at(&one, node, CELL), bound = degrees % 90 == 0 ? 0.75 * 0.005 + 1e-6 : 0.01;
             TEST_ASSERT_DOUBLE_WITHIN(bound, integrated(angle, distance), share);
         }
 }
 
 static void test_the_open_share_ends_at_the_support(void)
 {
-    const Obstacle plane = plane_at(0.0);
+    Obstacle plane = plane_at(0.0);
+    const Colliders one = {.obstacle = &plane, .obstacle_count = 1};
     const double places[] = {-5.0, -1.0, 1.5, 7.0}, shares[] = {1.0 / 48.0, 1.0 / 48.0, 1.0, 1.0};
     for (int i = 0; i < 4; i++) {
         const double node[3] = {places[i] * CELL, 0.3, 0.0};
-        TEST_ASSERT_DOUBLE_WITHIN(1e-12, shares[i], obstacle_open_share(&plane, node, CELL));
+        TEST_ASSERT_DOUBLE_WITHIN(1e-12, shares[i], open_share_at(&one, node, CELL));
+    }
+}
+
+/* Of planes that face the same way the deepest counts; planes across an edge hide volumes of their own. */
+static void test_surfaces_that_lie_on_each_other_count_once(void)
+{
+    Obstacle planes[3] = {plane_at(0.0), plane_at(0.0), plane_at(acos(0.0))};
+    const double node[3] = {0.3 * CELL, -0.2 * CELL, 0.0};
+    const Colliders first = {.obstacle = planes, .obstacle_count = 1}, both = {.obstacle = planes, .obstacle_count = 2};
+    const Colliders across = {.obstacle = planes + 2, .obstacle_count = 1}, all = {.obstacle = planes, .obstacle_count = 3};
+    const double share = open_share_at(&first, node, CELL);
+    TEST_ASSERT_EQUAL_DOUBLE(share, open_share_at(&both, node, CELL));
+    TEST_ASSERT_DOUBLE_WITHIN(1e-15, share * open_share_at(&across, node, CELL), open_share_at(&all, node, CELL));
+    for (int i = 0; i < 2; i++) { /* whichever is the deeper one */
+        planes[i].end.position[0] = 0.25 * CELL;
+        const Colliders deeper = {.obstacle = planes + i, .obstacle_count = 1};
+        const double least = open_share_at(&deeper, node, CELL);
+        TEST_ASSERT_TRUE(least < share);
+        TEST_ASSERT_EQUAL_DOUBLE(least, open_share_at(&both, node, CELL));
+        planes[i].end.position[0] = 0.0;
     }
 }
 
@@ -301,6 +324,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_the_open_share_is_the_integral_of_the_spline);
     RUN_TEST(test_the_open_share_ends_at_the_support);
+    RUN_TEST(test_surfaces_that_lie_on_each_other_count_once);
     RUN_TEST(test_a_full_box_has_its_density);
     RUN_TEST(test_images_are_an_orthogonal_projection);
     RUN_TEST(test_images_of_marked_blocks);

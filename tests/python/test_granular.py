@@ -173,3 +173,28 @@ def test_the_middle_of_the_band_is_no_error() -> None:
     low, high = granular.envelope("runout")
     assert granular.from_middle(0.5 * (low + high), "runout") == pytest.approx(0.0)
     assert granular.from_middle(high, "runout") == pytest.approx(granular.half_width("runout"))
+
+
+@pytest.mark.parametrize("solver, rate_hz", [("paper", 60), ("dual", 60), ("primal", 60), ("explicit", 480)])
+def test_crowded_clay_makes_room(solver: str, rate_hz: int) -> None:
+    """Three lumps of clay in one place, 12 particles per cell instead of 4. It parts until the grid holds 1.5 times what belongs there, and no
+    faster than what falls from the top of the lump; without feedback it stays what it is. Cells at the edge are not full, so means lie below."""
+
+    def settle(feedback: float) -> tuple[float, float]:
+        with pbmpm.World(2, 0.05, gravity=(0, -9.81), capacity=2000, domain=((0, 0), (2, 1))) as world:
+            world.solver, world.iterations = pbmpm.Solver[solver.upper()], 5
+            clay = world.add_material(pbmpm.Visco(density=1300, volume_feedback=feedback))
+            for seed in range(3):
+                world.fill(pbmpm.Box((1, 0.25), (0.25, 0.25)), clay, seed=seed)
+            fastest = 0.0
+            for _ in range(3 * rate_hz):
+                world.step(1 / rate_hz)
+                fastest = max(fastest, world.stats.max_speed)
+            cells = np.floor(world.positions.copy() / 0.05).astype(int)
+            return 1200 / len(np.unique(cells, axis=0)), fastest
+
+    crowded, _ = settle(0.0)
+    parted, fastest = settle(pbmpm.Visco().volume_feedback)
+    assert crowded > 2.2 * 4
+    assert parted < 1.5 * 1.1 * 4
+    assert fastest < math.sqrt(2 * 9.81 * 0.5)

@@ -420,13 +420,17 @@ namespace Pbmpm
     /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
     /// Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion, and parts by no
     /// more per cell than what falls from that height goes. Where the grid holds more than 1.5 times its rest volume, J is at most what there is
-    /// room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0).
+    /// room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0); with the primal solver such liquid parts
+    /// no faster than its sound.
     ///
     /// Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
     /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
     /// Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
     /// from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
     /// hold the modulus: see pbmpm_material_effective().
+    ///
+    /// Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
+    /// artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
     ///
     /// The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
     /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
@@ -449,12 +453,14 @@ namespace Pbmpm
         /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
-        /// <summary>liquid: share per substep by which J follows the volume measured on the grid where
+        /// <summary>liquid, visco: share per substep by which J follows the volume measured on the grid where
         /// that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
         /// nothing.
         /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
         /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
-        /// by less than 0.3: there the noise of particles' places would stir it</summary>
+        /// by less than 0.3: there the noise of particles' places would stir it. Visco gives up volume only where
+        /// the grid holds more than 1.5 times its rest volume, as clay does that creeps for long, and det F is above 0.67,
+        /// by this share per 1/60 s with every solver</summary>
         public float VolumeFeedback;
         /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
         public float ElasticityRatio;

@@ -127,10 +127,13 @@ class Visco(Solid):
         yield_strain: largest norm of the deviator of the logarithmic strain that is borne, in [0, 10]. The yield stress in
             shear is sqrt(2) mu yield_strain.
         flow_rate: [1/s]; strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9].
+        volume_feedback: share per 1/60 s by which it gives up volume where the grid holds more than 1.5 times what belongs
+            there, in [0, 1].
     """
 
     yield_strain: float = _default("yield_strain")
     flow_rate: float = _default("flow_rate")
+    volume_feedback: float = _default("volume_feedback")
 
 
 Parameters = Liquid | Elastic | Sand | Visco

@@ -99,6 +99,7 @@ class ViscoPart(_SolidPart):
     yield_strain: Annotated[float, Field(ge=0, le=10)] = _VISCO.yield_strain
     flow_rate: Annotated[float, Field(ge=0, le=1e9)] = _VISCO.flow_rate
     """[1/s]"""
+    volume_feedback: Share = _VISCO.volume_feedback
 
 
 MaterialPart = Annotated[LiquidPart | ElasticPart | SandPart | ViscoPart, Field(discriminator="kind")]

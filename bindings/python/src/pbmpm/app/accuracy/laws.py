@@ -10,6 +10,8 @@ soft settings are predicted too.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 _LAYERS = 2000
@@ -20,8 +22,25 @@ def bulk_modulus_over_density(dimension: int, cell_size: float, dt: float, itera
     return relaxation * iterations * cell_size**2 / (4 * dimension * dt**2)
 
 
-#: Share of a particle's last pressure that the dual solver starts from.
-CARRIED_SHARE = 0.5
+def young_modulus_over_density(cell_size: float, dt: float, iterations: int, relaxation: float) -> float:
+    """E / rho [m^2/s^2] of the paper's elastic matter, the square of its speed of sound; ``dt`` is the length of a substep."""
+    return relaxation * iterations * cell_size**2 / (4 * dt**2)
+
+
+def stored_when_flattened(stretch: float, relaxation: float, rebound_max: float) -> float:
+    """Energy of the paper's elastic matter that is pressed to `stretch` < 1 along one axis, over that of the modulus, E.
+
+    An iteration changes D by w X with X = V^-1 - I, which acts as the Kirchhoff stress E (I - V^-1): 1/s - 1 times E for a stretch s. Its work over
+    dD = ds/s is 1/s + ln s - 1. The part beyond |w X| = rebound_max is cut off: from s0 = 1 / (1 + rebound_max / w) on it stays the same and adds
+    its work over ln(s0 / s). (An elastic solid of modulus E that is pressed flat holds E/2 by Hooke's law.)
+    """
+    pressed = rebound_max / relaxation
+    softens = max(stretch, 1.0 / (1.0 + pressed))
+    return 1.0 / softens + math.log(softens) - 1.0 + pressed * math.log(softens / stretch)
+
+
+#: Share of a particle's last pressure that a single iteration of the dual solver starts from.
+CARRIED_SHARE = 0.45
 
 
 def single_iteration_modulus_over_density(dimension: int, cell_size: float, dt: float, relaxation: float) -> float:

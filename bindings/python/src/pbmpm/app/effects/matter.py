@@ -77,26 +77,26 @@ def _name(kind: str) -> EffectName:
     return kind  # type: ignore[return-value]
 
 
-def _of_liquids(
-    name: EffectName, description: str, typical_value: float, works: Callable[[Scene], str | None], unit: str = ""
+def _of_flowing(
+    name: EffectName, description: str, typical_value: float, works: Callable[[Scene], str | None], unit: str = "", matter: str = "liquid"
 ) -> Effect:
-    """A parameter of liquids that is on where it is above 0. `works` tells why the solver does nothing with it."""
+    """A parameter that is on where it is above 0, of the kinds of `matter` that have it. `works` tells why the solver does nothing with it."""
 
-    def liquids(scene: Scene) -> dict[str, Any]:
-        return {key: part for key, part in scene.materials.items() if part.kind == "liquid"}
+    def flowing(scene: Scene) -> dict[str, Any]:
+        return {key: part for key, part in scene.materials.items() if hasattr(part, name)}
 
     def found(scene: Scene) -> str | None:
-        return next((f"materials.{key}.{name}" for key, part in liquids(scene).items() if getattr(part, name) > 0), None)
+        return next((f"materials.{key}.{name}" for key, part in flowing(scene).items() if getattr(part, name) > 0), None)
 
     def idle(scene: Scene) -> str | None:
-        if not any(getattr(part, name) > 0 for key, part in liquids(scene).items() if key in materials_with_particles(scene)):
-            return "no fill or emitter brings particles of a liquid with it"
+        if not any(getattr(part, name) > 0 for key, part in flowing(scene).items() if key in materials_with_particles(scene)):
+            return f"no fill or emitter brings particles of {matter} with it"
         return works(scene)
 
     def changed(scene: Scene, value: float) -> Scene:
-        if not liquids(scene).keys() & materials_with_particles(scene):
-            raise NotHere("there is no liquid")
-        updated = {key: part.model_copy(update={name: value}) for key, part in liquids(scene).items()}
+        if not flowing(scene).keys() & materials_with_particles(scene):
+            raise NotHere(f"there is no {matter}")
+        updated = {key: part.model_copy(update={name: value}) for key, part in flowing(scene).items()}
         return scene_with(scene, materials={**scene.materials, **updated})
 
     def off(scene: Scene, state: State) -> tuple[Scene, State]:
@@ -107,7 +107,7 @@ def _of_liquids(
             raise NotHere(problem)
         return changed(scene, typical_value), state
 
-    return Effect(name, description, f"{typical_value:g}{unit} for all liquids", found, idle, off, on)
+    return Effect(name, description, f"{typical_value:g}{unit} for all {matter}", found, idle, off, on)
 
 
 def _paper_only(scene: Scene) -> str | None:
@@ -179,9 +179,9 @@ def matter_effects() -> list[Effect]:
     """In the order of reports."""
     return [
         *(kind_effect(kind) for kind in PART_OF_KIND),
-        _of_liquids("viscosity", "liquids lose a share of their strain rate per iteration", 0.01, _paper_only),
-        _of_liquids("kinematic_viscosity", "liquids of a physical viscosity", 1e-3, never_idle, " m^2/s"),
-        _of_liquids("volume_feedback", "liquids follow the volume that the grid sees", 0.1, never_idle),
+        _of_flowing("viscosity", "liquids lose a share of their strain rate per iteration", 0.01, _paper_only),
+        _of_flowing("kinematic_viscosity", "liquids of a physical viscosity", 1e-3, never_idle, " m^2/s"),
+        _of_flowing("volume_feedback", "what flows follows the volume that the grid sees", 0.1, never_idle, matter="liquid or visco"),
         _solver_option(
             "pressure_in_cells", "one pressure per cell: livelier liquids", "pressure", "particles", "cells", _for_dual
         ),
