@@ -13,11 +13,13 @@ import numpy as np
 import pytest
 
 import pbmpm
+from pbmpm.app.accuracy import laws
 from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case
 from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
-from pbmpm.app.hardcases.compatible import movable_strain, unremovable_strain
+from pbmpm.app.hardcases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
 from pbmpm.app.hardcases.energy import energy_density
 from pbmpm.app.hardcases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
+from pbmpm.app.hardcases.volume import RECOVERED_SHARE
 from pbmpm.app.hardcases.watch import make_world
 from pbmpm.app.stability.plan import Selection, plan
 
@@ -100,10 +102,22 @@ def test_liquid_let_go_from_between_walls_does_not_burst(rate_hz: float, iterati
     assert all(check.passed for check in checks if check.kind is Kind.BOUND), checks
 
 
-@pytest.mark.parametrize("iterations", [5, 50, 200])
-def test_a_bar_that_closes_faster_than_sound_does_not_pass_through_itself(iterations: int) -> None:
-    """With the dual solver, be its iterations few or many: no substep closes matter by more than it can take."""
-    setting = Setting("elastic", 2, "stretched to 10", 60.0, iterations, solver="dual")
+@pytest.mark.parametrize(("dimension", "rate_hz", "iterations"), [(2, 30, 1), (2, 60, 1), (2, 60, 2), (3, 15, 1)])
+def test_crushed_liquid_leaves_no_faster_than_its_sound_with_the_primal(dimension: int, rate_hz: int, iterations: int) -> None:
+    """Crowded liquid grows by no more than its sound lets it (60 Hz x 1 and 2), and the levels fling no droplets (30 and 15 Hz x 1)."""
+    setting = Setting("liquid", dimension, "trapped between boxes", rate_hz, iterations, solver="primal")
+    for check in find_case("H16").function(setting):
+        assert check.passed or check.kind == Kind.GOAL, check
+
+
+@pytest.mark.parametrize(
+    ("solver", "rate_hz", "iterations"),
+    [("dual", 60.0, 5), ("dual", 60.0, 50), ("dual", 60.0, 200), ("dual", 240.0, 20), ("primal", 120.0, 20), ("primal", 480.0, 20)],
+)
+def test_a_bar_that_closes_faster_than_sound_does_not_pass_through_itself(solver: str, rate_hz: float, iterations: int) -> None:
+    """Be iterations and steps few or many: no substep closes matter by more than it can take, and what closes faster than sound is stopped within a cell,
+    before F forgets its shape."""
+    setting = Setting("elastic", 2, "stretched to 10", rate_hz, iterations, solver=solver)
     checks = find_case("H14").function(setting)
     assert all(check.passed for check in checks), checks
 
@@ -121,6 +135,34 @@ def test_a_light_liquid_grows_as_fast_as_the_heavy_one_above_it_presses() -> Non
     """Were its growth bounded by its own weight it would be crushed and stay below."""
     checks = find_case("H09").function(Setting("liquid", 2, "1:1000", 480.0, 5, solver="paper"))
     assert all(check.passed for check in checks), checks
+
+
+@pytest.mark.parametrize(("rate_hz", "iterations", "variant"), [(120, 1, "1:100"), (240, 1, "1:1000"), (480, 1, "1:10000")])
+def test_what_a_heavy_block_squeezes_out_is_no_faster_than_its_law_stores(rate_hz: float, iterations: int, variant: str) -> None:
+    """With the paper's solver, whose law tears in tension: it flies to the ceiling. The bound is no loose one."""
+    checks = find_case("H09").function(Setting("elastic", 2, variant, rate_hz, iterations, solver="paper"))
+    assert all(check.passed for check in checks), checks
+    assert checks[0].name == "highest speed over what the law stores"
+    assert checks[0].figure > 0.7
+
+
+@pytest.mark.parametrize(
+    ("solver", "rate_hz", "iterations"),
+    [("paper", 480, 2), ("dual", 60, 10), ("primal", 60, 10)],  # 58860 / 172800 of the modulus; for the others it does not matter
+)
+def test_a_light_block_that_bears_the_heavy_one_is_judged_by_the_height(solver: str, rate_hz: float, iterations: int) -> None:
+    checks = find_case("H09").function(Setting("elastic", 2, "1:1000", rate_hz, iterations, solver=solver))
+    assert "highest place over the start's height" in {check.name for check in checks}
+    assert all(check.passed for check in checks), checks
+
+
+@pytest.mark.parametrize(("stretch", "relaxation", "rebound_max"), [(0.1, 1.5, 1.0), (0.7, 1.5, 1.0), (0.05, 1.0, 0.3), (0.2, 1.9, 10.0)])
+def test_energy_of_flattened_matter_is_the_work_of_the_corrections(stretch: float, relaxation: float, rebound_max: float) -> None:
+    """Summed over small steps of ln s, each with the correction that an iteration makes, over its relaxation."""
+    edges = np.linspace(math.log(stretch), 0.0, 100_001)
+    stretches = np.exp(0.5 * (edges[1:] + edges[:-1]))
+    work = float((np.minimum(relaxation * (1.0 / stretches - 1.0), rebound_max) / relaxation * np.diff(edges)).sum())
+    assert laws.stored_when_flattened(stretch, relaxation, rebound_max) == pytest.approx(work, rel=1e-5)
 
 
 @pytest.mark.parametrize(("rate_hz", "iterations"), [(60, 10), (120, 10), (480, 20)])
@@ -256,6 +298,33 @@ def test_the_strain_that_corrections_move_is_what_one_iteration_of_the_paper_mov
     assert np.sqrt((moved**2).sum(axis=(1, 2)).mean()) == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_corrections_balance_elsewhere_than_where_strain_is_least(dimension: int) -> None:
+    """What is left of random F moves nothing; the least squares leave less strain, and that moves."""
+    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1) as world:
+        world.fill(pbmpm.Box([0.03] * dimension, [0.15] * dimension), world.add_material(pbmpm.Elastic()), seed=1)
+        random = np.random.default_rng(1).uniform(-0.3, 0.3, (len(world), dimension, dimension))
+        world.set(pbmpm.Field.DEFORMATION, np.eye(dimension) + random)
+        at_first, least = movable_strain(world, 1.0), unremovable_strain(world)
+        balanced, removed = balanced_strain(world, 1.0), removed_strain(world)
+        world.set(pbmpm.Field.DEFORMATION, removed)
+        assert 0.9 * least < strain_residual(world) < 1.001 * least  # the turns are those before
+        of_least = movable_strain(world, 1.0)
+        world.set(pbmpm.Field.DEFORMATION, balanced)
+        assert movable_strain(world, 1.0) < 0.02 * at_first < of_least
+        assert strain_residual(world) > least
+
+
+@pytest.mark.parametrize(("rate_hz", "iterations", "share"), [(60, 20, 1.0), (240, 20, 0.855), (480, 10, 0.80)])
+def test_a_sheet_grows_back_to_where_its_corrections_balance(rate_hz: float, iterations: int, share: float) -> None:
+    """Pressed to no width in steps so short that strain_min does not make all its particles alike. What the law says, with the places that they
+    have when they are let go, is within a hundredth of what comes of it."""
+    _, recovered, *_ = find_case("H16").function(Setting("elastic", 2, "trapped between boxes", rate_hz, iterations, solver="paper"))
+    law = recovered.limit / RECOVERED_SHARE
+    assert law == pytest.approx(share, abs=0.02)
+    assert recovered.figure == pytest.approx(law, abs=0.01)
+
+
 @pytest.mark.parametrize("model", list(pbmpm.ElasticModel))
 def test_energy_is_zero_at_rest_turned_and_large_inside_out(model: pbmpm.ElasticModel) -> None:
     material = pbmpm.Elastic(young_modulus=26.0, poisson_ratio=0.3, elastic_model=model)
@@ -350,5 +419,4 @@ def test_what_is_left_of_one_random_strain_is_what_no_motion_removes(solver: str
             world.step(setting.dt)
         residual, unremovable = strain_residual(world), unremovable_strain(world)
     assert at_first > 0.5
-    assert unremovable > 0.04
-    assert residual - unremovable < 0.02
+    assert 0.01 < residual < 1.05 * unremovable

@@ -14,16 +14,17 @@ def _places(text: str) -> Places:
 
 _SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
-    "H09": (
+    "H01": (
         KnownFailure(
-            "a light block whose modulus is below twice the heavy one's weight is crushed and leaves at up to 1.6 times its own speed of sound:"
-            " to the ceiling, 2.7 times the start's height, without gain of energy",
-            (PAPER,),
-            ("1:1000", "1:10000"),
-            (ELASTIC,),
-            places=_places("60x10 120x5 120x10 120x20 240x1 240x2 240x5 480x1 480x2 480x5"),
+            "a column that slumps gains a little: energy 1.0012 of the start's, 1.001 are asked for",
+            (PRIMAL,),
+            ("small column",),
+            (LIQUID,),
+            (2,),
+            places=_places("30x5"),
         ),
-        KnownFailure("the same: the light block does not bear the heavy one", (PAPER,), ("1:100",), (ELASTIC,), (2,), places=_places("120x1")),
+    ),
+    "H09": (
         KnownFailure(
             "iterations damp: 9,600 of them per second let the liquids change places more slowly than the 10 s that the case lasts",
             (PAPER,),
@@ -32,11 +33,11 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             places=_places("480x20"),
         ),
         KnownFailure(
-            "two iterations let the heavy liquid bounce on the light one: energy up to 1.006 of the start's",
+            "two iterations let the heavy liquid bounce on the light one: energy up to 1.003 of the start's",
             (DUAL,),
             ("1:10",),
             (LIQUID,),
-            places=_places("60x2 120x2"),
+            places=_places("60x2"),
         ),
         KnownFailure(
             "the light liquid, crushed to a twentieth by 10,000 times its weight, cannot lift it in so few iterations and stays below",
@@ -55,80 +56,51 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             dimensions=(2,),
             places=_places("240x1"),
         ),
-    ),
-    "H14": (
         KnownFailure(
-            "fast matter passes through itself, where F is clamped: size wrong by half to all",
-            (PRIMAL,),
-            ("stretched to 10",),
-            places=_places("120x20 240x20 480x20"),
+            "at 15 Hz the body closes by more than a tenth per substep, and what the viscosity of that holds while iterations are few is let go when they are"
+            " raised: 1.04 and 1.09 of the start's energy",
+            (DUAL,),
+            materials=(ELASTIC,),
+            dimensions=(2,),
+            places=_places("15x5 15x10"),
         ),
     ),
     "H16": (
         KnownFailure(
-            "crushed to nothing and let go at once it leaves faster than its sound, up to half as fast again (60 Hz x 2)",
+            "an unfinished solution flings a droplet by up to 1 % faster than the liquid's sound and the boxes",
             (PRIMAL,),
             _SLOT,
             (LIQUID,),
             (2,),
-            places=_places("15x2 30x1 60x1 60x2 120x1 120x10 120x20"),
+            places=_places("30x2"),
         ),
         KnownFailure(
-            "the same by half a percent, the speed of the boxes included",
-            (PRIMAL,),
-            _SLOT,
-            (LIQUID,),
-            (3,),
-            places=_places("15x1"),
-        ),
-        KnownFailure(
-            "crushed to nothing and let go at once it leaves a quarter faster than what pushed it and a fall",
+            "crushed to nothing and let go at once it leaves up to a fifth faster than what pushed it and a fall",
             (DUAL,),
             _SLOT,
             (LIQUID,),
-            (3,),
-            places=_places("480x20"),
-        ),
-        KnownFailure(
-            "0.80 to 0.87 of the particles recover their volume: some stay folded",
-            (PAPER,),
-            _SLOT,
-            (ELASTIC,),
-            places=_places("240x5 240x10 240x20 480x5 480x10 480x20"),
-        ),
-        KnownFailure(
-            "0.934 of the particles recover their volume, 0.95 are asked for",
-            (PRIMAL,),
-            _SLOT,
-            (ELASTIC,),
-            (2,),
-            places=_places("60x20"),
+            places=_places("60x1 480x5 480x20"),
         ),
     ),
     "H19": (
         KnownFailure(
-            "a pool keeps stirring, by 1e-6 to 1e-2 of m g H, in bursts: the second half of the run may have 3.6 times the energy of the first",
+            "a pool keeps stirring, by 1e-6 to 1e-3 of m g H, in bursts: the second half of the run may have 12 times the energy of the first",
             (DUAL,),
             materials=(LIQUID,),
             dimensions=(2,),
-            places=_places("15x1 15x20 30x2 30x5 30x20 60x1 60x10"),
+            places=_places("15x2 15x5 15x20 30x1 30x2 30x20 60x10"),
         ),
-        KnownFailure("the same, by a twelfth", (PAPER,), materials=(LIQUID,), dimensions=(3,), places=_places("15x1")),
-        KnownFailure(
-            "a block that swings slowly is looked at 20 times only: its energy falls to a fifth, what is seen rises by a quarter",
-            (DUAL,),
-            materials=(ELASTIC,),
-            dimensions=(2,),
-            places=_places("240x1"),
-        ),
+        KnownFailure("the same, by a seventh", (PAPER,), materials=(LIQUID,), dimensions=(3,), places=_places("15x1")),
+        KnownFailure("the same, with 1.4e-6 of m g H in the end", (PRIMAL,), materials=(LIQUID,), dimensions=(2,), places=_places("60x10")),
     ),
     "H21": (
         KnownFailure(
-            "a splash makes of any difference many times as much: one in the last bit nearly doubles (2D) or grows tenfold (3D) in each step",
+            "a splash of 3D cells makes of a difference in the last bit ten times as much in each step",
             (PRIMAL,),
             ("a million cells away",),
             (LIQUID,),
-            places=_places("15x20 60x10"),
+            (3,),
+            places=_places("15x20"),
         ),
     ),
 }

