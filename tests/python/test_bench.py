@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from pbmpm.app.bench import lake
+from pbmpm.app.bench import lake, scenes
 from pbmpm.app.bench.command import bench
 from pbmpm.app.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
 from pbmpm.app.bench.measure import Costs, measure, pieces
@@ -27,8 +27,11 @@ from pbmpm.app.bench.pool import (
     pool_text,
 )
 from pbmpm.app.bench.report import ratios_of, row_of
+from pbmpm.app.bench.scenes import GAME, SceneCosts, measure_scenes, scene_pieces, scene_row, scenes_text
 from pbmpm.app.bench.subjects import ITERATIONS, MATERIALS, VARIANTS, applies, scene_of
+from pbmpm.app.meter import Meter
 from pbmpm.app.scene import load_scene
+from pbmpm.app.simulation import RunSettings
 
 ROW_KEYS = {
     "material",
@@ -201,3 +204,45 @@ def test_the_figures_of_a_pool() -> None:
 @pytest.mark.parametrize("options", [["--pool", "--lake"], ["--pool", "--solvers", "explicit"]])
 def test_a_pool_that_is_not_measured_is_refused(options: list[str]) -> None:
     assert CliRunner().invoke(bench, options).exit_code == 2
+
+
+def test_scenes_run_as_their_files_say_and_at_the_pace_of_a_game(root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(scenes, "LONGEST", 0.1)
+    wanted = [load_scene(root / "samples" / "scenes" / f"{name}.json") for name in ("column_2d", "fountain_2d")]
+    ticks: list[None] = []
+    costs = measure_scenes(wanted, 2, lambda: ticks.append(None))
+    assert len(ticks) == scene_pieces(wanted, 2) == 8
+    rows = [scene_row(own) for own in costs]
+    assert [(row["scene"], row["pace"]) for row in rows] == [
+        (scene.name, pace) for scene in wanted for pace in ("file", "game")
+    ]
+    for row, scene in zip(rows[0::2], wanted):
+        assert (row["rate_hz"], row["substeps"], row["iterations"]) == (scene.rate_hz, scene.substeps, scene.iterations)
+    for row in rows[1::2]:
+        assert {name: row[name] for name in GAME} == GAME
+    for own, row in zip(costs, rows):
+        assert [len(run.step_seconds) for run in own.runs] == [round(0.1 * row["rate_hz"])] * 2  # every round from the start
+        assert row["times_real_time"] == pytest.approx(1e3 / row["ms_per_simulated_second"])
+    assert rows[2]["particles"] > 0  # the fountain begins empty
+
+
+def test_the_figures_of_a_scene(root: Path) -> None:
+    """Rounds of 40, 50 and 90 ms for half a second: 100 ms per second in the middle, 10 times faster than real time."""
+    scene = load_scene(root / "samples" / "scenes" / "column_2d.json")
+    costs = SceneCosts("column", 2, "game", RunSettings.of(scene, 1, **GAME), 0.5, particles=100)
+    for total in (0.040, 0.090, 0.050):
+        meter = Meter()
+        meter.steps, meter.volume_error_squares = 2, 2 * 0.03**2
+        meter.step_seconds = [0.25 * total, 0.75 * total]
+        costs.runs.append(meter)
+    row = scene_row(costs)
+    assert row["ms_per_simulated_second"] == pytest.approx(100.0) and row["ms_per_simulated_second_min"] == pytest.approx(80.0)
+    assert row["ms_per_step_p99"] == pytest.approx(50 * 0.75, rel=0.02)
+    text = scenes_text([row])
+    assert "100 particles  60 Hz x 5, convergent" in text and "10.0 x" in text and "volume error 3.0 %" in text
+
+
+@pytest.mark.parametrize("option", [["--lake"], ["--warmup-steps", "0"], ["--dims", "2"]])
+def test_scenes_run_without_the_options_of_the_others(root: Path, option: list[str]) -> None:
+    done = CliRunner().invoke(bench, [str(root / "samples" / "scenes" / "column_2d.json"), *option])
+    assert done.exit_code == 2 and option[0] in done.output

@@ -167,7 +167,8 @@ def _summary(report: dict[str, Any]) -> str:
     if rate is not None:
         machine = report["machine"]
         lines.append(
-            f"{report['ms_per_simulated_second']:.0f} ms per simulated second, {rate:.1f} million particle-iterations/s"
+            f"{report['ms_per_simulated_second']:.0f} ms per simulated second, {1e3 / report['ms_per_simulated_second']:.3g} times real time,"
+            f" {rate:.1f} million particle-iterations/s"
             f" ({machine['isa']}, {machine['threads']} threads, {machine['cpu']})"
         )
     return "\n".join(lines)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from pathlib import Path
 from typing import Any
 
 import click
@@ -11,87 +12,113 @@ import click
 from ..options import JSON_HELP, NameList, emit_json
 from .subjects import MATERIALS, QUICK_MATERIALS, VARIANTS
 
+WARMUP_STEPS = 60
+
+Report = dict[str, Any]
+Measured = tuple[Report, str]
+"""A report, and the same for a person."""
+
 
 @click.command()
+@click.argument("scene_files", metavar="[SCENE]...", nargs=-1, type=click.Path(path_type=Path))
 @click.option("--solvers", type=NameList(VARIANTS), help="Solvers to measure.  [default: all]")
 @click.option("--materials", type=NameList(list(MATERIALS)), help=f"Kinds of matter.  [default: {','.join(QUICK_MATERIALS)}]")
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--rounds", type=click.IntRange(1, 1000), default=5, show_default=True, help="Times that each solver has its turn.")
-@click.option("--warmup-steps", type=click.IntRange(0, 10000), default=60, show_default=True, help="Motion before the measurement.")
+@click.option("--warmup-steps", type=click.IntRange(0, 10000), help=f"Motion before the measurement.  [default: {WARMUP_STEPS}]")
 @click.option("--lake", is_flag=True, help="Measure instead what a jelly in a lake costs over both by themselves.")
 @click.option("--pool", is_flag=True, help="Measure instead a pool asleep against awake, and what one drop wakes in it.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
-def bench(json_target: str | None, rounds: int, warmup_steps: int, lake: bool, pool: bool, **options: Any) -> None:
+def bench(scene_files: tuple[Path, ...], json_target: str | None, rounds: int, **options: Any) -> None:
     """Measure what an iteration and a step cost, per particle, with each solver.
 
     Dam breaks and falling blocks, 40,000 to 200,000 particles, on one thread that stays on one core. The solvers step from the
     same state, in turns. PBMPM_ISA=sse4, avx2 or avx512 chooses the kernels.
+
+    With SCENE files it measures instead how many times faster than real time each runs, as its file says and at the pace of a
+    game, 60 Hz x 5.
     """
-    import pbmpm
-
-    from ..machine import machine_facts
-    from ..progress import progress_bar
-    from ..simulation import versions
-    from .lake import LAKE_VARIANTS, lake_text
-    from .measure import measure, pieces, pin
-    from .pool import PACES, pool_text
-    from .report import ratios_of, row_of, text_of
-
-    variants = options["solvers"] or VARIANTS
-    if lake and pool:
-        raise click.UsageError("--lake and --pool measure different things: choose one.")
-    if pool and (strange := [variant for variant in options["solvers"] or () if variant not in PACES]):
-        raise click.UsageError(f"--pool measures {' and '.join(PACES)}, not {', '.join(strange)}.")
-    if lake or pool:
-        report = _pool_report(options["solvers"] or list(PACES), rounds) if pool else _lake_report(options["solvers"] or LAKE_VARIANTS, rounds)
-        emit_json(report, json_target)
-        if json_target != "-":
-            click.echo((pool_text if pool else lake_text)(report["rows"]))
-        return
-    subjects = [(name, int(dims)) for dims in options["dims"] or ("3", "2") for name in options["materials"] or QUICK_MATERIALS]
-    core, rows, ratios = pin(), [], []
-    with progress_bar(len(subjects) * pieces(rounds), "round", "bench") as bar:
-        for material, dimension in subjects:
-            costs = measure(material, dimension, variants, rounds, warmup_steps, bar.update)
-            rows += [row_of(material, dimension, own) for own in costs]
-            ratios += ratios_of(material, dimension, costs)
-    report = {
-        "rows": rows,
-        "ratios": ratios,
-        "rounds": rounds,
-        "warmup_steps": warmup_steps,
-        "core": core,
-        "compilers": _compilers(),
-        "versions": versions(),
-        "machine": machine_facts(pbmpm.isa(), 1),
-    }
+    if scene_files:
+        report, text = _scenes(scene_files, rounds, options)
+    elif options["lake"] or options["pool"]:
+        report, text = _water(rounds, options)
+    else:
+        report, text = _matter(rounds, options)
     emit_json(report, json_target)
     if json_target != "-":
-        click.echo(text_of(report))
+        click.echo(text)
 
 
-def _lake_report(variants: Sequence[str], rounds: int) -> dict[str, Any]:
-    from .lake import lake_pieces, lake_row, measure_lake
+def _matter(rounds: int, options: dict[str, Any]) -> Measured:
+    """Each kind of matter with each solver."""
+    from .measure import measure, pieces
+    from .report import ratios_of, row_of, text_of
 
-    def row_of(variant: str, tick: Callable[[], None]) -> dict[str, Any]:
-        return lake_row(variant, measure_lake(variant, rounds, tick))
+    warmup_steps = WARMUP_STEPS if options["warmup_steps"] is None else options["warmup_steps"]
+    subjects = [(name, int(dims)) for dims in options["dims"] or ("3", "2") for name in options["materials"] or QUICK_MATERIALS]
+    ratios: list[dict[str, Any]] = []
 
-    return _scene_report("bench --lake", variants, rounds, lake_pieces(rounds), row_of)
+    def rows(tick: Callable[[], None]) -> list[dict[str, Any]]:
+        found = []
+        for material, dimension in subjects:
+            costs = measure(material, dimension, options["solvers"] or VARIANTS, rounds, warmup_steps, tick)
+            found += [row_of(material, dimension, own) for own in costs]
+            ratios.extend(ratios_of(material, dimension, costs))
+        return found
+
+    report = _report("bench", rounds, len(subjects) * pieces(rounds), rows)
+    report |= {"ratios": ratios, "warmup_steps": warmup_steps, "compilers": _compilers()}
+    return report, text_of(report)
 
 
-def _pool_report(variants: Sequence[str], rounds: int) -> dict[str, Any]:
-    from .pool import measure_pool, pool_pieces, pool_row
+def _water(rounds: int, options: dict[str, Any]) -> Measured:
+    """The lake or the pool."""
+    from .lake import LAKE_VARIANTS, lake_pieces, lake_row, lake_text, measure_lake
+    from .pool import PACES, measure_pool, pool_pieces, pool_row, pool_text
 
-    def row_of(variant: str, tick: Callable[[], None]) -> dict[str, Any]:
-        return pool_row(measure_pool(variant, rounds, tick))
+    solvers, pool = options["solvers"], options["pool"]
+    if options["lake"] and pool:
+        raise click.UsageError("--lake and --pool measure different things: choose one.")
+    if pool and (strange := [variant for variant in solvers or () if variant not in PACES]):
+        raise click.UsageError(f"--pool measures {' and '.join(PACES)}, not {', '.join(strange)}.")
+    if pool:
+        variants: Sequence[str] = solvers or list(PACES)
+        report = _report(
+            "bench --pool",
+            rounds,
+            len(variants) * pool_pieces(),
+            lambda tick: [pool_row(measure_pool(variant, rounds, tick)) for variant in variants],
+        )
+        return report, pool_text(report["rows"])
+    variants = solvers or LAKE_VARIANTS
+    report = _report(
+        "bench --lake",
+        rounds,
+        len(variants) * lake_pieces(rounds),
+        lambda tick: [lake_row(variant, measure_lake(variant, rounds, tick)) for variant in variants],
+    )
+    return report, lake_text(report["rows"])
 
-    return _scene_report("bench --pool", variants, rounds, pool_pieces(), row_of)
+
+def _scenes(scene_files: Sequence[Path], rounds: int, options: dict[str, Any]) -> Measured:
+    """Whole scenes against real time."""
+    from ..scene import load_scene
+    from .scenes import measure_scenes, scene_pieces, scene_row, scenes_text
+
+    if strange := [f"--{name.replace('_', '-')}" for name, value in options.items() if value is not None and value is not False]:
+        raise click.UsageError(f"scenes run as their files say: {', '.join(strange)} cannot be used with them.")
+    scenes = [load_scene(path) for path in scene_files]
+    report = _report(
+        "bench scenes",
+        rounds,
+        scene_pieces(scenes, rounds),
+        lambda tick: [scene_row(own) for own in measure_scenes(scenes, rounds, tick)],
+    )
+    return report, scenes_text(report["rows"])
 
 
-def _scene_report(
-    name: str, variants: Sequence[str], rounds: int, pieces: int, row_of: Callable[[str, Callable[[], None]], dict[str, Any]]
-) -> dict[str, Any]:
-    """The report of a scene that is measured with each solver by itself."""
+def _report(name: str, rounds: int, pieces: int, rows: Callable[[Callable[[], None]], list[dict[str, Any]]]) -> Report:
+    """The rows with where they come from; this process stays on one core from now on."""
     import pbmpm
 
     from ..machine import machine_facts
@@ -100,9 +127,9 @@ def _scene_report(
     from .measure import pin
 
     core = pin()
-    with progress_bar(len(variants) * pieces, "round", name) as bar:
-        rows = [row_of(variant, bar.update) for variant in variants]
-    return {"rows": rows, "rounds": rounds, "core": core, "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1)}
+    with progress_bar(pieces, "round", name) as bar:
+        measured = rows(bar.update)
+    return {"rows": measured, "rounds": rounds, "core": core, "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1)}
 
 
 def _compilers() -> list[str]:
