@@ -145,10 +145,39 @@ static void sum_gained(const Grid *grid, const float *after, const float *base, 
 
 static double size_of(const double *v) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
+/* What a contact answers for of momentum that no contact gave: in proportion to what it gave itself, or `by_gain` to what its node gained. */
+static double weight_of(const BlockContacts *list, uint32_t i, const double *given, const float *after, const float *base, bool by_gain)
+{
+    const size_t node = list->node + list->contact[i].node * K_NODE_WIDTH;
+    double gained[3];
+    for (size_t a = 0; a < 3; a++) gained[a] = (double)base[node + 3] * ((double)after[node + a] - (double)base[node + a]);
+    return size_of(by_gain ? gained : given);
+}
+
+/* An unfinished solution may change the momentum of matter that is beside a wall and no longer pushes it: then what the nodes gained decides. */
+static void share_missing(const ContactFrame *frame, const double missing[3], const float *after, const float *base)
+{
+    double *booked = frame->colliders->impulses.contact.data, sum[2] = {0.0, 0.0};
+    for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (uint32_t i = list.begin; i < list.end; i++)
+            for (int k = 0; k < 2; k++) sum[k] += weight_of(&list, i, booked + 3 * (size_t)i, after, base, k == 1);
+    }
+    const bool by_gain = sum[0] == 0.0;
+    for (int32_t block = 0; block < frame->grid->node_blocks && sum[by_gain] > 0.0; block++) {
+        const BlockContacts list = contacts_of(frame, block);
+        for (uint32_t i = list.begin; i < list.end; i++) {
+            double *given = booked + 3 * (size_t)i;
+            const double share = weight_of(&list, i, given, after, base, by_gain) / sum[by_gain];
+            for (size_t a = 0; a < 3; a++) given[a] += share * missing[a];
+        }
+    }
+}
+
 void holds_book(const ContactFrame *frame, float *gradient, float *before, const float *after, const float *base)
 {
     const Colliders *colliders = frame->colliders;
-    double *booked = colliders->impulses.contact.data, missing[3], size = 0.0;
+    double *booked = colliders->impulses.contact.data, missing[3];
     if (!colliders->measures || colliders->contacts == 0) return;
     memset(booked, 0, 3 * (size_t)colliders->contacts * sizeof *booked);
     for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
@@ -157,14 +186,9 @@ void holds_book(const ContactFrame *frame, float *gradient, float *before, const
             for (uint32_t i = list.begin; i < list.end; i++) book_contact(&list, i, gradient, before, after, base, booked + 3 * (size_t)i);
     }
     sum_gained(frame->grid, after, base, missing);
-    for (uint32_t i = 0; i < colliders->contacts; i++) {
+    for (uint32_t i = 0; i < colliders->contacts; i++)
         for (size_t a = 0; a < 3; a++) missing[a] -= booked[3 * (size_t)i + a];
-        size += size_of(booked + 3 * (size_t)i);
-    }
-    for (uint32_t i = 0; i < colliders->contacts && size > 0.0; i++) {
-        const double share = size_of(booked + 3 * (size_t)i) / size;
-        for (size_t a = 0; a < 3; a++) booked[3 * (size_t)i + a] += share * missing[a];
-    }
+    share_missing(frame, missing, after, base);
 }
 
 double holds_work(const ContactFrame *frame, const float *gradient, int32_t block)
