@@ -4,14 +4,42 @@
 #include "colliders.h"
 #include "result.h"
 
+/* An obstacle as a block sees it. Places are relative to the block's first node: the products and differences that lead there are exact in double
+ * precision, while a place far from the origin would lose the last bits of its fraction, and the same scene a million cells away end elsewhere. */
+typedef struct View {
+    const Obstacle *obstacle; /* in the world */
+    Obstacle local;
+    int32_t cell[3];  /* of the block's first node */
+    double corner[3]; /* where that is [m] */
+} View;
+
+static View view_from(const ContactFrame *frame, const Obstacle *o, int32_t block)
+{
+    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    View view = {.obstacle = o, .local = *o};
+    for (int a = 0; a < frame->grid->dimension; a++) {
+        view.cell[a] = frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS;
+        view.corner[a] = (double)view.cell[a] * frame->cell_size;
+        view.local.start.position[a] -= view.corner[a];
+        view.local.end.position[a] -= view.corner[a];
+    }
+    return view;
+}
+
+/* In cells. */
+static double place_in_view(const View *view, const Particles *p, uint32_t row, int axis)
+{
+    return (double)(p->cell[axis][row] - view->cell[axis]) + (double)p->fraction[axis][row];
+}
+
 /* Moves a particle by `way` [cells] and takes away its velocity into the surface with this normal. */
-static void put_back(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, const double way[3], const double normal[3],
+static void put_back(const ContactFrame *frame, const View *view, Particles *p, uint32_t row, float dt, const double way[3], const double normal[3],
                      ImpulseSum *sum)
 {
     float surface[3];
     double point[3] = {0}, gained[3] = {0}, inward = 0.0;
-    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
-    obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
+    for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
+    obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
     const double to_velocity = frame->cell_size / (double)dt;
     for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
     particles_shift(p, row, way);
@@ -21,7 +49,7 @@ static void put_back(const ContactFrame *frame, const Obstacle *o, Particles *p,
         const float before = p->velocity[a][row];
         p->velocity[a][row] -= (float)(inward * normal[a]);
         gained[a] = mass * ((double)p->velocity[a][row] - (double)before);
-        point[a] += way[a] * frame->cell_size;
+        point[a] += way[a] * frame->cell_size + view->corner[a];
     }
     if (sum && inward < 0.0) impulse_add(sum, point, gained);
 }
@@ -43,19 +71,20 @@ static bool leads_into_another(const ContactFrame *frame, const Obstacle *o, con
 
 /* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
  * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
-static void push_particle(const ContactFrame *frame, const Obstacle *o, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
+static void push_particle(const ContactFrame *frame, const View *view, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
 {
+    const Obstacle *o = &view->local;
     double point[3] = {0}, normal[3];
-    for (int a = 0; a < p->dimension; a++) point[a] = particles_coordinate(p, row, a) * frame->cell_size;
+    for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
     double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
     if (depth <= 0.0) return;
     double way[3] = {0}, out[3] = {0};
-    for (int a = 0; a < p->dimension; a++) out[a] = point[a] + depth * frame->cell_size * normal[a];
+    for (int a = 0; a < p->dimension; a++) out[a] = view->corner[a] + point[a] + depth * frame->cell_size * normal[a];
     const bool stays = frame->stays && !o->wall && frame->stays[p->material[row]].kind == K_LIQUID;
-    if (stays && leads_into_another(frame, o, out)) return;
+    if (stays && leads_into_another(frame, view->obstacle, out)) return;
     if (!o->wall) depth = fmin(depth, 1.0);
     for (int a = 0; a < p->dimension; a++) way[a] = depth * normal[a];
-    put_back(frame, o, p, row, dt, way, normal, sum);
+    put_back(frame, view, p, row, dt, way, normal, sum);
 }
 
 /* ---- Particles that passed an obstacle ---- */
@@ -143,13 +172,14 @@ static bool slide(const ContactFrame *frame, const Obstacle *o, const double fro
     return true;
 }
 
-static void hold_back(const ContactFrame *frame, const Obstacle *o, Particles *p, int32_t block, uint32_t row, double unseen, float dt, ImpulseSum *sum)
+static void hold_back(const ContactFrame *frame, const View *view, Particles *p, int32_t block, uint32_t row, double unseen, float dt, ImpulseSum *sum)
 {
+    const Obstacle *o = &view->local;
     double from[3] = {0}, way[3] = {0}, back[3], normal[3], length2 = 0.0;
     float surface[3], carried2 = 0.0f;
     for (int a = 0; a < p->dimension; a++) {
         way[a] = (double)(place_in_block(frame, p, block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
-        from[a] = (particles_coordinate(p, row, a) - way[a]) * frame->cell_size;
+        from[a] = (place_in_view(view, p, row, a) - way[a]) * frame->cell_size;
         length2 += way[a] * way[a];
     }
     if (o->moves) {
@@ -163,7 +193,7 @@ static void hold_back(const ContactFrame *frame, const Obstacle *o, Particles *p
         }
         if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return;
     }
-    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, o, p, row, dt, back, normal, sum);
+    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, view, p, row, dt, back, normal, sum);
 }
 
 /* ---- Both ---- */
@@ -176,12 +206,13 @@ static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
 static void push_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
 {
     const uint32_t *begin = frame->grid->block_begin.data;
+    const View view = view_from(frame, o, block);
     const double unseen = longest_unseen(frame, o);
     const bool watched = unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block];
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         if (particles->status[row] != K_ALIVE) continue;
-        if (watched) hold_back(frame, o, particles, block, row, unseen, dt, sum);
-        push_particle(frame, o, particles, row, dt, sum);
+        if (watched) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
+        push_particle(frame, &view, particles, row, dt, sum);
     }
 }
 

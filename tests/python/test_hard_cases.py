@@ -93,6 +93,13 @@ def test_a_jet_that_grazes_a_thin_wall_stays_before_it(rate_hz: float, iteration
     assert outcome.passed, outcome.description
 
 
+def test_what_is_put_back_before_an_obstacle_far_away_keeps_every_bit() -> None:
+    """A splash at 15 Hz is faster than half a cell per step, so that its way is followed up to the floor and the post. Seen from the world's origin the
+    last bits of a place a million cells away are lost."""
+    outcome = find_case("H21").run(Setting("liquid", 3, "a million cells away", 15, 20, solver="primal"))
+    assert outcome.passed, outcome.description
+
+
 @pytest.mark.parametrize(("rate_hz", "iterations"), [(15, 2), (60, 1), (120, 2)])
 def test_liquid_let_go_from_between_walls_does_not_burst(rate_hz: float, iterations: int) -> None:
     """On the grid a sheet between walls that have closed is as dense when it is twice as wide: what pressed on until J followed threw it out at

@@ -93,14 +93,4 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
         KnownFailure("the same, by a seventh", (PAPER,), materials=(LIQUID,), dimensions=(3,), places=_places("15x1")),
         KnownFailure("the same, with 1.4e-6 of m g H in the end", (PRIMAL,), materials=(LIQUID,), dimensions=(2,), places=_places("60x10")),
     ),
-    "H21": (
-        KnownFailure(
-            "a splash of 3D cells makes of a difference in the last bit ten times as much in each step",
-            (PRIMAL,),
-            ("a million cells away",),
-            (LIQUID,),
-            (3,),
-            places=_places("15x20"),
-        ),
-    ),
 }
