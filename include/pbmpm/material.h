@@ -58,8 +58,9 @@ typedef enum pbmpm_elastic_model {
  *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
  *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
  *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
- *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once. With it particles of
- *  solids spin by at most 60 degrees per substep. */
+ *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once.
+ *
+ *  Particles of solids spin by at most 60 degrees per substep, with every solver: faster ones, which only fly by themselves, are slowed to that. */
 typedef struct pbmpm_material_def {
     uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
     pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
