@@ -100,6 +100,12 @@ def test_what_is_put_back_before_an_obstacle_far_away_keeps_every_bit() -> None:
     assert outcome.passed, outcome.description
 
 
+def test_a_swing_gains_nothing_while_the_body_stiffens() -> None:
+    """The energy of a swing goes with its frequency: in a body that stiffened by the factor e per swing it grew faster than backward Euler takes it."""
+    outcome = find_case("H11").run(Setting("elastic", 2, "plain", 240, 1, solver="dual"))
+    assert outcome.passed, outcome.description
+
+
 @pytest.mark.parametrize(("rate_hz", "iterations"), [(15, 2), (60, 1), (120, 2)])
 def test_liquid_let_go_from_between_walls_does_not_burst(rate_hz: float, iterations: int) -> None:
     """On the grid a sheet between walls that have closed is as dense when it is twice as wide: what pressed on until J followed threw it out at
