@@ -14,7 +14,7 @@ import pytest
 
 import pbmpm
 from pbmpm.app.accuracy import laws
-from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case
+from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case, rest
 from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
 from pbmpm.app.hardcases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
 from pbmpm.app.hardcases.energy import energy_density
@@ -142,6 +142,41 @@ def test_a_block_between_walls_does_not_creep_round_their_corners(dimension: int
     drift, *others = find_case("H19").function(setting)
     assert drift.figure < 2e-4
     assert all(check.passed for check in others), others
+
+
+def test_what_stirs_evenly_does_not_warm() -> None:
+    """Bursts that last for a tenth of a run: its second half is the livelier one in every other run, which is no sign of anything."""
+    told = []
+    for seed in range(200):
+        random = np.random.default_rng(seed)
+        level = itertools.chain.from_iterable(itertools.repeat(1e-4 * math.exp(burst), 40) for burst in iter(random.standard_normal, None))
+        told.append(rest.warming(rest.look_until_it_tells(lambda level=level: next(level))) > 1.0)
+    assert sum(told) <= 10  # one in twenty
+
+
+@pytest.mark.parametrize("growth", [1.0005, 1.001, 1.01])
+def test_what_warms_is_told_from_what_stirs(growth: float) -> None:
+    """By a fifth in the short run, by half, or by 50 times, with noise of a third."""
+    for seed in range(20):
+        random, looks = np.random.default_rng(seed), itertools.count()
+        energies = rest.look_until_it_tells(lambda: 1e-4 * growth ** next(looks) * math.exp(0.3 * random.standard_normal()))
+        assert rest.warming(energies) > 1.0
+
+
+def test_a_pool_that_comes_to_rest_late_gets_the_time() -> None:
+    looks = itertools.count()
+    energies = rest.look_until_it_tells(lambda: 1e-5 * math.exp(-next(looks) / 200.0))
+    assert rest.LOOKS < len(energies) <= rest.LONGEST_TO_REST * rest.LOOKS
+    assert rest.warming(energies) == 0.0
+
+
+def test_bursts_are_bounded_by_what_a_step_lets_a_pool_fall() -> None:
+    """Whenever they come, and if they last for a tenth of the run."""
+    fall = rest.fall_energy(1.0 / 15.0)
+    assert fall == pytest.approx((9.81 / 15.0) ** 2 / (2.0 * 9.81))
+    energies = [0.1 * fall] * 400
+    assert rest.bound_of_bursts(energies, fall).passed
+    assert not rest.bound_of_bursts([*energies[:360], *[1.1 * fall] * 40], fall).passed
 
 
 def test_a_light_liquid_grows_as_fast_as_the_heavy_one_above_it_presses() -> None:

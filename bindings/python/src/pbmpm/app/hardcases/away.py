@@ -75,15 +75,4 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             places=_places("60x1 480x5 480x20"),
         ),
     ),
-    "H19": (
-        KnownFailure(
-            "a pool keeps stirring, by 1e-6 to 1e-3 of m g H, in bursts: the second half of the run may have 12 times the energy of the first",
-            (DUAL,),
-            materials=(LIQUID,),
-            dimensions=(2,),
-            places=_places("15x2 15x5 15x20 30x1 30x2 30x20 60x10"),
-        ),
-        KnownFailure("the same, by a seventh", (PAPER,), materials=(LIQUID,), dimensions=(3,), places=_places("15x1")),
-        KnownFailure("the same, with 1.4e-6 of m g H in the end", (PRIMAL,), materials=(LIQUID,), dimensions=(2,), places=_places("60x10")),
-    ),
 }
