@@ -157,6 +157,7 @@ struct KernelArgs {
     float cell_relaxation;      /* w of the cells: the smallest of the liquids */
     float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
     float momentum;             /* beta of the extrapolation */
+    float growth_max;           /* largest growth per substep that a crushed liquid is asked for */
 
     K_CONST_PTR(struct KernelMaterial) material;
     float flip;             /* share of motion below the grid's resolution that liquids keep */

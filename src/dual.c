@@ -101,6 +101,17 @@ static void bind_cells(World *world)
     a->cell_relaxation = smallest_relaxation(world);
 }
 
+/* The largest growth per substep that crushed liquid is asked for, and in 1/60 s. What grows by a share per substep moves faster the shorter the substep
+ * is: a sheet of liquid that was let go at 480 Hz grew 1.3-fold in each, up to 45 m/s at its edges. Liquid that stores no energy has no speed of its own to leave at. One
+ * that bears a heavier one leaves faster, by the root of their densities (Torricelli). */
+static const double GROWTH_MAX = 0.3;
+
+static float growth_max(const World *world)
+{
+    const double heavier = materials_density_contrast(&world->materials, &world->particles);
+    return (float)(GROWTH_MAX * fmin(1.0, 60.0 * (double)world->args.dt * sqrt(heavier)));
+}
+
 /* The multipliers of elastic particles and what an iteration changed need memory for this substep only: the spare arrays, which
  * nobody uses between the sort and the next. */
 static void bind(World *world)
@@ -113,6 +124,7 @@ static void bind(World *world)
     a->change2 = world->dual.change2.data;
     a->uphill = world->dual.uphill.data;
     a->momentum = 0.0f;
+    a->growth_max = growth_max(world);
     const int d = p->dimension, parts = d * (d + 1) / 2;
     for (int i = 0; i < 2 * parts && p->deformation[0]; i++) {
         float *array = i < d * d ? particles_spare(p, CLASS_MATRIX, i) : particles_spare(p, CLASS_VECTOR, i - d * d);

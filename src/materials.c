@@ -1,5 +1,7 @@
 #include "materials.h"
 
+#include <math.h>
+
 #include "numbers.h"
 #include "result.h"
 
@@ -149,15 +151,15 @@ bool materials_want_volume(const Materials *materials, const Particles *particle
     return false;
 }
 
-bool materials_differ_in_density(const Materials *materials, const Particles *particles)
+double materials_density_contrast(const Materials *materials, const Particles *particles)
 {
-    float density = 0.0f;
+    double lightest = INFINITY, densest = 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (particles->of_material[slot] == 0 || material_is_solid(materials, slot)) continue;
-        if (density != 0.0f && materials->def[slot].density != density) return true;
-        density = materials->def[slot].density;
+        lightest = fmin(lightest, (double)materials->def[slot].density);
+        densest = fmax(densest, (double)materials->def[slot].density);
     }
-    return false;
+    return densest > 0.0 ? densest / lightest : 1.0;
 }
 
 bool materials_want_modulus(const Materials *materials)

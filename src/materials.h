@@ -37,8 +37,8 @@ static inline bool material_flows(const pbmpm_material_def *def) { return def->k
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 
-/* Whether there are particles of liquids of different density. */
-bool materials_differ_in_density(const Materials *materials, const Particles *particles);
+/* Density of the densest liquid with particles over that of the lightest; 1 without any. */
+double materials_density_contrast(const Materials *materials, const Particles *particles);
 
 /* Whether there is a liquid without a bulk modulus. */
 bool materials_want_modulus(const Materials *materials);

@@ -95,7 +95,7 @@ static void follow_iterations(World *world)
 /* Whether liquids find each other by their mass, see held_for() in ispc/kernels.isph. The paper's solver bounds what crushed liquid grows with instead. */
 static bool weighs_liquids(const World *world)
 {
-    return world->record.solver != PBMPM_SOLVER_PAPER && materials_differ_in_density(&world->materials, &world->particles);
+    return world->record.solver != PBMPM_SOLVER_PAPER && materials_density_contrast(&world->materials, &world->particles) > 1.0;
 }
 
 void solver_bind(World *world, float dt, bool with_volume)

@@ -43,6 +43,7 @@ static void bind(DualStage *stage)
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) *cells[i] = memory[used++] = filled(nodes, NAN);
     stage->strain = memory[used++] = filled(nodes, NAN);
     a->cell_relaxation = 1.3f;
+    a->growth_max = (float)REF_GROWTH_MAX;
     a->momentum = 0.0f;
 }
 

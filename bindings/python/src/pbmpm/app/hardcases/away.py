@@ -70,11 +70,12 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             places=_places("30x2"),
         ),
         KnownFailure(
-            "crushed to nothing and let go at once it leaves up to a fifth faster than what pushed it and a fall",
+            "what the closing boxes squeezed out is still in flight when they vanish: 27.6 m/s before, 27.8 after, 25.7 are asked for",
             (DUAL,),
             _SLOT,
             (LIQUID,),
-            places=_places("60x1 480x5 480x20"),
+            (2,),
+            places=_places("60x1"),
         ),
     ),
 }
