@@ -121,9 +121,9 @@ def test_crushed_liquid_leaves_no_faster_at_a_higher_rate_with_the_dual() -> Non
     assert all(check.passed for check in checks), checks
 
 
-@pytest.mark.parametrize(("dimension", "rate_hz", "iterations"), [(2, 30, 1), (2, 60, 1), (2, 60, 2), (3, 15, 1)])
+@pytest.mark.parametrize(("dimension", "rate_hz", "iterations"), [(2, 30, 1), (2, 30, 2), (2, 60, 1), (2, 60, 2)])
 def test_crushed_liquid_leaves_no_faster_than_its_sound_with_the_primal(dimension: int, rate_hz: int, iterations: int) -> None:
-    """Crowded liquid grows by no more than its sound lets it (60 Hz x 1 and 2), and the levels fling no droplets (30 and 15 Hz x 1)."""
+    """Crowded liquid grows by no more than its sound lets it (60 Hz x 1 and 2), and the levels fling no droplets (30 Hz)."""
     setting = Setting("liquid", dimension, "trapped between boxes", rate_hz, iterations, solver="primal")
     for check in find_case("H16").function(setting):
         assert check.passed or check.kind == Kind.GOAL, check

@@ -122,10 +122,10 @@ class Press:
         self.right.move(right)
 
 
-def release_speed(setting: Setting, cell_size: float, fall: float) -> float:
-    """What crushed matter may reach when it is let go: pushed by walls and falling from some height; and what it stores,
+def release_speed(setting: Setting, cell_size: float, fall: float, pushed: float = PRESS_SPEED) -> float:
+    """What crushed matter may reach when it is let go: pushed by walls of this speed and falling from some height; and what it stores,
     for kinetic energies add."""
-    return math.hypot(4.0 * PRESS_SPEED + math.sqrt(2.0 * GRAVITY * fall), setting.expansion_speed(cell_size))
+    return math.hypot(4.0 * pushed + math.sqrt(2.0 * GRAVITY * fall), setting.expansion_speed(cell_size))
 
 
 def crush(setting: Setting) -> list[Check]:
