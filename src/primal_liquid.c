@@ -7,7 +7,8 @@
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
- * A solution that gained more than its kinetic energy is first moved towards the body's start. */
+ * A solution that gained more than its kinetic energy is first moved towards the body's start. After particles have moved, what volume feedback stored in
+ * them is taken in the same way. */
 #include <math.h>
 
 #include "holds.h"
@@ -22,12 +23,18 @@ static double mean_of(const BodySum *body, int axis)
     return body->leans ? body->moved[axis] / body->mass : body->start[axis];
 }
 
+/* The kinetic energy that a body can pay with. */
+static double free_energy(const BodySum *body)
+{
+    double kinetic = body->kinetic;
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
+    return kinetic;
+}
+
 /* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
 static bool find_share(BodySum *body)
 {
-    double kinetic = body->kinetic;
-    const double gain = body->after - body->before - body->work;
-    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
+    const double kinetic = free_energy(body), gain = body->after - body->before - body->work;
     body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
     return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
 }
@@ -97,7 +104,26 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
+/* Volume feedback that lowers J stores energy that no motion paid for, and the next substeps turn it into motion: a column that slumped at 30 Hz x 5
+ * gained 0.9 %. It, too, is taken from the kinetic energy. */
+static void pay_for_feedback(World *world)
+{
+    BodySum *bodies = world->primal.body_sums.data;
+    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const float *fed = world->primal.fed.data;
+    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].fed = 0.0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+        if (!sleep_is_still(world, block)) bodies[of_block[block]].fed += (double)fed[block];
+    for (int32_t i = 0; i < world->primal.bodies.count; i++) {
+        BodySum *body = &bodies[i];
+        const double kinetic = free_energy(body), kept = (double)body->kept;
+        if (body->fed > 0.0 && kinetic > 0.0) body->kept = (float)sqrt(fmax(0.0, kept * kept - body->fed / kinetic));
+    }
+}
+
 void primal_calm(World *world)
 {
-    if (solver_holds_liquid(world)) pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
+    if (!solver_holds_liquid(world)) return;
+    pay_for_feedback(world);
+    pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }

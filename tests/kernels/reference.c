@@ -375,7 +375,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
         double gradient[9];
         reference_gradient(grid, p, gradient);
         integrate_elastic(step, p, gradient);
-        if (!step->tensionless) limit_spin(step->dimension, D);
+        limit_spin(step->dimension, D);
     } else if (step->tensionless) {
         integrate_tensionless(step, grid, p, way, D);
     } else {

@@ -14,16 +14,6 @@ def _places(text: str) -> Places:
 
 _SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
-    "H01": (
-        KnownFailure(
-            "a column that slumps gains a little: energy 1.0012 of the start's, 1.001 are asked for",
-            (PRIMAL,),
-            ("small column",),
-            (LIQUID,),
-            (2,),
-            places=_places("30x5"),
-        ),
-    ),
     "H09": (
         KnownFailure(
             "four volumes per cell (eight in 3D) that 9,600 iterations per second hold leave the two (three) velocities per node little freedom (volumetric locking:"
