@@ -10,6 +10,7 @@
  * A solution that gained more than its kinetic energy is first moved towards the body's start. After particles have moved, what volume feedback stored in
  * them is taken in the same way. */
 #include <math.h>
+#include <string.h>
 
 #include "holds.h"
 #include "primal_solve.h"
@@ -23,18 +24,12 @@ static double mean_of(const BodySum *body, int axis)
     return body->leans ? body->moved[axis] / body->mass : body->start[axis];
 }
 
-/* The kinetic energy that a body can pay with. */
-static double free_energy(const BodySum *body)
-{
-    double kinetic = body->kinetic;
-    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
-    return kinetic;
-}
-
 /* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
 static bool find_share(BodySum *body)
 {
-    const double kinetic = free_energy(body), gain = body->after - body->before - body->work;
+    double kinetic = body->kinetic;
+    const double gain = body->after - body->before - body->work;
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
     body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
     return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
 }
@@ -104,26 +99,72 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
+/* ---- What feedback stores ---- */
+
+enum { FED, MASS, KINETIC, MOMENTUM, FEEDBACK_SUMS = MOMENTUM + 3 };
+
+/* Of the particles of each block: what feedback gave them, their mass, energy and momentum. */
+static void sum_particles(void *context, int32_t begin, int32_t end)
+{
+    const World *world = context;
+    const Particles *p = &world->particles;
+    const uint32_t *rows = world->grid.block_begin.data;
+    const float to_cells = world->args.dt * world->args.cells_per_metre;
+    for (int32_t block = begin; block < end; block++) {
+        double *sum = (double *)world->primal.sums.data + (size_t)block * SUMS;
+        memset(sum, 0, FEEDBACK_SUMS * sizeof *sum);
+        if (sleep_is_still(world, block)) continue;
+        sum[FED] = (double)((const float *)world->primal.fed.data)[block];
+        for (uint32_t row = rows[block]; row < rows[block + 1]; row++) {
+            const double mass = (double)p->mass[row];
+            sum[MASS] += mass;
+            for (int a = 0; a < p->dimension; a++) {
+                const double u = (double)(p->velocity[a][row] * to_cells);
+                sum[MOMENTUM + a] += mass * u;
+                sum[KINETIC] += 0.5 * mass * u * u;
+            }
+        }
+    }
+}
+
+/* The share of its motion beside its mean that a body keeps. */
+static void find_share_fed(BodySum *body)
+{
+    double kinetic = body->kinetic;
+    body->kept = 1.0f;
+    if (!body->with_liquid || !(body->fed > 0.0) || !(body->mass > 0.0)) return;
+    for (int c = 0; c < 3; c++) {
+        body->mean[c] = (float)(body->momentum[c] / body->mass);
+        kinetic -= 0.5 * body->momentum[c] * body->momentum[c] / body->mass;
+    }
+    body->kept = kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - body->fed / kinetic)) : 1.0f;
+}
+
 /* Volume feedback that lowers J stores energy that no motion paid for, and the next substeps turn it into motion: a column that slumped at 30 Hz x 5
- * gained 0.9 %. It, too, is taken from the kinetic energy. */
+ * gained 0.9 %. It, too, is taken from the kinetic energy, but of no body's mean motion: obstacles have had their impulses. */
 static void pay_for_feedback(World *world)
 {
     BodySum *bodies = world->primal.body_sums.data;
     const int32_t *of_block = world->primal.bodies.of_block.data;
-    const float *fed = world->primal.fed.data;
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].fed = 0.0;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
-        if (!sleep_is_still(world, block)) bodies[of_block[block]].fed += (double)fed[block];
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) {
-        BodySum *body = &bodies[i];
-        const double kinetic = free_energy(body), kept = (double)body->kept;
-        if (body->fed > 0.0 && kinetic > 0.0) body->kept = (float)sqrt(fmax(0.0, kept * kept - body->fed / kinetic));
+    const double *sums = world->primal.sums.data;
+    pool_for(world->pool, world->grid.particle_blocks, 8, sum_particles, world);
+    for (int32_t i = 0; i < world->primal.bodies.count; i++)
+        bodies[i].fed = bodies[i].mass = bodies[i].kinetic = bodies[i].momentum[0] = bodies[i].momentum[1] = bodies[i].momentum[2] = 0.0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        const double *sum = sums + (size_t)block * SUMS;
+        BodySum *body = &bodies[of_block[block]];
+        body->fed += sum[FED];
+        body->mass += sum[MASS];
+        body->kinetic += sum[KINETIC];
+        for (int c = 0; c < 3; c++) body->momentum[c] += sum[MOMENTUM + c];
     }
+    for (int32_t i = 0; i < world->primal.bodies.count; i++) find_share_fed(&bodies[i]);
+    pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }
 
 void primal_calm(World *world)
 {
     if (!solver_holds_liquid(world)) return;
-    pay_for_feedback(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
+    pay_for_feedback(world);
 }
