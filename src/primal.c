@@ -33,7 +33,6 @@ pbmpm_result primal_prepare(World *world)
     const bool ok = array_reserve(memory, &state->force, nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->block_energy, 4 * blocks, sizeof(float)) &&
                     array_reserve(memory, &state->accepted_energy, 4 * blocks, sizeof(float)) &&
-                    array_reserve(memory, &state->fed, blocks, sizeof(float)) &&
                     array_reserve(memory, &state->vectors, VECTORS * nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->inverse, nodes, sizeof(float)) &&
                     array_reserve(memory, &state->sums, SUMS * blocks, sizeof(double)) &&
@@ -47,7 +46,7 @@ pbmpm_result primal_prepare(World *world)
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->sums, &s->body_sums};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->inverse, &s->sums, &s->body_sums};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -73,7 +72,6 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
     }
     world->args.node_force = p.force;
     world->args.block_energy = state->block_energy.data;
-    world->args.fed = state->fed.data;
     return p;
 }
 

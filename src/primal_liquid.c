@@ -7,10 +7,8 @@
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
- * A solution that gained more than its kinetic energy is first moved towards the body's start. After particles have moved, what volume feedback stored in
- * them is taken in the same way. */
+ * A solution that gained more than its kinetic energy is first moved towards the body's start. */
 #include <math.h>
-#include <string.h>
 
 #include "holds.h"
 #include "primal_solve.h"
@@ -99,72 +97,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* ---- What feedback stores ---- */
-
-enum { FED, MASS, KINETIC, MOMENTUM, FEEDBACK_SUMS = MOMENTUM + 3 };
-
-/* Of the particles of each block: what feedback gave them, their mass, energy and momentum. */
-static void sum_particles(void *context, int32_t begin, int32_t end)
-{
-    const World *world = context;
-    const Particles *p = &world->particles;
-    const uint32_t *rows = world->grid.block_begin.data;
-    const float to_cells = world->args.dt * world->args.cells_per_metre;
-    for (int32_t block = begin; block < end; block++) {
-        double *sum = (double *)world->primal.sums.data + (size_t)block * SUMS;
-        memset(sum, 0, FEEDBACK_SUMS * sizeof *sum);
-        if (sleep_is_still(world, block)) continue;
-        sum[FED] = (double)((const float *)world->primal.fed.data)[block];
-        for (uint32_t row = rows[block]; row < rows[block + 1]; row++) {
-            const double mass = (double)p->mass[row];
-            sum[MASS] += mass;
-            for (int a = 0; a < p->dimension; a++) {
-                const double u = (double)(p->velocity[a][row] * to_cells);
-                sum[MOMENTUM + a] += mass * u;
-                sum[KINETIC] += 0.5 * mass * u * u;
-            }
-        }
-    }
-}
-
-/* The share of its motion beside its mean that a body keeps. */
-static void find_share_fed(BodySum *body)
-{
-    double kinetic = body->kinetic;
-    body->kept = 1.0f;
-    if (!body->with_liquid || !(body->fed > 0.0) || !(body->mass > 0.0)) return;
-    for (int c = 0; c < 3; c++) {
-        body->mean[c] = (float)(body->momentum[c] / body->mass);
-        kinetic -= 0.5 * body->momentum[c] * body->momentum[c] / body->mass;
-    }
-    body->kept = kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - body->fed / kinetic)) : 1.0f;
-}
-
-/* Volume feedback that lowers J stores energy that no motion paid for, and the next substeps turn it into motion: a column that slumped at 30 Hz x 5
- * gained 0.9 %. It, too, is taken from the kinetic energy, but of no body's mean motion: obstacles have had their impulses. */
-static void pay_for_feedback(World *world)
-{
-    BodySum *bodies = world->primal.body_sums.data;
-    const int32_t *of_block = world->primal.bodies.of_block.data;
-    const double *sums = world->primal.sums.data;
-    pool_for(world->pool, world->grid.particle_blocks, 8, sum_particles, world);
-    for (int32_t i = 0; i < world->primal.bodies.count; i++)
-        bodies[i].fed = bodies[i].mass = bodies[i].kinetic = bodies[i].momentum[0] = bodies[i].momentum[1] = bodies[i].momentum[2] = 0.0;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        const double *sum = sums + (size_t)block * SUMS;
-        BodySum *body = &bodies[of_block[block]];
-        body->fed += sum[FED];
-        body->mass += sum[MASS];
-        body->kinetic += sum[KINETIC];
-        for (int c = 0; c < 3; c++) body->momentum[c] += sum[MOMENTUM + c];
-    }
-    for (int32_t i = 0; i < world->primal.bodies.count; i++) find_share_fed(&bodies[i]);
-    pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
-}
-
 void primal_calm(World *world)
 {
-    if (!solver_holds_liquid(world)) return;
-    pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
-    pay_for_feedback(world);
+    if (solver_holds_liquid(world)) pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }

@@ -19,7 +19,6 @@ typedef struct BodySum {
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
     double liquid;            /* energy of the liquid particles */
-    double fed;               /* what volume feedback gave them after the solution */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */

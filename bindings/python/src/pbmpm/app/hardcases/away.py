@@ -14,6 +14,17 @@ def _places(text: str) -> Places:
 
 _SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
+    "H01": (
+        KnownFailure(
+            "a column that slumps gains 0.9 %, more than the solution loses, from what volume feedback stores where it lowers J: energy 1.0012 of the start's, 1.001 are"
+            " asked for",
+            (PRIMAL,),
+            ("small column",),
+            (LIQUID,),
+            (2,),
+            places=_places("30x5"),
+        ),
+    ),
     "H09": (
         KnownFailure(
             "four volumes per cell (eight in 3D) that 9,600 iterations per second hold leave the two (three) velocities per node little freedom (volumetric locking:"
@@ -39,14 +50,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             (2,),
             places=_places("60x20 240x5"),
         ),
-        KnownFailure(
-            "at rest what feedback stores in the crushed light liquid takes the motion that the change of places would grow from",
-            (PRIMAL,),
-            ("1:1000",),
-            (LIQUID,),
-            (2,),
-            places=_places("480x5"),
-        ),
     ),
     "H11": (
         KnownFailure(
@@ -68,7 +71,7 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             places=_places("30x10 30x20"),
         ),
         KnownFailure(
-            "an unfinished solution flings a droplet by 9 % faster than the liquid's sound and the boxes",
+            "an unfinished solution flings a droplet by up to 1 % faster than the liquid's sound and the boxes",
             (PRIMAL,),
             _SLOT,
             (LIQUID,),
