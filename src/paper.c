@@ -59,14 +59,15 @@ static double weight_head(const World *world, const LiquidState *liquid)
 static double pressure_head(double weight, const LiquidState *liquid) { return 3.0 * weight + 0.5 * liquid->speed2; }
 
 /* What crushed liquid may grow by in a substep. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; what weighs g h leaves
- * an opening at sqrt(2 g h) (Torricelli), faster where the weight is that of something heavier, and the square of its motion adds to that. The
- * pressure alone does not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is
- * twice as wide, so its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the
- * motion, and a lower J bears the same pressure. */
+ * an opening at sqrt(2 g h) (Torricelli), faster where the weight is that of something heavier. Where matter is faster than that, growth may be, too;
+ * but the two do not add: it is the weight that moves what grows, and growth that its own motion quickens feeds on itself. The pressure alone does
+ * not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so
+ * its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a
+ * lower J bears the same pressure. */
 static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight, float dt)
 {
     const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
-    return sqrt(2.0 * weight * heavier + liquid->speed2) * (double)dt / (double)world->def.cell_size;
+    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * (double)dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear

@@ -63,14 +63,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
     ),
     "H16": (
         KnownFailure(
-            "what it grew by feeds on its own motion: 26.9 and 27.0 m/s in the first 10 steps, 26.7 are asked for",
-            (PAPER,),
-            _SLOT,
-            (LIQUID,),
-            (2,),
-            places=_places("30x10 30x20"),
-        ),
-        KnownFailure(
             "an unfinished solution flings a droplet by up to 1 % faster than the liquid's sound and the boxes",
             (PRIMAL,),
             _SLOT,
