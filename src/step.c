@@ -128,49 +128,89 @@ static pbmpm_result empty_substep(World *world, int part)
     return PBMPM_OK;
 }
 
-static pbmpm_result substep(World *world, float dt, int part)
+/* Where the particles are: order, blocks, runs. */
+static pbmpm_result find_places(World *world, float dt, bool with_volume)
 {
-    StepRecord *record = &world->record;
-    double clock = now_ms();
+    return world->sleep.on ? sleep_build(world, dt, with_volume)
+                           : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
+}
 
-    /* Where the particles are: order, blocks, runs. */
-    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
-    pbmpm_result result = world->sleep.on ? sleep_build(world, dt, with_volume)
-                                          : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
-    if (result != PBMPM_OK) return result;
-    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
-    lap(&record->ms_sort, &clock);
-
-    /* Where they would go if nothing held them. */
-    result = solver_prepare(world);
+/* Where they would go if nothing held them. */
+static pbmpm_result predict(World *world, float dt, bool with_volume)
+{
+    pbmpm_result result = solver_prepare(world);
     if (result != PBMPM_OK) return result;
     solver_bind(world, dt, with_volume);
     if (world->sleep.on) result = sleep_prepare(world);
     if (result != PBMPM_OK) return result;
     solver_predict(world);
-    result = forces_apply(world, dt);
-    if (result != PBMPM_OK) return result;
-    lap(&record->ms_scatter, &clock);
+    return forces_apply(world, dt);
+}
 
-    /* What they may meet on the way. */
+static pbmpm_result find_mirrors(World *world, const Domain *domain)
+{
     const double cell_size = (double)world->def.cell_size;
-    const bool could_mirror = record->solver == PBMPM_SOLVER_DUAL || record->solver == PBMPM_SOLVER_EXPLICIT;
+    if (mirrors_find(&world->mirrors, &world->memory, &world->grid, domain, cell_size) &&
+        mirrors_measure(&world->mirrors, &world->memory, world->domain.measures))
+        return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
+}
+
+/* What they may meet on the way. */
+static pbmpm_result find_contacts(World *world, int part, bool with_volume, ContactFrame *contacts)
+{
+    const double cell_size = (double)world->def.cell_size;
+    const pbmpm_solver solver = world->record.solver;
+    const bool could_mirror = solver == PBMPM_SOLVER_DUAL || solver == PBMPM_SOLVER_EXPLICIT;
     const bool mirrored = could_mirror && solver_mirrors(world); /* walls stand where they do with liquid, which may come and go */
     const Domain domain = could_mirror ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
-    const bool by_ratio = record->solver == PBMPM_SOLVER_PAPER;
-    const ContactFrame contacts = {&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
-                                   world->sleep.holds ? world->sleep.held.data : NULL, by_ratio ? world->materials.kernel : NULL};
+    const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
+    *contacts = (ContactFrame){&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
+                               world->sleep.holds ? world->sleep.held.data : NULL, by_ratio ? world->materials.kernel : NULL};
     mirrors_clear(&world->mirrors);
-    if (mirrored && (!mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, cell_size) ||
-                     !mirrors_measure(&world->mirrors, &world->memory, world->domain.measures)))
-        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
-    colliders_begin_substep(&world->colliders, &domain, world->def.dimension, (double)world->def.cell_size, part, world->settings.substeps);
-    result = contacts_find(&contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK) result = contacts_prepare_push(&contacts, &world->memory);
+    pbmpm_result result = mirrored ? find_mirrors(world, &domain) : PBMPM_OK;
     if (result != PBMPM_OK) return result;
-    if (with_volume) contacts_open_volume(&contacts, world->pool, by_ratio);
+    colliders_begin_substep(&world->colliders, &domain, world->def.dimension, cell_size, part, world->settings.substeps);
+    result = contacts_find(contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
+    if (result == PBMPM_OK && with_volume) contacts_open_volume(contacts, world->pool, by_ratio);
+    return result;
+}
+
+/* They go, and what happened on the way is booked. */
+static void go(World *world, float dt, int part, const ContactFrame *contacts)
+{
+    contacts_book(contacts, (double)dt);
+    mirrors_book(&world->mirrors, contacts, (double)dt);
+    PushJob push = {world, contacts, dt};
+    if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
+    solver_integrate(world);
+    pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
+    contacts_book_push(contacts, &world->particles, dt);
+    forces_account(&world->forces, world->grid.node_blocks);
+    collect_events(world, (uint32_t)part, sinks_mark(world, (uint32_t)part));
+}
+
+static pbmpm_result substep(World *world, float dt, int part)
+{
+    StepRecord *record = &world->record;
+    double clock = now_ms();
+
+    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
+    pbmpm_result result = find_places(world, dt, with_volume);
+    if (result != PBMPM_OK) return result;
+    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
+    lap(&record->ms_sort, &clock);
+
+    result = predict(world, dt, with_volume);
+    if (result != PBMPM_OK) return result;
+    lap(&record->ms_scatter, &clock);
+
+    ContactFrame contacts;
+    result = find_contacts(world, part, with_volume, &contacts);
+    if (result != PBMPM_OK) return result;
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */
@@ -178,16 +218,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     if (world->sleep.on) sleep_judge(world, dt);
     lap(&record->ms_iterate, &clock);
 
-    /* Go. */
-    contacts_book(&contacts, (double)dt);
-    mirrors_book(&world->mirrors, &contacts, (double)dt);
-    PushJob push = {world, &contacts, dt};
-    if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
-    solver_integrate(world);
-    pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
-    contacts_book_push(&contacts, &world->particles, dt);
-    forces_account(&world->forces, world->grid.node_blocks);
-    collect_events(world, (uint32_t)part, sinks_mark(world, (uint32_t)part));
+    go(world, dt, part, &contacts);
     lap(&record->ms_integrate, &clock);
     return PBMPM_OK;
 }
