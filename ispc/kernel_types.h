@@ -78,6 +78,7 @@ struct KernelMaterial {
     float inverse_stiffness;  /* liquid: 1 / (c K); 0 if incompressible */
     float carried;            /* liquid: from a pressure [Pa] to the multiplier to start from */
     float pascal;             /* liquid: from a multiplier to a pressure [Pa] */
+    float lightness;          /* from a pressure that a cell holds to the multiplier, see cells.isph */
     float viscous_share;      /* liquid: share of the deviator that one round of viscosity takes */
     /* How elastic matter yields, see plastic.isph. */
     int32_t yields;
@@ -144,7 +145,7 @@ struct KernelArgs {
                                    sum m w h as fourth value */
     K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
-    K_PTR(float) cell_mass;     /* per node block, for the cell above each node; null unless pressures stand in cells */
+    K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */
     K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */

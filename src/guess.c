@@ -1,5 +1,6 @@
 #include "guess.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -31,6 +32,12 @@ void guess_free(World *world)
     multilevel_free(&world->guess.multilevel, &world->memory);
 }
 
+double guess_density(const World *world)
+{
+    const bool differ = materials_density_contrast(&world->materials, &world->particles) > 1.0;
+    return differ && world->settings.pressure != PBMPM_PRESSURE_CELLS ? materials_lightest(&world->materials, &world->particles) : 0.0;
+}
+
 /* All pressures yield a little, a tenth as much as the slowest mode: a guess that is exact there answers the errors of the last substep with
  * its full weight, and so they may grow. */
 static float least_softness(const World *world)
@@ -43,13 +50,28 @@ static float least_softness(const World *world)
  * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. */
 static const float GUESS_GROWTH_MAX = 0.05f;
 
-static float growth_share(const World *world) { return fminf(1.0f, 60.0f * world->args.dt); }
+/* What a guess may ask of the matter in a cell. */
+typedef struct Asked {
+    float share, fallen2; /* of what is missing; times what is missing, the square of the most */
+} Asked;
+
+/* A column of n cells that is short of e per cell has sunk by n e, and its top is thrown up by n a / dt if it is asked for a. Where a light liquid gives way
+ * below a heavy one e is large, and the heavy one would come up higher than it fell from. So (n a / dt)^2 is at most g n e, half of what that fall gives: the
+ * iterations after the guess ask for the rest. */
+static Asked asked_of(const World *world)
+{
+    const double dt = (double)world->args.dt, fall = gravity_strength(world) * dt * dt / (double)world->def.cell_size;
+    const bool gives_way = materials_density_contrast(&world->materials, &world->particles) > 1.0 && fall > 0.0;
+    return (Asked){fminf(1.0f, 60.0f * world->args.dt), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
+}
 
 /* The arrays of the conjugate gradients, one value per cell, and the numbers of an iteration. */
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
     float *residual, *better, *direction, *response, *before, *mask, *soft;
+    Asked asked;
+    float density;                 /* see guess_density() */
     float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
 } Guess;
 
@@ -66,6 +88,8 @@ static Guess guess_of(World *world, const ContactFrame *contacts)
                    .before = cells + 4 * n,
                    .mask = cells + 5 * n,
                    .soft = cells + 6 * n,
+                   .asked = asked_of(world),
+                   .density = (float)guess_density(world),
                    .least = least_softness(world)};
 }
 
@@ -165,6 +189,13 @@ static void press_everywhere(const Guess *g, size_t begin, size_t end, double *s
     for (size_t i = begin; i < end; i++) g->response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
 }
 
+/* What a node answers to a pressure of cells with, over what one of the measured density does. */
+static float lightness_of(const Guess *g, size_t node)
+{
+    const float *density = g->world->args.node_density;
+    return g->density > 0.0f && density && density[node] > 0.0f ? g->density / density[node] : 1.0f;
+}
+
 /* The energy of a pressure field s is 4 sum_i m_i |u_i|^2 with m_i u_i = sum_p m w s (x_i - x_p). Where matter is all around, that is
  * -m_i grad s / 4; at a surface s itself counts, by the displacement that a pressure of 1 everywhere gives. */
 static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
@@ -173,11 +204,12 @@ static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
     float *stiffness = g->better, *load = g->direction;
     for (size_t i = begin; i < end; i++) {
         const float *u = node + i * K_NODE_WIDTH;
+        const float light = lightness_of(g, i), energy = energy_of_node(u);
         g->soft[i] = g->world->args.cell_softness[i] + g->least;
-        stiffness[i] = u[3];
-        load[i] = energy_of_node(u) + mass[i] * g->soft[i];
-        sum[0] += (double)load[i];
-        sum[1] += (double)mass[i];
+        stiffness[i] = u[3] * light * light;
+        load[i] = energy + mass[i] * g->soft[i];
+        sum[0] += (double)(energy / (light * light) + mass[i] / light * g->soft[i]); /* as if all were as dense */
+        sum[1] += (double)(mass[i] / light);
     }
 }
 
@@ -221,7 +253,7 @@ static void scale_residual(const Guess *g, size_t begin, size_t end)
     const float *mass = g->world->args.cell_mass;
     const float own = (float)g->world->def.dimension;
     for (size_t i = begin; i < end; i++) {
-        g->better[i] = g->residual[i] / (own + g->soft[i]);
+        g->better[i] = g->residual[i] / (own * lightness_of(g, i) + g->soft[i]);
         g->response[i] = mass[i] * g->residual[i];
     }
 }
@@ -239,18 +271,19 @@ static double precondition(Guess *g)
 /* ---- The solution ---- */
 
 /* By how much the matter in a cell is to grow: liquid too dense, solids crushed. */
-static float growth_of(const KernelArgs *a, float share, size_t cell)
+static float growth_of(const KernelArgs *a, Asked asked, size_t cell)
 {
-    return fminf(share * a->cell_growth[cell], GUESS_GROWTH_MAX) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
+    const float missing = a->cell_growth[cell];
+    const float most = fminf(sqrtf(asked.fallen2 * missing), GUESS_GROWTH_MAX);
+    return fminf(asked.share * missing, most) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
 }
 
 static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
     const KernelArgs *a = &g->world->args;
-    const float share = growth_share(g->world);
     for (size_t i = begin; i < end; i++) {
-        const float r = growth_of(a, share, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        const float r = growth_of(a, g->asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
         g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
@@ -342,10 +375,9 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
 static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
 {
     const KernelArgs *a = &g->world->args;
-    const float share = growth_share(g->world);
     for (size_t i = begin; i < end; i++) {
         const float *u = a->node + i * K_NODE_WIDTH, *base = a->node_base + i * K_NODE_WIDTH, *q = a->node_push + i * K_NODE_WIDTH;
-        const float growth = growth_of(a, share, i), p = a->cell_pressure[i];
+        const float growth = growth_of(a, g->asked, i), p = a->cell_pressure[i];
         float gain = 0.25f * a->cell_mass[i] * p * (growth - 0.5f * a->cell_softness[i] * p);
         for (int k = 0; k < 3; k++) gain += 0.5f * u[3] * (u[k] - base[k]) * (u[k] - base[k]) - q[k] * u[k];
         sum[0] += (double)gain;

@@ -13,6 +13,10 @@
 pbmpm_result guess_prepare(World *world);
 void guess_free(World *world);
 
+/* The density that pressures of cells are measured by, the lightest liquid's; 0 where there is but one, or where no guess but the cells' own iterations
+ * find them, whose steps are safe for multipliers. See cells.isph. */
+double guess_density(const World *world);
+
 /* Prepares the preconditioner. The nodes are used and left in disorder. */
 void guess_begin(World *world, const ContactFrame *contacts);
 

@@ -151,6 +151,14 @@ bool materials_want_volume(const Materials *materials, const Particles *particle
     return false;
 }
 
+double materials_lightest(const Materials *materials, const Particles *particles)
+{
+    double lightest = INFINITY;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (particles->of_material[slot] > 0 && !material_is_solid(materials, slot)) lightest = fmin(lightest, (double)materials->def[slot].density);
+    return lightest < INFINITY ? lightest : 0.0;
+}
+
 double materials_density_contrast(const Materials *materials, const Particles *particles)
 {
     double lightest = INFINITY, densest = 0.0;

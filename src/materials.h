@@ -37,6 +37,9 @@ static inline bool material_flows(const pbmpm_material_def *def) { return def->k
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 
+/* Density of the lightest liquid with particles; 0 without any. */
+double materials_lightest(const Materials *materials, const Particles *particles);
+
 /* Density of the densest liquid with particles over that of the lightest; 1 without any. */
 double materials_density_contrast(const Materials *materials, const Particles *particles);
 

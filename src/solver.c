@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "dual.h"
 #include "explicit.h"
+#include "guess.h"
 #include "multistep.h"
 #include "paper.h"
 #include "plastic.h"
@@ -46,7 +47,7 @@ static double carried_share(const World *world)
 /* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
 static void set_moduli(World *world, float dt)
 {
-    const double cells = (double)dt / (double)world->def.cell_size;
+    const double cells = (double)dt / (double)world->def.cell_size, measure = guess_density(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
         const pbmpm_material_def *def = &world->materials.def[slot];
@@ -54,6 +55,7 @@ static void set_moduli(World *world, float dt)
         material->relaxation = def->relaxation;
         if (material_flows(def)) material->volume_feedback = solver_feedback_share(def, dt);
         double c = 4.0 * cells * cells / (double)def->density;
+        material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
         if (material->kind == K_LIQUID) {
             const bool incompressible = def->bulk_modulus == 0.0f;
             const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_stiffest(world->settings.iterations) : FLT_MAX;

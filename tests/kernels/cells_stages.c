@@ -7,7 +7,7 @@
 #include "check.h"
 #include "dual_stages.h"
 
-enum { CENTRE_ROUNDINGS = 12 }; /* a weight: 3 differences, 3 products; with mass, J and the multiplier 6 more */
+enum { CENTRE_ROUNDINGS = 14 }; /* a weight: 3 differences, 3 products; with mass, lightness, J and the multiplier 8 more */
 
 static size_t node_count(const RefGrid *grid) { return (size_t)grid->size[0] * (size_t)grid->size[1] * (size_t)grid->size[2]; }
 
@@ -47,13 +47,17 @@ static CellSum *sum_cells(const DualStage *stage, Whose whose, Quantities *quant
 
 /* ---- What cells hold ---- */
 
+/* A cell holds the pressure of the lightest liquid; others count by their volume. */
+static double lightness_of(const RefParticle *p) { return (double)p->material.lightness; }
+
 static void first_quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
 {
     const World *world = stage->scene.world;
     const double scale = reference_scale(&stage->scene.step, (double)world->materials.def[world->particles.material[row]].density);
-    value[0] = 1.0;
-    value[1] = p->volume_ratio;
-    value[2] = (double)p->material.inverse_stiffness / (p->volume_ratio * p->volume_ratio);
+    const double light = lightness_of(p);
+    value[0] = light;
+    value[1] = light * p->volume_ratio;
+    value[2] = light * light * (double)p->material.inverse_stiffness / (p->volume_ratio * p->volume_ratio);
     value[3] = 0.5 * scale * (double)world->particles.pressure[row];
 }
 
@@ -114,9 +118,10 @@ static void solid_quantities(const DualStage *stage, uint32_t row, const RefPart
     const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
     const double bulk = reference_scale(&stage->scene.step, (double)def->density) * (lambda + 2.0 * shear / stage->scene.step.dimension);
     const double ratio = fmax(p->volume_ratio, (double)K_LIQUID_RATIO_MIN);
-    value[0] = 1.0;
-    value[1] = ratio;
-    value[2] = 1.0 / (bulk * ratio * ratio);
+    const double light = lightness_of(p);
+    value[0] = light;
+    value[1] = light * ratio;
+    value[2] = light * light / (bulk * ratio * ratio);
     value[3] = 0.0;
 }
 
@@ -182,13 +187,14 @@ void cells_check_push(DualStage *stage)
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
         const RefCentres centres = reference_centres(n, &p);
+        const double light = lightness_of(&p);
         double Y[9] = {0}, S[9], expected = 0.0, bound = 0.0, error = 0.0;
         const bool liquid = p.material.kind == K_LIQUID;
         for (int c = 0; c < centres.count && (liquid || a->cell_strain); c++) {
             const int64_t at = reference_index(&sum, centres.cell[c]);
             const double now = pressure.node[at].mass, change = momentum * (now - old.node[at].mass);
-            expected += centres.weight[c] * (now + change);
-            bound += (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * (fabs(now) + 2.0 * fabs(change)) + FLUSHED;
+            expected += light * centres.weight[c] * (now + change);
+            bound += light * (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * (fabs(now) + 2.0 * fabs(change)) + FLUSHED;
         }
         if (liquid) {
             check_near(expected, (double)a->pressure[i], bound, "pressure of a particle", (long)i);
@@ -221,8 +227,8 @@ static void trace_of(const DualStage *stage, uint32_t row, const RefParticle *p,
     (void)row;
     reference_gather(nodes_now, p, d, D);
     value[0] = 0.0;
-    for (int k = 0; k < nodes_now->dimension; k++) value[0] += D[k * 4];
-    value[1] = nodes_now->dimension * bound_gather(nodes_now, p).D;
+    for (int k = 0; k < nodes_now->dimension; k++) value[0] += lightness_of(p) * D[k * 4];
+    value[1] = lightness_of(p) * nodes_now->dimension * bound_gather(nodes_now, p).D;
 }
 
 /* Sums of h m tr D, of the displacements `nodes`. */

@@ -84,6 +84,30 @@ static void test_an_incompressible_liquid(void)
     world_destroy(world);
 }
 
+/* Cells hold the pressure of the lightest liquid there is, if liquids differ and no iterations of the cells themselves need safe steps. */
+static void test_lightness(void)
+{
+    static const float densities[] = {1000.0f, 200.0f, 50.0f, 10.0f};
+    World *world = open_world(2, 0.1f);
+    const KernelMaterial *material = world->materials.kernel;
+    for (int i = 0; i < 4; i++) {
+        pbmpm_material_def def = material_defaults();
+        def.density = densities[i];
+        def.kind = i == 2 ? PBMPM_ELASTIC : PBMPM_LIQUID;
+        bound_material(world, &def, PBMPM_SOLVER_DUAL, 1.0f / 60);
+    }
+    world->particles.of_material[0] = world->particles.of_material[2] = 1;
+    solver_bind(world, 1.0f / 60, false);
+    for (int i = 0; i < 4; i++) TEST_ASSERT_EQUAL_FLOAT(1.0f, material[i].lightness); /* one liquid has particles */
+    world->particles.of_material[1] = 1;
+    solver_bind(world, 1.0f / 60, false);
+    for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_FLOAT(200.0f / densities[i], material[i].lightness);
+    world->settings.pressure = PBMPM_PRESSURE_CELLS;
+    solver_bind(world, 1.0f / 60, false);
+    for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_FLOAT(1.0f, material[i].lightness);
+    world_destroy(world);
+}
+
 /* Feedback fades in the liquid of the dual and the primal solver where it is slower than 2.4 cells per second. */
 static void test_feedback_of_calm_liquid(void)
 {
@@ -482,6 +506,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_moduli_of_liquids);
     RUN_TEST(test_an_incompressible_liquid);
+    RUN_TEST(test_lightness);
     RUN_TEST(test_feedback_of_calm_liquid);
     RUN_TEST(test_moduli_stay_finite);
     RUN_TEST(test_moduli_of_elastic_bodies);

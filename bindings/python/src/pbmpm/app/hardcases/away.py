@@ -35,21 +35,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             (LIQUID,),
             places=_places("480x20"),
         ),
-        KnownFailure(
-            "two iterations let the heavy liquid bounce on the light one: energy up to 1.003 of the start's",
-            (DUAL,),
-            ("1:10",),
-            (LIQUID,),
-            places=_places("60x2"),
-        ),
-        KnownFailure(
-            "the light liquid, crushed to a twentieth by 10,000 times its weight, cannot lift it in so few iterations and stays below",
-            (DUAL,),
-            ("1:10000",),
-            (LIQUID,),
-            (2,),
-            places=_places("60x20 240x5"),
-        ),
     ),
     "H11": (
         KnownFailure(
