@@ -3,9 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Two nodes, as indices of all nodes: `image` behind the wall, `real` as far before it. */
+/* Two nodes, as indices of all nodes: `image` behind the wall, `real` as far before it. Both have the mass of what pairs before this one mirrored there, too. */
 typedef struct MirrorPair {
     uint32_t image, real;
+    float image_mass, real_mass;
 } MirrorPair;
 
 /* Twice the place of a wall of a mirror domain, in cells. */
@@ -52,7 +53,7 @@ static uint32_t pairs_of_block(const Grid *grid, int32_t block, int axis, int32_
         if (local[axis] != local_behind || !(node[image * K_NODE_WIDTH + 3] > 0.0f)) continue;
         const int64_t real = across(grid, block, local, axis, way);
         if (real < 0 || !(node[real * K_NODE_WIDTH + 3] > 0.0f)) continue;
-        if (out) out[count] = (MirrorPair){(uint32_t)image, (uint32_t)real};
+        if (out) out[count] = (MirrorPair){.image = (uint32_t)image, .real = (uint32_t)real};
         count++;
     }
     return count;
@@ -76,16 +77,46 @@ static uint32_t pairs_of_axis(const Grid *grid, const Domain *domain, double cel
     return lower + pairs_of_wall(grid, domain, cell_size, axis, 1, out ? out + lower : NULL);
 }
 
+/* The nodes at an edge are images of each other behind two walls: all of them move as one, with the mass of all. So each pair hands its mass on to the real node, and
+ * what has done so is not paired again: its mass is marked by its sign until all are found. */
+static void hand_on_masses(const Grid *grid, MirrorPair *pair, uint32_t count)
+{
+    float *node = grid->node.data;
+    for (uint32_t i = 0; i < count; i++) {
+        float *image = node + (size_t)pair[i].image * K_NODE_WIDTH + 3, *real = node + (size_t)pair[i].real * K_NODE_WIDTH + 3;
+        pair[i].image_mass = *image;
+        pair[i].real_mass = *real;
+        *real += *image;
+        *image = -*image;
+    }
+}
+
+static void give_masses_back(const Mirrors *mirrors, const Grid *grid)
+{
+    float *node = grid->node.data;
+    for (int axis = grid->dimension - 1; axis >= 0; axis--) {
+        const MirrorPair *pair = mirrors->pair[axis].data;
+        for (uint32_t i = mirrors->count[axis]; i-- > 0;) {
+            node[(size_t)pair[i].image * K_NODE_WIDTH + 3] = pair[i].image_mass;
+            node[(size_t)pair[i].real * K_NODE_WIDTH + 3] = pair[i].real_mass;
+        }
+    }
+}
+
 bool mirrors_find(Mirrors *mirrors, Memory *memory, const Grid *grid, const Domain *domain, double cell_size)
 {
+    bool found = true;
     mirrors_clear(mirrors);
-    for (int axis = 0; domain->enabled && axis < grid->dimension; axis++) {
+    for (int axis = 0; found && domain->enabled && axis < grid->dimension; axis++) {
         const uint32_t count = pairs_of_axis(grid, domain, cell_size, axis, NULL);
-        if (!array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair))) return false;
-        mirrors->count[axis] = count ? pairs_of_axis(grid, domain, cell_size, axis, mirrors->pair[axis].data) : 0;
+        found = array_reserve(memory, &mirrors->pair[axis], count, sizeof(MirrorPair));
+        if (!found || count == 0) continue;
+        mirrors->count[axis] = pairs_of_axis(grid, domain, cell_size, axis, mirrors->pair[axis].data);
         mirrors->lower[axis] = pairs_of_wall(grid, domain, cell_size, axis, 0, NULL);
+        hand_on_masses(grid, mirrors->pair[axis].data, mirrors->count[axis]);
     }
-    return true;
+    give_masses_back(mirrors, grid);
+    return found;
 }
 
 void mirrors_clear(Mirrors *mirrors)
@@ -113,11 +144,11 @@ bool mirrors_measure(Mirrors *mirrors, Memory *memory, bool measures)
     return true;
 }
 
-static void book_pair(double *booked, const float before[6], const float *image, const float *real)
+static void book_pair(double *booked, const MirrorPair *pair, const float before[6], const float *image, const float *real)
 {
     for (int a = 0; a < 3; a++) {
-        booked[a] = (double)image[3] * ((double)image[a] - (double)before[a]);
-        booked[3 + a] = (double)real[3] * ((double)real[a] - (double)before[3 + a]);
+        booked[a] = (double)pair->image_mass * ((double)image[a] - (double)before[a]);
+        booked[3 + a] = (double)pair->real_mass * ((double)real[a] - (double)before[3 + a]);
     }
 }
 
@@ -161,23 +192,48 @@ void mirrors_close(const Mirrors *mirrors, const Grid *grid, uint8_t *mark)
     }
 }
 
-void mirrors_apply(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark)
+/* Each real node takes the mean of its own motion and its image's. */
+static void meet(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark, int axis)
 {
     const uint32_t cells = (uint32_t)grid->block_cells;
+    const MirrorPair *pair = mirrors->pair[axis].data;
     float *node = grid->node.data;
-    for (int axis = 0; axis < grid->dimension; axis++) { /* one axis after the other: an edge has the image of an image */
-        const MirrorPair *pair = mirrors->pair[axis].data;
-        for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
-            if (mark && !mark[pair[i].real / cells]) continue;
-            float *image = node + (size_t)pair[i].image * K_NODE_WIDTH, *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
-            const float share = image[3] / (image[3] + real[3]), before[6] = {image[0], image[1], image[2], real[0], real[1], real[2]};
-            for (int a = 0; a < grid->dimension; a++) {
-                const float sign = a == axis ? -1.0f : 1.0f;
-                const float mean = real[a] + share * (sign * image[a] - real[a]);
-                real[a] = mean;
-                image[a] = sign * mean;
-            }
-            if (mirrors->books) book_pair((double *)mirrors->booked[axis].data + 6 * (size_t)i, before, image, real);
+    for (uint32_t i = 0; i < mirrors->count[axis]; i++) {
+        if (mark && !mark[pair[i].real / cells]) continue;
+        float *image = node + (size_t)pair[i].image * K_NODE_WIDTH, *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
+        const float before[6] = {image[0], image[1], image[2], real[0], real[1], real[2]};
+        const float share = pair[i].image_mass / (pair[i].image_mass + pair[i].real_mass);
+        for (int a = 0; a < grid->dimension; a++) {
+            const float sign = a == axis ? -1.0f : 1.0f;
+            const float mean = real[a] + share * (sign * image[a] - real[a]);
+            real[a] = mean;
+            image[a] = sign * mean;
         }
+        if (mirrors->books) book_pair((double *)mirrors->booked[axis].data + 6 * (size_t)i, &pair[i], before, image, real);
     }
+}
+
+/* Images follow what their real nodes did at the walls of the axes after. Those walls booked the image as if it had moved along; of its motion
+ * through its own wall the opposite is true. */
+static void follow(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark, int axis)
+{
+    const uint32_t cells = (uint32_t)grid->block_cells;
+    const MirrorPair *pair = mirrors->pair[axis].data;
+    float *node = grid->node.data;
+    for (uint32_t i = mirrors->count[axis]; i-- > 0;) {
+        if (mark && !mark[pair[i].real / cells]) continue;
+        float *image = node + (size_t)pair[i].image * K_NODE_WIDTH;
+        const float *real = node + (size_t)pair[i].real * K_NODE_WIDTH;
+        const double since = (double)real[axis] + (double)image[axis];
+        if (mirrors->books) ((double *)mirrors->booked[axis].data)[6 * (size_t)i + (size_t)axis] -= 2.0 * (double)pair[i].image_mass * since;
+        for (int a = 0; a < grid->dimension; a++) image[a] = a == axis ? -real[a] : real[a];
+    }
+}
+
+/* One axis after the other, as an edge has the image of an image; and back. At an edge the mean over two nodes, and then over two others with shares of their own, is
+ * no orthogonal projection: the walls did work, and pools in a box rolled and swelled without end. */
+void mirrors_apply(const Mirrors *mirrors, const Grid *grid, const uint8_t *mark)
+{
+    for (int axis = 0; axis < grid->dimension; axis++) meet(mirrors, grid, mark, axis);
+    for (int axis = grid->dimension - 2; axis >= 0; axis--) follow(mirrors, grid, mark, axis);
 }

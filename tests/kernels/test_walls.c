@@ -219,6 +219,36 @@ static void check_reflections(const Scene *scene, const Domain *domain, const Re
     check_true(pairs > 10 * scene->step.dimension, "walls have images", pairs);
 }
 
+/* Particles of one mass on a lattice have nodes whose masses are products of one factor per axis: an edge then has the same shares along both its walls. */
+static void make_uneven(Scene *scene, Random *random)
+{
+    Particles *p = &scene->world->particles;
+    for (uint32_t i = 0; i < p->count; i++) p->mass[i] *= (float)random_in(random, 0.2, 2.0);
+}
+
+/* What the walls booked is what the nodes got; walls without friction give nothing along themselves. */
+static void check_books(const Mirrors *mirrors, const RefGrid *before, const RefGrid *after)
+{
+    const size_t count = (size_t)after->size[0] * (size_t)after->size[1] * (size_t)after->size[2];
+    double gained[3] = {0}, booked[3] = {0}, moved = 0.0;
+    for (size_t i = 0; i < count; i++)
+        for (int a = 0; a < after->dimension; a++) {
+            const double change = after->node[i].mass * (after->node[i].u[a] - before->node[i].u[a]);
+            gained[a] += change;
+            moved += fabs(change);
+        }
+    for (int axis = 0; axis < after->dimension; axis++) {
+        const double *book = mirrors->booked[axis].data;
+        double along = 0.0;
+        for (uint32_t i = 0; i < 6 * mirrors->count[axis]; i++) {
+            booked[i % 3] += book[i];
+            if ((int)(i % 3) == (axis + 1) % after->dimension) along += book[i];
+        }
+        check_near(0.0, along, 8.0 * UNIT_ROUNDOFF * moved, "along the wall", axis);
+    }
+    for (int a = 0; a < after->dimension; a++) check_near(gained[a], booked[a], 8.0 * UNIT_ROUNDOFF * moved, "booked", a);
+}
+
 /* The projection is orthogonal in the metric of the masses: what it takes is orthogonal to what it leaves, so it never adds energy, and a second
  * time it changes nothing. */
 static void check_images(int dimension, double shift)
@@ -227,17 +257,22 @@ static void check_images(int dimension, double shift)
     Scene scene = full_box(cpu_isa(), dimension, shift, 2);
     World *world = scene.world;
     const Domain domain = mirror_domain(&world->domain, dimension, CELL);
+    make_uneven(&scene, &random);
     predict(&scene);
+    RefGrid found = scene_nodes(&scene);
     TEST_ASSERT_TRUE(mirrors_find(&world->mirrors, &world->memory, &world->grid, &domain, CELL));
     TEST_ASSERT_TRUE(mirrors_any(&world->mirrors));
+    TEST_ASSERT_TRUE(mirrors_measure(&world->mirrors, &world->memory, true));
     shake(&scene, &random);
     RefGrid before = scene_nodes(&scene);
     mirrors_apply(&world->mirrors, &world->grid, NULL);
     RefGrid after = scene_nodes(&scene);
     check_subject("images", cpu_isa(), dimension);
     check_reflections(&scene, &domain, &after);
+    check_books(&world->mirrors, &before, &after);
     double along = 0.0, energy = 0.0;
     const size_t count = (size_t)after.size[0] * (size_t)after.size[1] * (size_t)after.size[2];
+    for (size_t i = 0; i < count; i++) TEST_ASSERT_TRUE(found.node[i].mass == after.node[i].mass);
     for (size_t i = 0; i < count; i++)
         for (int a = 0; a < dimension; a++) {
             along += after.node[i].mass * (before.node[i].u[a] - after.node[i].u[a]) * after.node[i].u[a];
@@ -246,6 +281,7 @@ static void check_images(int dimension, double shift)
     check_near(0.0, along, 8.0 * UNIT_ROUNDOFF * energy, "orthogonal", 0);
     mirrors_apply(&world->mirrors, &world->grid, NULL);
     RefGrid again = scene_nodes(&scene);
+    reference_grid_free(&found);
     for (size_t i = 0; i < count; i++)
         for (int a = 0; a < dimension; a++) check_near(after.node[i].u[a], again.node[i].u[a], 8.0 * UNIT_ROUNDOFF, "a second time", (long)i);
     reference_grid_free(&before);
