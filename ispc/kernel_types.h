@@ -145,6 +145,8 @@ struct KernelArgs {
                                    sum m w h as fourth value */
     K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
+    K_PTR(float) fed;           /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
+    int32_t may_feed;           /* whether it may give any */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */

@@ -15,6 +15,7 @@ static const double OVERLAP = 2.0;
 static const double ARMIJO = 1e-4;          /* share of the promised decrease of energy that is enough */
 static const double SLOPE_SHARE = 0.8;      /* share of the first slope, either way, that the last one may have */
 static const double SMALLEST_STEP = 1e-6;
+static const double TOO_LONG = 0.4;         /* of the first slope, that the last one may have on the other side where nothing comes after it */
 static const double FAR_FROM_DONE = 0.1;     /* residual over what forces changed */
 static const float LOOSE = 10.0f;            /* stiffness over mass with which a node of a liquid joins half in the levels' corrections */
 static const float JOINS_MIN = 1e-20f;      /* of the levels' corrections: less is none, and no float may overflow */
@@ -33,6 +34,7 @@ pbmpm_result primal_prepare(World *world)
     const bool ok = array_reserve(memory, &state->force, nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->block_energy, 4 * blocks, sizeof(float)) &&
                     array_reserve(memory, &state->accepted_energy, 4 * blocks, sizeof(float)) &&
+                    array_reserve(memory, &state->fed, blocks, sizeof(float)) &&
                     array_reserve(memory, &state->vectors, VECTORS * nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->inverse, nodes, sizeof(float)) &&
                     array_reserve(memory, &state->sums, SUMS * blocks, sizeof(double)) &&
@@ -46,7 +48,7 @@ pbmpm_result primal_prepare(World *world)
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->inverse, &s->sums, &s->body_sums};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->sums, &s->body_sums};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -72,6 +74,7 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
     }
     world->args.node_force = p.force;
     world->args.block_energy = state->block_energy.data;
+    world->args.fed = state->fed.data;
     return p;
 }
 
@@ -359,21 +362,29 @@ static bool is_good(const Primal *p)
     return rounding && p->slope_before < 0.0 && fabs(p->slope_after) <= SLOPE_SHARE * fabs(p->slope_before);
 }
 
+/* Whether the step went far beyond the lowest point on its way. */
+static bool is_too_long(const Primal *p) { return p->slope_after > TOO_LONG * fabs(p->slope_before); }
+
 /* How much of a step that was too long is tried next: where the slope would vanish if it changed evenly. */
 static float shorter(const Primal *p)
 {
     const double vanishes = p->slope_before / (p->slope_before - p->slope_after);
-    return isfinite(vanishes) ? (float)fmin(0.5, fmax(0.1, vanishes)) : 0.1f;
+    return isfinite(vanishes) ? (float)fmin(is_good(p) ? 1.0 : 0.5, fmax(0.1, vanishes)) : 0.1f;
 }
 
-/* Follows the direction, with at most *passes evaluations. False if nothing was found. */
+/* Follows the direction, with at most `most` evaluations. False if nothing was found. A single iteration of a liquid has no other after it that mends what
+ * it did too much of: with one more evaluation it is shortened. */
 static bool descend(Primal *p, uint32_t *passes, uint32_t most)
 {
+    bool last = *passes == 0 && most == 1 && solver_holds_liquid(p->world);
     for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
         primal_over_blocks(p, try_step);
         primal_evaluate(p);
         ++*passes;
-        if (!is_good(p)) continue;
+        const bool shortens = last && is_good(p) && is_too_long(p);
+        if (shortens) most++;
+        last = false;
+        if (shortens || !is_good(p)) continue;
         primal_accept(p, true);
         return true;
     }

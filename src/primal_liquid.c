@@ -46,11 +46,40 @@ static bool all_can_pay(Primal *p)
     return can;
 }
 
+/* A kg cell^2 / substep^2 in Joule. */
+static double joule(const World *world)
+{
+    const double cells = (double)world->args.dt * (double)world->args.cells_per_metre;
+    return 1.0 / (cells * cells);
+}
+
+/* Volume feedback that lowers J stores energy that nothing paid for, and later substeps turn it into motion: a column that slumped gained 1.5 % by it.
+ * What it brings back is volume that was lost, with the energy that went with it: so in all it may store what solutions have lost. */
+static void earn(Primal *p)
+{
+    const BodySum *body = p->world->primal.body_sums.data;
+    double lost = 0.0;
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
+        if (body[i].with_liquid) lost += fmax(0.0, body[i].before + body[i].work - body[i].after);
+    p->world->primal.credit += lost * joule(p->world);
+    p->world->args.may_feed = p->world->primal.credit > 0.0;
+}
+
+static void spend(World *world)
+{
+    const float *fed = world->primal.fed.data;
+    double sum = 0.0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+        if (!sleep_is_still(world, block)) sum += (double)fed[block];
+    world->primal.credit -= sum * joule(world);
+}
+
 void primal_find_kept(Primal *p)
 {
     enum { HALVINGS = 3 };
     if (!solver_holds_liquid(p->world)) return;
     for (int halving = 0; halving <= HALVINGS && !all_can_pay(p); halving++) primal_pull_back_to(p, halving < HALVINGS ? 0.5f : 0.0f);
+    earn(p);
 }
 
 static float kept_of(const BodySum *body, int axis, float u)
@@ -99,5 +128,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
 
 void primal_calm(World *world)
 {
-    if (solver_holds_liquid(world)) pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
+    if (!solver_holds_liquid(world)) return;
+    spend(world);
+    pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }

@@ -184,13 +184,14 @@ typedef struct Counters {
     double simulated_seconds;
     double slow_dt, slow_iterations;
     uint64_t strain_unchecked;
+    double credit;
 } Counters;
 
 static void save_counters(const World *world, SnapshotOut *out)
 {
     const Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                                world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                               world->strain_unchecked};
+                               world->strain_unchecked,  world->primal.credit};
     snapshot_put(out, &counters, sizeof counters);
 }
 
@@ -211,6 +212,7 @@ static void load_counters(World *world, SnapshotIn in)
     world->slow_dt = counters.slow_dt;
     world->slow_iterations = counters.slow_iterations;
     world->strain_unchecked = counters.strain_unchecked != 0;
+    world->primal.credit = counters.credit;
 }
 
 /* ---- Colliders: matched by slot and kind; poses and targets are loaded ---- */

@@ -68,6 +68,8 @@ typedef struct PrimalState {
     Array force, block_energy; /* see KernelArgs */
     Array vectors;             /* all other vectors, see primal.c */
     Array accepted_energy;     /* of the accepted displacements, as block_energy */
+    Array fed;                 /* see KernelArgs */
+    double credit;             /* [J] what solutions with liquid lost and volume feedback has not stored yet: see primal_liquid.c */
     Array inverse;             /* per node 1 / (m + k) */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */

@@ -74,7 +74,9 @@ typedef struct pbmpm_material_def {
                                      nothing.
                                      Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
                                      liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
-                                     by less than 0.3: there the noise of particles' places would stir it. Visco gives up volume only where
+                                     by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it
+                                     stores in a world's liquids, by lowering J where the grid holds up to 1.5 times the rest volume, is never
+                                     more than what solutions lost. Visco gives up volume only where
                                      the grid holds more than 1.5 times its rest volume, as clay does that creeps for long, and det F is above 0.67,
                                      by this share per 1/60 s with every solver */
     float elasticity_ratio;     /**< elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1 */

@@ -9,7 +9,7 @@ extern "C" {
 #endif
 
 enum {
-    PBMPM_SNAPSHOT_VERSION = 2 /**< of the format that this library writes, and the only one it reads */
+    PBMPM_SNAPSHOT_VERSION = 3 /**< of the format that this library writes, and the only one it reads */
 };
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in

@@ -50,7 +50,7 @@ namespace Pbmpm
         /// <summary>per world</summary>
         public const int MaxForces = 64;
         /// <summary>of the format that this library writes, and the only one it reads</summary>
-        public const int SnapshotVersion = 2;
+        public const int SnapshotVersion = 3;
     }
 
     /// <summary>What a call came to. Zero is success; everything else left the world as it was before the call, except
@@ -459,7 +459,9 @@ namespace Pbmpm
         /// nothing.
         /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
         /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
-        /// by less than 0.3: there the noise of particles' places would stir it. Visco gives up volume only where
+        /// by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it
+        /// stores in a world's liquids, by lowering J where the grid holds up to 1.5 times the rest volume, is never
+        /// more than what solutions lost. Visco gives up volume only where
         /// the grid holds more than 1.5 times its rest volume, as clay does that creeps for long, and det F is above 0.67,
         /// by this share per 1/60 s with every solver</summary>
         public float VolumeFeedback;

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .case import DUAL, ELASTIC, LIQUID, PAPER, PRIMAL, KnownFailure
+from .case import DUAL, ELASTIC, LIQUID, PAPER, KnownFailure
 
 Places = tuple[tuple[float, int], ...]
 
@@ -12,19 +12,7 @@ def _places(text: str) -> Places:
     return tuple((float(rate), int(count)) for rate, _, count in (word.partition("x") for word in text.split()))
 
 
-_SLOT = ("trapped between boxes",)
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
-    "H01": (
-        KnownFailure(
-            "a column that slumps gains 0.9 %, more than the solution loses, from what volume feedback stores where it lowers J: energy 1.0012 of the start's, 1.001 are"
-            " asked for",
-            (PRIMAL,),
-            ("small column",),
-            (LIQUID,),
-            (2,),
-            places=_places("30x5"),
-        ),
-    ),
     "H09": (
         KnownFailure(
             "four volumes per cell (eight in 3D) that 9,600 iterations per second hold leave the two (three) velocities per node little freedom (volumetric locking:"
@@ -44,16 +32,6 @@ KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
             materials=(ELASTIC,),
             dimensions=(2,),
             places=_places("15x5 15x10"),
-        ),
-    ),
-    "H16": (
-        KnownFailure(
-            "an unfinished solution flings a droplet by up to 1 % faster than the liquid's sound and the boxes",
-            (PRIMAL,),
-            _SLOT,
-            (LIQUID,),
-            (3,),
-            places=_places("15x1"),
         ),
     ),
 }
