@@ -101,15 +101,18 @@ static void bind_cells(World *world)
     a->cell_relaxation = smallest_relaxation(world);
 }
 
-/* The largest growth per substep that crushed liquid is asked for, and in 1/60 s. What grows by a share per substep moves faster the shorter the substep
- * is: a sheet of liquid that was let go at 480 Hz grew 1.3-fold in each, up to 45 m/s at its edges. Liquid that stores no energy has no speed of its own to leave at. One
- * that bears a heavier one leaves faster, by the root of their densities (Torricelli). */
+/* The largest growth that crushed liquid is asked for in 1/60 s, and per substep of a single iteration. What grows by a share per substep moves faster the
+ * shorter the substep is: a sheet of liquid that was let go at 480 Hz grew 1.3-fold in each, up to 45 m/s at its edges. Liquid that stores no energy has no speed of
+ * its own to leave at. One that bears a heavier one leaves faster, by the root of their densities (Torricelli). But little of what a single iteration asks for
+ * comes: a growth that is asked for everywhere pushes surfaces alone. Its pressure is what it asks for times its stiffness, and a bound of the one bounds the other: a
+ * column at 240 Hz x 1 sank by 59 %, not 18 %. The stiffness of accelerated iterations grows with N^2; so N may ask for that much less. */
 static const double GROWTH_MAX = 0.3;
 
 static float growth_max(const World *world)
 {
     const double heavier = materials_density_contrast(&world->materials, &world->particles);
-    return (float)(GROWTH_MAX * fmin(1.0, 60.0 * (double)world->args.dt * sqrt(heavier)));
+    const double in_time = 60.0 * (double)world->args.dt * sqrt(heavier), iterations = (double)world->settings.iterations;
+    return (float)(GROWTH_MAX * fmin(1.0, fmax(in_time, 1.0 / (iterations * iterations))));
 }
 
 /* The multipliers of elastic particles and what an iteration changed need memory for this substep only: the spare arrays, which

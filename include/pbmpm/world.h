@@ -43,7 +43,9 @@ typedef struct pbmpm_world_def {
 typedef enum pbmpm_solver {
     PBMPM_SOLVER_PAPER = 0,      /**< the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt */
     PBMPM_SOLVER_DUAL = 1,       /**< backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
-                                      liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart. */
+                                      liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
+                                      Crushed liquid is asked to grow by at most 0.3 in 1/60 s (per substep, if that is longer), faster below
+                                      denser liquid, and by at most 0.3 / N^2 per substep where that is more: N iterations hold less. */
     PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
                                       preconditioner and a check that no body gains energy. A liquid takes part as a
                                       compressible one; what its unfinished solution gains is taken from its speed, so one that is far

@@ -150,7 +150,9 @@ namespace Pbmpm
         /// <summary>the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt</summary>
         Paper = 0,
         /// <summary>backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
-        /// liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.</summary>
+        /// liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
+        /// Crushed liquid is asked to grow by at most 0.3 in 1/60 s (per substep, if that is longer), faster below
+        /// denser liquid, and by at most 0.3 / N^2 per substep where that is more: N iterations hold less.</summary>
         Dual = 1,
         /// <summary>the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
         /// preconditioner and a check that no body gains energy. A liquid takes part as a
