@@ -17,6 +17,7 @@ from pbmpm.app.accuracy import laws
 from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case, rest
 from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
 from pbmpm.app.hardcases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
+from pbmpm.app.hardcases.contrast import overturn_seconds
 from pbmpm.app.hardcases.energy import energy_density
 from pbmpm.app.hardcases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
 from pbmpm.app.hardcases.volume import RECOVERED_SHARE
@@ -215,6 +216,40 @@ def test_a_light_block_that_bears_the_heavy_one_is_judged_by_the_height(solver: 
     checks = find_case("H09").function(Setting("elastic", 2, "1:1000", rate_hz, iterations, solver=solver))
     assert "highest place over the start's height" in {check.name for check in checks}
     assert all(check.passed for check in checks), checks
+
+
+def test_stiff_liquids_of_the_paper_do_not_lock() -> None:
+    """Each particle held its own volume: what flowed bent like a jelly, and the liquids took 21 s."""
+    setting = Setting("liquid", 2, "1:10", 480, 20, solver="paper")
+    checks = find_case("H09").function(setting)
+    assert "mean height of the heavy liquid over that of the light one" in {check.name for check in checks}
+    assert all(check.passed for check in checks), checks
+
+
+@pytest.mark.parametrize(
+    ("solver", "dimension", "iterations", "seconds"),
+    [("paper", 2, 5, 10.0), ("paper", 2, 20, 11.6), ("paper", 3, 20, 44.1), ("dual", 3, 20, 10.0)],
+)
+def test_liquids_get_time_to_change_places_by_what_damps_them(solver: str, dimension: int, iterations: int, seconds: float) -> None:
+    assert overturn_seconds(Setting("liquid", dimension, "1:10", 480, iterations, solver=solver)) == pytest.approx(seconds, rel=0.01)
+
+
+@pytest.mark.parametrize(("cells", "rate_hz", "iterations"), [(12, 60.0, 5), (12, 480.0, 20), (16, 60.0, 20), (16, 480.0, 20)])
+def test_transfers_damp_a_vortex_as_the_law_says(cells: int, rate_hz: float, iterations: int) -> None:
+    """Of a liquid that is soft, so that constraints hardly matter, between walls without friction."""
+    wave_number, seconds = math.pi / cells, 0.05
+    axis = 0.5 * np.arange(2 * cells) + 0.25
+    places = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
+    x, y = wave_number * places.T
+    vortex = np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], axis=1)
+    with pbmpm.World(2, 1.0, capacity=len(places), domain=([0.0, 0.0], [cells, cells]), iterations=iterations) as world:
+        world.add_particles(world.add_material(pbmpm.Liquid(relaxation=0.01)), places, velocities=0.01 * vortex)
+        energies = []
+        for _ in range(max(3, round(seconds * rate_hz))):
+            world.step(1.0 / rate_hz)
+            energies.append(world.stats.kinetic_energy)
+    measured = -0.5 * math.log(energies[-1] / energies[0]) * rate_hz / (len(energies) - 1)
+    assert measured == pytest.approx(laws.transfer_damping(wave_number, 1.0, 1.0 / rate_hz, iterations), rel=0.2)
 
 
 @pytest.mark.parametrize(("stretch", "relaxation", "rebound_max"), [(0.1, 1.5, 1.0), (0.7, 1.5, 1.0), (0.05, 1.0, 0.3), (0.2, 1.9, 10.0)])

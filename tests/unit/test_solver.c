@@ -386,6 +386,26 @@ static void test_volume_feedback_is_a_share_per_second(void)
         }
 }
 
+/* The paper's liquid is evened out in its cells where gravity could not move it: by all of the feedback's share at twice that stiffness,
+ * w N dx / (g dt^2). */
+static void test_stiff_liquid_is_evened_out(void)
+{
+    static const double stiffness[] = {275.0, 1.4e5, 2.25e5, 3.1e5, 1e9}, share[] = {0.0, 0.0, 0.05, 0.1, 0.1};
+    for (int i = 0; i < 5; i++) {
+        World *world = open_world(2, 1.0f);
+        const pbmpm_material_def def = material_defaults();
+        const double gravity = 1.5 * 20.0 * 480.0 * 480.0 / stiffness[i];
+        world->settings.iterations = 20;
+        world->slow_iterations = 20.0;
+        world->settings.gravity[1] = (float)-gravity;
+        TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)share[i], bound_material(world, &def, PBMPM_SOLVER_PAPER, 1.0f / 480.0f)->even_share);
+        world->settings.gravity[1] = 0.0f;
+        solver_bind(world, 1.0f / 480.0f, false);
+        TEST_ASSERT_EQUAL_FLOAT(0.0f, world->materials.kernel[0].even_share);
+        world_destroy(world);
+    }
+}
+
 /* ---- Stop rules ---- */
 
 typedef struct Rule {
@@ -519,6 +539,7 @@ int main(void)
     RUN_TEST(test_rounds_of_solids_among_liquids);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
+    RUN_TEST(test_stiff_liquid_is_evened_out);
     RUN_TEST(test_stop_rules);
     RUN_TEST(test_the_predicted_error_lies_between_its_bounds);
     RUN_TEST(test_the_predicted_error_of_one_mode);

@@ -458,7 +458,7 @@ namespace Pbmpm
         public float Viscosity;
         /// <summary>liquid, visco: share per substep by which J follows the volume measured on the grid where
         /// that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
-        /// nothing.
+        /// nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
         /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
         /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
         /// by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it

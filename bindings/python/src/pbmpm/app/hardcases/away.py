@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from .case import DUAL, ELASTIC, LIQUID, PAPER, KnownFailure
+from .case import DUAL, ELASTIC, KnownFailure
 
 Places = tuple[tuple[float, int], ...]
 
@@ -13,17 +13,6 @@ def _places(text: str) -> Places:
 
 
 KNOWN_AWAY: dict[str, tuple[KnownFailure, ...]] = {
-    "H09": (
-        KnownFailure(
-            "four volumes per cell (eight in 3D) that 9,600 iterations per second hold leave the two (three) velocities per node little freedom (volumetric locking:"
-            " C. Mast et al., J. Comp. Phys. 231, 2012): the liquids act like a jelly and change places after 21 s in 2D, in 3D not in 34 s; 10 s are asked for. With a"
-            " relaxation of 0.1 instead of 1.5 they do in 8 s in 2D",
-            (PAPER,),
-            ("1:10",),
-            (LIQUID,),
-            places=_places("480x20"),
-        ),
-    ),
     "H11": (
         KnownFailure(
             "a body that bears its weight is asked for three times what 10 iterations hold (most_asked() in src/dual.c). Crushed by its fall it keeps strains that its"
