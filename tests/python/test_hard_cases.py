@@ -107,6 +107,13 @@ def test_a_swing_gains_nothing_while_the_body_stiffens() -> None:
     assert outcome.passed, outcome.description
 
 
+@pytest.mark.parametrize("iterations", [5, 10])
+def test_a_body_crushed_by_long_steps_stands_no_higher_once_stiff(iterations: int) -> None:
+    """With all that bodies are asked for where falls per substep are short: 1.01 and 1.02 of the start's energy."""
+    outcome = find_case("H11").run(Setting("elastic", 2, "plain", 15, iterations, solver="dual"))
+    assert outcome.passed, outcome.description
+
+
 @pytest.mark.parametrize(("rate_hz", "iterations"), [(15, 2), (30, 10), (30, 20), (60, 1), (120, 2)])
 def test_liquid_let_go_from_between_walls_does_not_burst(rate_hz: float, iterations: int) -> None:
     """On the grid a sheet between walls that have closed is as dense when it is twice as wide: what pressed on until J followed threw it out at
