@@ -124,6 +124,24 @@ static void test_a_sealed_snapshot_is_taken(void)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
 }
 
+/* What steps remember beside the particles: a step's length and iterations before they changed, and what the primal solver's solutions lost. */
+static void test_what_steps_remember_comes_back(void)
+{
+    open_world(2);
+    world->slow_dt = 0.02;
+    world->slow_iterations = 3.5;
+    world->primal.credit = 42.5;
+    world->strain_unchecked = true;
+    snapshot_save(world, snapshot);
+    world->slow_dt = world->slow_iterations = world->primal.credit = 0.0;
+    world->strain_unchecked = false;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, snapshot_restore(world, snapshot, bytes));
+    TEST_ASSERT_EQUAL_DOUBLE(0.02, world->slow_dt);
+    TEST_ASSERT_EQUAL_DOUBLE(3.5, world->slow_iterations);
+    TEST_ASSERT_EQUAL_DOUBLE(42.5, world->primal.credit);
+    TEST_ASSERT_TRUE(world->strain_unchecked);
+}
+
 static void test_other_versions_and_sections(void)
 {
     open_world(2);
@@ -221,6 +239,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_a_sealed_snapshot_is_taken);
+    RUN_TEST(test_what_steps_remember_comes_back);
     RUN_TEST(test_other_versions_and_sections);
     RUN_TEST(test_false_particles);
     RUN_TEST(test_random_forgeries_do_no_harm);
