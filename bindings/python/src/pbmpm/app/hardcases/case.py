@@ -198,10 +198,6 @@ class KnownFailure:
     solvers: tuple[str, ...]
     variants: tuple[str, ...] | None = None
     materials: tuple[str, ...] | None = None
-    dimensions: tuple[int, ...] | None = None
-    rates: tuple[float, ...] | None = None
-    most_iterations: int | None = None
-    places: tuple[tuple[float, int], ...] | None = None  #: rates with iterations, where no rule says which
 
     def covers(self, setting: Setting) -> bool:
         """Whether a setting is one of them."""
@@ -209,10 +205,6 @@ class KnownFailure:
             setting.solver in self.solvers
             and (self.variants is None or setting.variant in self.variants)
             and (self.materials is None or setting.material in self.materials)
-            and (self.dimensions is None or setting.dimension in self.dimensions)
-            and (self.rates is None or setting.rate_hz in self.rates)
-            and (self.most_iterations is None or setting.iterations <= self.most_iterations)
-            and (self.places is None or (setting.rate_hz, setting.iterations) in self.places)
         )
 
 

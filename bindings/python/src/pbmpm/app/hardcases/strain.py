@@ -201,12 +201,6 @@ def degenerate(setting: Setting) -> list[Check]:
 
 
 _UNSTABLE = KnownFailure("sound travels two cells per step at 60 Hz", solvers=(EXPLICIT,), variants=(SCRAMBLE_RANDOM,))
-_TREMBLING = KnownFailure(
-    "with one iteration lone elastic particles tremble for ever when the relaxation is above 4/3",
-    solvers=(PAPER,),
-    variants=("flat F", "zero F", "reflected F", "clamp"),
-    most_iterations=1,
-)
 
 CASES = (
     HardCase(
@@ -218,7 +212,7 @@ CASES = (
         scramble,
         materials=(ELASTIC,),
         variants=(SCRAMBLE_RANDOM, SCRAMBLE_SHARED, SCRAMBLE_APART, "flat F", "zero F", "reflected F", SCRAMBLE_MOVED),
-        known_failures=(_UNSTABLE, _TREMBLING),
+        known_failures=(_UNSTABLE,),
     ),
     HardCase(
         "H06",
@@ -228,6 +222,5 @@ CASES = (
         degenerate,
         materials=(ELASTIC,),
         variants=("clamp", "delete"),
-        known_failures=(_TREMBLING,),
     ),
 )
