@@ -335,12 +335,20 @@ static double weight_stiffness(const World *world, double substep)
     return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
-/* More would be more than they stop: stiff bodies that fall would come to tremble. A single iteration lets no particle answer another. */
-static const double ASKED_PER_ITERATION = 5.0;
-
-static double most_asked(double iterations)
+/* More would be more than they stop: stiff bodies that fall would come to tremble. And half of it where a body falls by 0.2 cells per substep or more: what
+ * the iterations do not hold is crushed by as much at once, unevenly, and its particles go on holding strains against each other (J 0.2 off the mean). The
+ * stiffer they are held, the higher the body stands once iterations rise: asked for 5 at 15 Hz x 10 by 2 to 10 % of the energy it fell with (cells of 0.2 m,
+ * eight seedings), asked for 2.5 by 0.6 % at most. */
+static double asked_per_iteration(const World *world, double substep)
 {
-    return ASKED_PER_ITERATION * iterations * fmax(0.0, fmin(1.0, iterations - 1.0)); /* without a leap where iterations are raised slowly */
+    static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
+    return fmax(LEAST, MOST * SHORT_FALL / fmax(fall_of(world, substep), SHORT_FALL));
+}
+
+/* A single iteration lets no particle answer another. */
+static double most_asked(double each, double iterations)
+{
+    return each * iterations * fmax(0.0, fmin(1.0, iterations - 1.0)); /* without a leap where iterations are raised slowly */
 }
 
 /* What n iterations ask for is M = (n / 2.5)^2, or most_asked() where that is more, which near n = 1 is thirty times as steep as n. So it is M that may rise by
@@ -349,21 +357,13 @@ static double most_asked(double iterations)
  * E. Lifshitz, Mechanics, 1976, section 49), the root of M: by exp(1/6) per swing. Backward Euler takes from it the share (2 pi / T)^2 per substep of the T that a
  * swing has, exp(-4 pi^2 / T) per swing, which is exp(-1/4) at n = 1, T = 160, and more from there on. In one swing it would grow by exp(1/2), in two by as
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
-double dual_stiffened(double iterations)
+double dual_stiffened(const World *world, double substep, double iterations)
 {
     static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0;
-    const double root = iterations / DUAL_ITERATIONS_PER_ROOT;
-    const double risen = fmax(root * root, most_asked(iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
-    const double for_weight = risen / ASKED_PER_ITERATION; /* n (n - 1) up to n = 2, n from there on */
+    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, substep);
+    const double risen = fmax(root * root, most_asked(each, iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
+    const double for_weight = risen / each; /* n (n - 1) up to n = 2, n from there on */
     return fmin(DUAL_ITERATIONS_PER_ROOT * sqrt(risen), for_weight < 2.0 ? 0.5 + sqrt(0.25 + for_weight) : for_weight);
-}
-
-/* Half of it bodies are asked for that fall by 0.2 cells per substep or more: what the iterations do not hold is crushed by as much at once, unevenly, and its
- * particles go on holding strains against each other (J 0.2 off the mean). The stiffer they are held, the higher the body stands once iterations rise: with
- * all of it at 15 Hz x 10 by 2 to 10 % of the energy it fell with (cells of 0.2 m, eight seedings), with half of it by 0.6 % at most. */
-static double borne_share(double fall)
-{
-    return fmax(0.5, fmin(1.0, 0.1 / fmax(fall, 1e-12)));
 }
 
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
@@ -372,6 +372,6 @@ double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, dou
     if (solver_holds_liquid(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;
-    const double asked = borne_share(fall_of(world, substep)) * most_asked(iterations);
+    const double asked = most_asked(asked_per_iteration(world, substep), iterations);
     return fmax(share, fmin(1.0, fmin(weight_stiffness(world, substep), asked) / stiffness));
 }

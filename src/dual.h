@@ -32,7 +32,7 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, d
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);
 
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
-double dual_stiffened(double iterations);
+double dual_stiffened(const World *world, double substep, double iterations);
 
 /* The longest relaxation that solids stay calm with in so many iterations. */
 float dual_longest_relaxation(int iterations);

@@ -84,11 +84,11 @@ static void set_moduli(World *world, float dt)
  * rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is (1 - 1/r) of what it held, whatever r is. Slowly: by
  * about the factor e in the time in which its waves cross it twice. With the paper's solver, where M goes with N, they travel sqrt(w N) / 2 cells per
  * substep, so a block of 8 cells takes 26 substeps for N = 1; for the dual see dual_stiffened(). Fewer iterations soften at once. */
-static void follow_iterations(World *world)
+static void follow_iterations(World *world, float dt)
 {
     static const double GROWTH = 1.04; /* per substep */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = world->record.solver == PBMPM_SOLVER_DUAL ? dual_stiffened(before) : GROWTH * before;
+    const double risen = world->record.solver == PBMPM_SOLVER_DUAL ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -138,7 +138,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
-    follow_iterations(world);
+    follow_iterations(world, dt);
     if (world->record.solver == PBMPM_SOLVER_PAPER)
         paper_set_materials(world, dt);
     else
