@@ -67,6 +67,11 @@ double gravity_strength(const World *world)
     return sqrt(square);
 }
 
+double gravity_fall(const World *world, double substep)
+{
+    return gravity_strength(world) * substep * substep / (double)world->def.cell_size;
+}
+
 double matter_depth(const World *world)
 {
     const double strength = gravity_strength(world);

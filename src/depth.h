@@ -18,4 +18,7 @@ double slowest_pressure(const World *world);
 /* |g| [m/s^2]. */
 double gravity_strength(const World *world);
 
+/* What gravity moves matter by in a substep: |g| dt^2 / dx [cells]. */
+double gravity_fall(const World *world, double substep);
+
 #endif

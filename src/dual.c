@@ -323,15 +323,9 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, d
  * pressure there is 4 g dt^2/dx per cell of depth. */
 static const double WEIGHT_STRAIN = 0.05;
 
-/* What gravity moves matter by in a substep [cells]. */
-static double fall_of(const World *world, double substep)
-{
-    return gravity_strength(world) * substep * substep / (double)world->def.cell_size;
-}
-
 static double weight_stiffness(const World *world, double substep)
 {
-    const double fall = fall_of(world, substep);
+    const double fall = gravity_fall(world, substep);
     return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
@@ -342,7 +336,7 @@ static double weight_stiffness(const World *world, double substep)
 static double asked_per_iteration(const World *world, double substep)
 {
     static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
-    return fmax(LEAST, MOST * SHORT_FALL / fmax(fall_of(world, substep), SHORT_FALL));
+    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
 }
 
 /* A single iteration lets no particle answer another. */

@@ -60,7 +60,7 @@ typedef struct Asked {
  * iterations after the guess ask for the rest. */
 static Asked asked_of(const World *world)
 {
-    const double dt = (double)world->args.dt, fall = gravity_strength(world) * dt * dt / (double)world->def.cell_size;
+    const double fall = gravity_fall(world, (double)world->args.dt);
     const bool gives_way = materials_density_contrast(&world->materials, &world->particles) > 1.0 && fall > 0.0;
     return (Asked){fminf(1.0f, 60.0f * world->args.dt), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
 }

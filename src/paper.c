@@ -94,7 +94,7 @@ static double pressure_bound(const World *world, const KernelMaterial *material,
 static float even_share(const World *world, const KernelMaterial *material, float dt)
 {
     static const double LOCKS = 1.5e5;
-    const double fall = gravity_strength(world) * (double)dt * (double)dt / (double)world->def.cell_size;
+    const double fall = gravity_fall(world, (double)dt);
     const double stiffness = (double)material->relaxation * world->settings.iterations / fmax(fall, 1e-12);
     const double share = fall > 0.0 ? fmin(fmax(stiffness / LOCKS - 1.0, 0.0), 1.0) : 0.0;
     return (float)share * material->volume_feedback;

@@ -147,14 +147,12 @@ def _overturn(setting: Setting) -> list[Check]:
         is_light = places[:, 1] < side + wave
         for material, rows in ((light, is_light), (heavy, ~is_light)):
             world.add_particles(material, places[rows], volumes=(CELL / LATTICE_PARTICLES) ** setting.dimension)
-        watch, start, peak, steps = Watch(world), potential_energy(world), 0.0, 0
-        is_judged = crushed_share(setting, side) < CRUSHED_MAX
+        watch, is_judged = Watch(world), crushed_share(setting, side) < CRUSHED_MAX
         longest = overturn_seconds(setting) if is_judged else OVERTURN_SECONDS
-        while steps < round(OVERTURN_SECONDS / setting.dt) or (steps < longest / setting.dt and _order(world, heavy, light) > 1.0):
-            peak = max(peak, total_energy(watch.step(setting.dt)) / start)
-            steps += 1
+        energy = highest_energy(
+            watch, OVERTURN_SECONDS, setting.dt, longest=longest, is_over=lambda: _order(world, heavy, light) <= 1.0
+        )
         order = Check("mean height of the heavy liquid over that of the light one", _order(world, heavy, light), 1.0, kind=Kind.GOAL)
-        energy = Check("highest energy over the start's", peak, 1.0 + ENERGY_SLACK)
         return [energy, *([order] if is_judged else []), *watch.checks()]
 
 
