@@ -151,6 +151,14 @@ double reference_held(const RefStep *step, const RefGrid *grid, const RefParticl
     return fmin(held, fmax(1.0, mass * (double)p->material.inverse_density));
 }
 
+double reference_strain(int n, const double D[9])
+{
+    double sum = 0.0;
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) sum += pow(0.5 * (D[r * 3 + c] + D[c * 3 + r]), 2.0);
+    return sqrt(sum);
+}
+
 /* ---- Materials ---- */
 
 /* J (1 + tr D) = 1. A compression that goes on is stopped in full; of growth no more than rebound_max is asked for, and it presses
@@ -239,6 +247,13 @@ static void nudge(const RefStep *step, RefParticle *p)
         p->fraction[a] += 0.05 * random_looking(p->identity * 0x9e3779b9u + step->salt * 0x85ebca6bu + (uint32_t)a);
 }
 
+/* What J is multiplied with so that those of a block come to claim what the grid has. What was crushed is left out. */
+static double control(const RefStep *step, const RefGrid *grid, const RefParticle *p, const double D[9])
+{
+    const double share = fmin(100.0 * reference_strain(step->dimension, D), (double)p->material.volume_share);
+    return reference_compression(grid, p) > REF_CRUSHED ? 1.0 : 1.0 - share * step->excess;
+}
+
 /* J follows tr D. With feedback, where the grid shows compression, it moves a share of the way to the room that the grid has if
  * it claims more or far less, and never exceeds that where matter is crowded. */
 static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
@@ -246,6 +261,7 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     const double feedback = (double)p->material.volume_feedback;
     double ratio = p->volume_ratio * (1.0 + matrix_trace(step->dimension, D));
     if (step->with_volume && feedback > 0.0) {
+        ratio *= control(step, grid, p, D);
         const double held = reference_compression(grid, p);
         const double seen = fmin(REF_COMPRESSED / held, 1.0);
         if ((seen < 1.0 && ratio > seen) || ratio < REF_STALE * seen) ratio += feedback * (seen - ratio);
@@ -300,6 +316,7 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
         double densest = 0.0;
         for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
         const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
+        ratio = fmin(control(step, grid, p, D) * ratio, LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
         if (held > REF_CROWDED) {
@@ -364,10 +381,58 @@ static void keep_fine_motion(const RefStep *step, const RefParticle *p, const do
     }
 }
 
+double reference_sparsest(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double least = INFINITY;
+    for (int i = 0; i < s.count; i++) least = fmin(least, grid->node[reference_index(grid, s.node[i])].volume);
+    return least;
+}
+
+double reference_excess(const RefGrid *grid, const RefParticle *p, uint32_t count)
+{
+    double claimed = 0.0, there = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        if (p[i].material.kind != K_LIQUID || p[i].material.volume_share == 0.0f || reference_sparsest(grid, &p[i]) <= REF_INNER) continue;
+        const double rest = p[i].mass * (double)p[i].material.inverse_density, held = reference_compression(grid, &p[i]);
+        if (held > REF_CRUSHED) continue;
+        claimed += rest * p[i].volume_ratio;
+        there += rest / held;
+    }
+    return there > 0.0 ? fmin(fmax(claimed / there - 1.0, -0.05), 0.05) : 0.0;
+}
+
+double reference_shift(const RefGrid *grid, const RefParticle *p, const double D[9], double shift[3])
+{
+    const double share = fmin(4.0 * reference_strain(grid->dimension, D), 0.1);
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double size = 0.0;
+    for (int c = 0; c < grid->dimension; c++) {
+        double gradient = 0.0, sizes = 0.0;
+        for (int i = 0; i < s.count; i++) {
+            double slope = -1.0; /* an offset grows where the particle goes back */
+            for (int a = 0; a < grid->dimension; a++) slope *= a == c ? spline_slope(s.offset[i][a]) : spline(s.offset[i][a]);
+            const double volume = grid->node[reference_index(grid, s.node[i])].volume;
+            gradient += slope * fmin(fmax(volume - 1.0, 0.0), REF_CRUSHED - 1.0);
+            sizes += fabs(slope) * (volume + 1.0);
+        }
+        shift[c] = -fmin(fmax(share * gradient, -0.05), 0.05);
+        size = fmax(size, sizes);
+    }
+    return size;
+}
+
+/* Crowded matter stays. */
+static bool shifts(const RefStep *step, const RefGrid *grid, const RefParticle *p)
+{
+    return step->with_volume && p->material.kind == K_LIQUID && p->material.volume_feedback > 0.0f && reference_compression(grid, p) <= REF_CROWDED;
+}
+
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)
 {
-    double d[3], D[9], motion[3], way[3];
+    double d[3], D[9], motion[3], way[3], shift[3] = {0};
     reference_gather(grid, p, d, D);
+    if (shifts(step, grid, p)) reference_shift(grid, p, D, shift);
     memcpy(motion, d, sizeof motion);
     memcpy(way, d, sizeof way);
     if (reference_flips(step, p)) keep_fine_motion(step, p, D, d, motion);
@@ -381,6 +446,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
     } else {
         integrate_liquid(step, grid, p, D);
     }
+    for (int a = 0; a < step->dimension; a++) p->fraction[a] += shift[a];
     move(step, p, d, motion);
     for (int k = 0; k < 9; k++) p->affine[k] = D[k] / step->dt;
 }

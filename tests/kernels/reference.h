@@ -33,6 +33,7 @@ typedef struct RefStep {
     int32_t max_cell;
     uint32_t salt; /* of the nudges */
     bool with_volume;
+    double excess;       /* of the volume that J claims in the block, see reference_excess() */
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
     bool weighs;         /* liquids differ in density: they count what is lighter by its mass */
     double flip;         /* share of the motion lost in the transfers that liquids keep */
@@ -81,6 +82,19 @@ void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], do
 /* The gradient of the motion x += sum w_i(x) u_i at the particle: sum u_i (grad w_i)^T. Returns the largest sum of the sizes of an entry's terms. */
 double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9]);
 
+/* The least that a node which the particle feels holds. */
+double reference_sparsest(const RefGrid *grid, const RefParticle *p);
+
+/* The liquid of a block, away from surfaces and not crushed: the volume that its J claim over that which the grid has, less 1, within 0.05. */
+double reference_excess(const RefGrid *grid, const RefParticle *p, uint32_t count);
+
+/* Frobenius norm of the symmetric part of D. */
+double reference_strain(int n, const double D[9]);
+
+/* How liquid leaves crowded places, [cells]: -min(4 |sym D|, 0.1) sum_i clamp(V_i - 1, 0, 0.2) grad w_i, at most 0.05 per axis. Returns the largest sum of
+ * the absolute values of the terms V_i grad w_i and grad w_i. */
+double reference_shift(const RefGrid *grid, const RefParticle *p, const double D[9], double shift[3]);
+
 /* Moves D towards what the particle's material allows. */
 void reference_project(int dimension, const RefParticle *p, double D[9]);
 
@@ -94,7 +108,7 @@ bool reference_flips(const RefStep *step, const RefParticle *p);
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p);
 
 /* Rest volume per cell where a liquid counts as compressed, and as crowded. */
-static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5;
+static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5, REF_CRUSHED = 1.2, REF_INNER = 0.6;
 
 /* Skew part of D that a solid's particle keeps with the paper's solver: sin 60 degrees. */
 static const double REF_SPIN_MAX = 0.8660254;

@@ -406,3 +406,22 @@ def test_moving_wall_adds_no_more_than_its_work(dimension: int, parameters: pbmp
             relative = by_id(world, world.velocities.array()) - along
             assert 0.5 * masses @ (relative**2).sum(axis=1) < 1.001 * start
         assert positions_of(world)[:, 0].mean() > 1.0  # it was hit
+
+
+# Volume of liquids that rest
+
+
+@pytest.mark.parametrize("solver", [pbmpm.Solver.PAPER, pbmpm.Solver.DUAL, pbmpm.Solver.PRIMAL])
+def test_pool_keeps_its_height(solver: pbmpm.Solver) -> None:
+    """12 cells deep, strewn at random: where it is stirred particles close gaps that the grid does not see, and without shifting and volume control the
+    primal's pool sinks by 3 % in 40 s. A quarter of a particle's spacing is 1 %."""
+    size = [1.6, 1.2]
+    with pbmpm.World(2, CELL, domain=((0.0, 0.0), (size[0], 2.0 * size[1])), capacity=1000, gravity=[0.0, -GRAVITY], solver=solver, iterations=5, threads=1) as world:
+        world.fill(pbmpm.Box([0.5 * length for length in size], [0.5 * length for length in size]), world.add_material(pbmpm.Liquid()), seed=1)
+        for _ in range(600):
+            world.step(1 / RATE)
+        settled = float(world.positions.array()[:, 1].astype(float).mean())
+        for _ in range(6):
+            for _ in range(400):
+                world.step(1 / RATE)
+            assert abs(float(world.positions.array()[:, 1].astype(float).mean()) / settled - 1.0) < 0.01
