@@ -128,6 +128,7 @@ struct KernelArgs {
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
     K_PTR(float) node_density; /* per node block: mass over rest volume of all matter there; null unless liquids differ in density */
     K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
+    K_CONST_PTR(uint32_t) edged; /* per node block: 1 if its particles feel nodes near an obstacle that may have edges; null without rest volumes */
     K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */
     K_PTR(uint32_t) moved;    /* out, per particle block: particles that left their cell */
     K_PTR(uint32_t) lost;     /* out, per particle block: particles whose status is not K_ALIVE */

@@ -30,7 +30,7 @@ void grid_free(Grid *grid, Memory *memory)
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) memory_give(memory, whole[i], bytes);
     Array *arrays[] = {&grid->coordinate,  &grid->neighbour,    &grid->block_begin, &grid->block_run, &grid->tile,  &grid->tile_volume,
                        &grid->node,        &grid->node_base,    &grid->node_volume, &grid->node_density,
-                       &grid->node_reach,  &grid->clamped,      &grid->moved,       &grid->lost,      &grid->travel,
+                       &grid->node_reach,  &grid->edged,        &grid->clamped,      &grid->moved,     &grid->lost,  &grid->travel,
                        &grid->found,       &grid->sorted,       &grid->table};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     *grid = (Grid){0};
@@ -247,7 +247,8 @@ static bool reserve_blocks(Grid *grid, Memory *memory, bool with_volume)
               array_reserve(memory, &grid->travel, full, sizeof(float));
     if (ok && with_volume)
         ok = array_reserve(memory, &grid->tile_volume, full * ((size_t)grid->tile_nodes + K_TILE_PAD), sizeof(float)) &&
-             array_reserve(memory, &grid->node_volume, nodes * cells, sizeof(float));
+             array_reserve(memory, &grid->node_volume, nodes * cells, sizeof(float)) &&
+             array_reserve(memory, &grid->edged, nodes, sizeof(uint32_t));
     return ok;
 }
 

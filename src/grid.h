@@ -50,7 +50,7 @@ typedef struct Grid {
     uint32_t runs;
 
     /* What the kernels work on; see KernelArgs. */
-    Array tile, tile_volume, node, node_base, node_volume, node_density, node_reach, clamped, moved, lost, travel;
+    Array tile, tile_volume, node, node_base, node_volume, node_density, node_reach, edged, clamped, moved, lost, travel;
 
     /* Scratch of the build. */
     Array found;       /* blocks in order of discovery */

@@ -1,6 +1,7 @@
 #include "open_volume.h"
 
 #include <math.h>
+#include <string.h>
 
 /* The share of a node's weight that lies outside an obstacle whose surface is at `distance` [cells]: the integral of the quadratic spline
  * up to there, as the surface is nearly flat over a cell. At least what is left one cell inside, 1/48: behind that nothing is known. */
@@ -63,23 +64,27 @@ typedef struct OpenJob {
     bool resting_only;
 } OpenJob;
 
-/* Obstacles near a block. */
+/* Obstacles near a block. `edged`: one of them, near what its particles feel, may have edges; a plane has none. */
 typedef struct Near {
     int count;
+    bool edged;
     const Obstacle *obstacle[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS];
 } Near;
 
 static void find_near(const OpenJob *job, int32_t block, Near *near)
 {
     const ContactFrame *frame = job->frame;
-    const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension);
+    const double diagonal = sqrt((double)frame->grid->dimension), half_block = 0.5 * (K_BLOCK_AXIS - 1) * diagonal;
     double centre[3];
     near->count = 0;
+    near->edged = false;
     contacts_block_centre(frame, block, centre);
     for (int i = 0; i < frame->colliders->obstacle_count; i++) {
         const Obstacle *o = &frame->colliders->obstacle[i];
         if (job->resting_only && o->moves) continue;
-        if (solid_least(&o->start, centre) / frame->cell_size < half_diagonal + NODE_REACH) near->obstacle[near->count++] = o;
+        const double gap = solid_least(&o->start, centre) / frame->cell_size - half_block;
+        if (gap < NODE_REACH) near->obstacle[near->count++] = o;
+        if (gap < NODE_REACH + diagonal && o->start.kind != PBMPM_PLANE) near->edged = true;
     }
 }
 
@@ -103,9 +108,11 @@ static void open_block(const ContactFrame *frame, const Near *near, int32_t bloc
 static void open_blocks(void *context, int32_t begin, int32_t end)
 {
     const OpenJob *job = context;
+    uint32_t *edged = job->frame->grid->edged.data;
     Near near;
     for (int32_t block = begin; block < end; block++) {
         find_near(job, block, &near);
+        edged[block] = near.edged;
         if (near.count) open_block(job->frame, &near, block);
     }
 }
@@ -113,5 +120,8 @@ static void open_blocks(void *context, int32_t begin, int32_t end)
 void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only)
 {
     OpenJob job = {frame, resting_only};
-    if (frame->colliders->obstacle_count) pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &job);
+    if (frame->colliders->obstacle_count == 0)
+        memset(frame->grid->edged.data, 0, (size_t)frame->grid->node_blocks * sizeof(uint32_t));
+    else
+        pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &job);
 }

@@ -139,6 +139,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .node_volume = with_volume ? grid->node_volume.data : NULL,
                       .node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
                       .node_reach = grid->node_reach.data,
+                      .edged = with_volume ? grid->edged.data : NULL,
                       .clamped = grid->clamped.data,
                       .moved = grid->moved.data,
                       .lost = grid->lost.data,

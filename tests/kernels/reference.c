@@ -304,6 +304,14 @@ static void limit_growth(int n, double most, double D[9])
         for (int c = 0; c < n; c++) D[r * 3 + c] -= taken * 0.5 * (old[r * 3 + c] + old[c * 3 + r]);
 }
 
+static double reference_densest(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double most = 0.0;
+    for (int i = 0; i < s.count; i++) most = fmax(most, grid->node[reference_index(grid, s.node[i])].volume);
+    return most;
+}
+
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], double D[9])
@@ -311,11 +319,8 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
     const double feedback = (double)p->material.volume_feedback;
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
-        const RefStencil s = reference_stencil(grid->dimension, p);
         const double held = reference_held(step, grid, p);
-        double densest = 0.0;
-        for (int i = 0; i < s.count; i++) densest = fmax(densest, grid->node[reference_index(grid, s.node[i])].volume);
-        const double loose = fmin(fmax(REF_COMPRESSED / densest, 1.0), LOOSE_MAX);
+        const double loose = fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX);
         ratio = fmin(control(step, grid, p, D) * ratio, LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
@@ -422,10 +427,12 @@ double reference_shift(const RefGrid *grid, const RefParticle *p, const double D
     return size;
 }
 
-/* Crowded matter stays. */
+/* Crowded matter stays, and what only seems to be: at edges of obstacles. */
 static bool shifts(const RefStep *step, const RefGrid *grid, const RefParticle *p)
 {
-    return step->with_volume && p->material.kind == K_LIQUID && p->material.volume_feedback > 0.0f && reference_compression(grid, p) <= REF_CROWDED;
+    if (!step->with_volume || p->material.kind != K_LIQUID || p->material.volume_share == 0.0f) return false;
+    if (step->edged && reference_densest(grid, p) > REF_CRUSHED) return false;
+    return reference_compression(grid, p) <= REF_CROWDED;
 }
 
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)

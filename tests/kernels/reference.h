@@ -33,6 +33,7 @@ typedef struct RefStep {
     int32_t max_cell;
     uint32_t salt; /* of the nudges */
     bool with_volume;
+    bool edged;          /* blocks are near edges of obstacles, see KernelArgs.edged */
     double excess;       /* of the volume that J claims in the block, see reference_excess() */
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
     bool weighs;         /* liquids differ in density: they count what is lighter by its mass */

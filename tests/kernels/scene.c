@@ -121,7 +121,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     if (spec->max_displacement > 0.0f) scene.world->settings.max_displacement = spec->max_displacement;
     for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
     add_materials(scene.world, spec);
-    scene.step = (RefStep){.dimension = dimension, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
+    scene.step = (RefStep){.dimension = dimension, .edged = spec->edged, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
     add_particles(&scene, spec, seed);
     scene_bind(&scene, spec->check_strain);
     return scene;
@@ -169,6 +169,7 @@ void scene_bind(Scene *scene, bool check_strain)
     world->strain_unchecked = check_strain;
     solver_bind(world, TIME_STEP, with_volume);
     if (world->record.solver == PBMPM_SOLVER_PAPER) set_materials(scene);
+    for (int32_t block = 0; with_volume && block < world->grid.node_blocks; block++) ((uint32_t *)world->grid.edged.data)[block] = scene->step.edged;
     const KernelArgs *args = &world->args;
     scene->step.dt = (double)args->dt;
     scene->step.cells_per_metre = (double)args->cells_per_metre;

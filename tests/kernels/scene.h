@@ -30,6 +30,7 @@ typedef struct SceneSpec {
     bool check_strain;
     pbmpm_solver solver; /* default: the paper's */
     float flip;
+    bool edged; /* all blocks are, see KernelArgs.edged */
 } SceneSpec;
 
 typedef struct Scene {

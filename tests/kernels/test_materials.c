@@ -64,6 +64,8 @@ static void test_volume_feedback(void)
         spec.materials = 2;
         spec.most_per_cell = 8;
         stages_check_spec(&spec, 1);
+        spec.edged = true;
+        stages_check_spec(&spec, 1);
     }
 }
 

@@ -178,6 +178,63 @@ static void test_a_full_box_has_its_density(void)
     check_report("full box");
 }
 
+/* ---- Edges ---- */
+
+/* A box of one cell at `place` [cells] on all axes. */
+static void add_box(World *world, double place)
+{
+    pbmpm_collider_def def = collider_defaults();
+    pbmpm_collider_id id;
+    def.shape.kind = PBMPM_BOX;
+    for (int a = 0; a < 3; a++) {
+        def.shape.position[a] = (float)(place * CELL);
+        def.shape.half_extents[a] = (float)(0.5 * CELL);
+    }
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, NULL, 1, &id));
+}
+
+/* Whether a block's particles feel a node whose support the box cuts. */
+static bool feels(const World *world, int32_t block)
+{
+    const Obstacle *box = &world->colliders.obstacle[0];
+    const int32_t *at = (const int32_t *)world->grid.coordinate.data + 3 * block;
+    const int d = world->def.dimension, axis = K_BLOCK_AXIS + 2;
+    double normal[3];
+    for (int i = 0; i < (d == 3 ? axis * axis * axis : axis * axis); i++) {
+        const int node[3] = {i % axis - 1, i / axis % axis - 1, i / axis / axis - 1};
+        double point[3] = {0.0};
+        for (int a = 0; a < d; a++) point[a] = (world->grid.anchor[a] + at[a] * K_BLOCK_AXIS + node[a]) * CELL;
+        if (obstacle_distance(box, point, normal) < 1.5 * CELL) return true;
+    }
+    return false;
+}
+
+/* Marked blocks of a full box beside a box of one cell there; none of those that feel it is missed. */
+static int marked_blocks(int dimension, bool with_box, double place)
+{
+    Scene scene = full_box(cpu_isa(), dimension, 0.0, 2);
+    int marked = 0;
+    if (with_box) add_box(scene.world, place);
+    predict(&scene);
+    for (int32_t block = 0; block < scene.world->grid.node_blocks; block++) {
+        const bool is_marked = scene.world->args.edged[block] != 0;
+        marked += is_marked;
+        if (with_box && feels(scene.world, block)) TEST_ASSERT_TRUE(is_marked);
+    }
+    scene_close(&scene);
+    return marked;
+}
+
+static void test_blocks_near_edges_are_marked(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        TEST_ASSERT_EQUAL_INT(0, marked_blocks(dimension, false, 0.0)); /* walls are planes */
+        TEST_ASSERT_EQUAL_INT(0, marked_blocks(dimension, true, 20.0));
+        for (double place = -8.0; place <= 8.0; place += 0.5) marked_blocks(dimension, true, place);
+        TEST_ASSERT_GREATER_THAN_INT(0, marked_blocks(dimension, true, 0.0));
+    }
+}
+
 /* ---- Images ---- */
 
 static void shake(Scene *scene, Random *random)
@@ -362,6 +419,7 @@ int main(void)
     RUN_TEST(test_the_open_share_ends_at_the_support);
     RUN_TEST(test_surfaces_that_lie_on_each_other_count_once);
     RUN_TEST(test_a_full_box_has_its_density);
+    RUN_TEST(test_blocks_near_edges_are_marked);
     RUN_TEST(test_images_are_an_orthogonal_projection);
     RUN_TEST(test_images_of_marked_blocks);
     RUN_TEST(test_where_walls_with_images_stand);
