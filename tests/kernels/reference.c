@@ -254,6 +254,8 @@ static double control(const RefStep *step, const RefGrid *grid, const RefParticl
     return reference_compression(grid, p) > REF_CRUSHED ? 1.0 : 1.0 - share * step->excess;
 }
 
+double reference_stale(const KernelMaterial *material) { return 0.9 - fmin((double)material->pressure_max, 0.1); }
+
 /* J follows tr D. With feedback, where the grid shows compression, it moves a share of the way to the room that the grid has if
  * it claims more or far less, and never exceeds that where matter is crowded. */
 static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
@@ -264,7 +266,7 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
         ratio *= control(step, grid, p, D);
         const double held = reference_compression(grid, p);
         const double seen = fmin(REF_COMPRESSED / held, 1.0);
-        if ((seen < 1.0 && ratio > seen) || ratio < REF_STALE * seen) ratio += feedback * (seen - ratio);
+        if ((seen < 1.0 && ratio > seen) || ratio < reference_stale(&p->material) * seen) ratio += feedback * (seen - ratio);
         if (held > REF_CROWDED) {
             ratio = fmin(ratio, REF_CROWDED / held);
             nudge(step, p);

@@ -109,7 +109,7 @@ bool reference_flips(const RefStep *step, const RefParticle *p);
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p);
 
 /* Rest volume per cell where a liquid counts as compressed, and as crowded. */
-static const double REF_COMPRESSED = 1.1, REF_STALE = 0.8, REF_CROWDED = 1.5, REF_CRUSHED = 1.2, REF_INNER = 0.6;
+static const double REF_COMPRESSED = 1.1, REF_CROWDED = 1.5, REF_CRUSHED = 1.2, REF_INNER = 0.6;
 
 /* Skew part of D that a solid's particle keeps with the paper's solver: sin 60 degrees. */
 static const double REF_SPIN_MAX = 0.8660254;
@@ -117,6 +117,9 @@ static const double REF_SPIN_MAX = 0.8660254;
 /* From what error of J on feedback begins where matter rests, and is full. */
 static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
 static const double REF_QUIET_MIN = 0.15, REF_QUIET_MAX = 0.3;
+
+/* The share of what the grid shows below which J is raised to it. */
+double reference_stale(const KernelMaterial *material);
 
 /* The rest volume per cell around the particle. */
 double reference_compression(const RefGrid *grid, const RefParticle *p);

@@ -217,7 +217,7 @@ static double unclear_feedback(const Scene *scene, const RefGrid *nodes, const R
     const double room = REF_COMPRESSED / reference_compression(nodes, before), seen = fmin(room, 1.0);
     const double claimed = before->volume_ratio * (1.0 + trace);
     const double doubt = scene->step.dimension * error * before->volume_ratio + 2.0 * TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * (seen + fabs(claimed));
-    const bool clear = fabs(room - 1.0) > doubt && fabs(claimed - seen) > doubt && fabs(claimed - REF_STALE * seen) > doubt;
+    const bool clear = fabs(room - 1.0) > doubt && fabs(claimed - seen) > doubt && fabs(claimed - reference_stale(&before->material) * seen) > doubt;
     return clear ? 0.0 : (double)before->material.volume_feedback * fabs(seen - claimed);
 }
 

@@ -457,12 +457,13 @@ namespace Pbmpm
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
         /// <summary>liquid, visco: share per substep by which J follows the volume measured on the grid where
-        /// that shows compression, or J is below 0.8 of it, in [0, 1]; default 0.1. 0 switches it off and costs
-        /// nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
+        /// that shows compression, or J is below 0.8 of it (up to 0.9 if its weight cannot press the liquid that far), in [0, 1];
+        /// default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
         /// Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
         /// share per 1/60 s (volume control, after Kim et al. 2007), and whatever the share is, particles shift from nodes that
         /// hold more than their rest volume, by at most 0.05 cells per axis and substep; velocities stay (Fick's law,
-        /// after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess).
+        /// after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess). Near
+        /// edges of obstacles, where nodes seem crowded, they do not if one holds more than 1.2 times as much.
         /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
         /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
         /// by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it
