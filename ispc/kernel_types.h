@@ -70,7 +70,7 @@ struct KernelMaterial {
     float condition_max; /* 0: clamp the strain instead of deleting */
     float rebound_max;  /* elastic: strain per iteration; liquid: strain per substep */
     float pressure_max; /* liquid: bound of the pressure, as a multiple of the stiffness */
-    float volume_share; /* liquid: by which its J is brought back per substep, see volume_control.isph; 0: not */
+    float volume_share; /* liquid: by which its J is brought back per substep, see volume_control.isph; 0: not, and it does not shift either */
     float even_share;   /* liquid of the paper's solver: by which J moves to the mean of its cell per substep */
     float inverse_density;
     /* Moduli times c = 4 dt^2 / (dx^2 density): the square of twice the Courant number of their waves. */
