@@ -247,8 +247,7 @@ static void nudge(const RefStep *step, RefParticle *p)
         p->fraction[a] += 0.05 * random_looking(p->identity * 0x9e3779b9u + step->salt * 0x85ebca6bu + (uint32_t)a);
 }
 
-/* What J is multiplied with so that those of a block come to claim what the grid has. What was crushed is left out. */
-static double control(const RefStep *step, const RefGrid *grid, const RefParticle *p, const double D[9])
+double reference_control(const RefStep *step, const RefGrid *grid, const RefParticle *p, const double D[9])
 {
     const double share = fmin(100.0 * reference_strain(step->dimension, D), (double)p->material.volume_share);
     return reference_compression(grid, p) > REF_CRUSHED ? 1.0 : 1.0 - share * step->excess;
@@ -263,7 +262,7 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     const double feedback = (double)p->material.volume_feedback;
     double ratio = p->volume_ratio * (1.0 + matrix_trace(step->dimension, D));
     if (step->with_volume && feedback > 0.0) {
-        ratio *= control(step, grid, p, D);
+        ratio *= reference_control(step, grid, p, D);
         const double held = reference_compression(grid, p);
         const double seen = fmin(REF_COMPRESSED / held, 1.0);
         if ((seen < 1.0 && ratio > seen) || ratio < reference_stale(&p->material) * seen) ratio += feedback * (seen - ratio);
@@ -323,7 +322,7 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_held(step, grid, p);
         const double loose = fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX);
-        ratio = fmin(control(step, grid, p, D) * ratio, LOOSE_MAX);
+        ratio = fmin(reference_control(step, grid, p, D) * ratio, LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
         if (held > REF_CROWDED) {

@@ -118,6 +118,9 @@ static const double REF_SPIN_MAX = 0.8660254;
 static const double REF_WRONG_MIN = 0.05, REF_WRONG_MAX = 0.15;
 static const double REF_QUIET_MIN = 0.15, REF_QUIET_MAX = 0.3;
 
+/* What J is multiplied with so that those of a block come to claim what the grid has. What was crushed is left out. */
+double reference_control(const RefStep *step, const RefGrid *grid, const RefParticle *p, const double D[9]);
+
 /* The share of what the grid shows below which J is raised to it. */
 double reference_stale(const KernelMaterial *material);
 

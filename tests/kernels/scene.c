@@ -56,9 +56,33 @@ static void add_particle(Scene *scene, const SceneSpec *spec, Random *random, co
     p->volume_ratio[row] = (float)random_in(random, spec->ratio_min, spec->ratio_max);
 }
 
+static uint32_t cells_of_a_pool(const SceneSpec *spec, int dimension)
+{
+    const uint32_t axis = (uint32_t)(2 * spec->spread + 1);
+    return dimension == 3 ? axis * axis * axis : axis * axis;
+}
+
+static void add_pool(Scene *scene, const SceneSpec *spec, Random *random)
+{
+    Particles *p = &scene->world->particles;
+    const uint32_t axis = (uint32_t)(2 * spec->spread + 1), per_cell = 1u << p->dimension;
+    for (uint32_t i = 0; i < per_cell * cells_of_a_pool(spec, p->dimension); i++) {
+        const uint32_t at = i / per_cell, row = p->count;
+        const int32_t cell[3] = {spec->centre[0] + (int32_t)(at % axis) - spec->spread, spec->centre[1] + (int32_t)(at / axis % axis) - spec->spread,
+                                 p->dimension == 3 ? spec->centre[2] + (int32_t)(at / axis / axis) - spec->spread : 0};
+        add_particle(scene, spec, random, cell);
+        p->mass[row] = scene->world->materials.def[p->material[row]].density / (float)per_cell;
+        for (int a = 0; a < p->dimension; a++) p->fraction[a][row] = (float)((i >> a & 1u ? 0.25 : -0.25) + random_in(random, -0.1, 0.1));
+    }
+}
+
 static void add_particles(Scene *scene, const SceneSpec *spec, uint32_t seed)
 {
     Random random = {seed};
+    if (spec->pool) {
+        add_pool(scene, spec, &random);
+        return;
+    }
     if (spec->anchor) add_particle(scene, spec, &random, spec->anchor);
     for (uint32_t i = 0; i < spec->cells; i++) {
         int32_t cell[3] = {0};
@@ -113,7 +137,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = spec->pressure_max > 0.0f ? spec->pressure_max : FLT_MAX};
     def.dimension = dimension;
     def.cell_size = CELL_SIZE;
-    def.particle_capacity = spec->cells * spec->most_per_cell + 1;
+    def.particle_capacity = spec->pool ? cells_of_a_pool(spec, dimension) << dimension : spec->cells * spec->most_per_cell + 1;
     def.thread_count = 1;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &scene.world));
     scene.world->settings.solver = spec->solver;

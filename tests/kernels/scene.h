@@ -30,6 +30,7 @@ typedef struct SceneSpec {
     bool check_strain;
     pbmpm_solver solver; /* default: the paper's */
     float flip;
+    bool pool;  /* instead of cells by chance: full ones up to `spread` from the centre, two particles per axis, each up to a tenth of a cell off its place */
     bool edged; /* all blocks are, see KernelArgs.edged */
 } SceneSpec;
 

@@ -214,8 +214,10 @@ static bool crowding_is_unclear(const Scene *scene, const RefGrid *nodes, const 
 /* How much J may differ where it is so close to a threshold of the feedback that either answer is right; else 0. */
 static double unclear_feedback(const Scene *scene, const RefGrid *nodes, const RefParticle *before, double trace, double error)
 {
+    double d[3], D[9];
+    reference_gather(nodes, before, d, D);
     const double room = REF_COMPRESSED / reference_compression(nodes, before), seen = fmin(room, 1.0);
-    const double claimed = before->volume_ratio * (1.0 + trace);
+    const double claimed = reference_control(&scene->step, nodes, before, D) * before->volume_ratio * (1.0 + trace);
     const double doubt = scene->step.dimension * error * before->volume_ratio + 2.0 * TRANSFER_ROUNDINGS * UNIT_ROUNDOFF * (seen + fabs(claimed));
     const bool clear = fabs(room - 1.0) > doubt && fabs(claimed - seen) > doubt && fabs(claimed - reference_stale(&before->material) * seen) > doubt;
     return clear ? 0.0 : (double)before->material.volume_feedback * fabs(seen - claimed);

@@ -14,8 +14,8 @@ ITERATIONS = (1, 2, 5, 10, 20)
 CELL = 0.1  # [m]
 TANK_CELLS = {2: (12, 10, 0), 3: (10, 8, 6)}
 BLOCK_CELLS = {2: 5, 3: 4}
-DROP_CELLS = 2
-POST_CELLS = 1.5  # radius: the block begins clear of it, or what lifts it out of the post would count as energy gained
+DROP_CELLS = 1
+POST_CELLS = 1.5  # radius
 SECONDS = 0.5
 
 
