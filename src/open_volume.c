@@ -64,7 +64,7 @@ typedef struct OpenJob {
     bool resting_only;
 } OpenJob;
 
-/* Obstacles near a block. `edged`: one of them, near what its particles feel, may have edges; a plane has none. */
+/* Obstacles near a block. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
 typedef struct Near {
     int count;
     bool edged;

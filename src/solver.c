@@ -109,7 +109,7 @@ static void follow_iterations(World *world, float dt)
 
 /* ---- Running kernels ---- */
 
-/* Whether liquids find each other by their mass, see held_for() in ispc/kernels.isph. The paper's solver bounds what crushed liquid grows with instead. */
+/* Whether liquids find each other by their mass, see held_for() in ispc/liquids.isph. The paper's solver bounds what crushed liquid grows with instead. */
 static bool weighs_liquids(const World *world)
 {
     return world->record.solver != PBMPM_SOLVER_PAPER && materials_density_contrast(&world->materials, &world->particles) > 1.0;

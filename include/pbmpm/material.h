@@ -42,7 +42,7 @@ typedef enum pbmpm_elastic_model {
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
  *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion, and parts by no
  *  more per cell than what falls from that height goes. Where the grid holds more than 1.5 times its rest volume, J is at most what there is
- *  room for, and particles are moved by up to 1/40 cell per substep more so that they part (unless volume_feedback is 0); with the primal solver such liquid parts
+ *  room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0); with the primal solver such liquid parts
  *  no faster than its sound.
  *
  *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
@@ -70,13 +70,14 @@ typedef struct pbmpm_material_def {
     float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid, visco: share per substep by which J follows the volume measured on the grid where
-                                     that shows compression, or J is below 0.8 of it (up to 0.9 if its weight cannot press the liquid that far), in [0, 1];
+                                     that shows compression, or J is below 0.8 of it (up to 0.9 if three times its weight and its motion cannot press it that far), in [0, 1];
                                      default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
                                      Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
-                                     share per 1/60 s (volume control, after Kim et al. 2007), and whatever the share is, particles shift from nodes that
-                                     hold more than their rest volume, by at most 0.05 cells per axis and substep; velocities stay (Fick's law,
-                                     after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess). Near
-                                     edges of obstacles, where nodes seem crowded, they do not if one holds more than 1.2 times as much.
+                                     share per 1/60 s (volume control, after Kim et al. 2007), and with any share above 0 particles shift from nodes that
+                                     hold more than their rest volume, by at most 0.02 cells per axis and substep; velocities stay (Fick's law,
+                                     after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess, at most 0.2).
+                                     Near obstacles other than planes, whose edges make nodes seem crowded, they do not if one holds more
+                                     than 1.2 times as much. Gravity is that of the settings: forces do not count.
                                      Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
                                      liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
                                      by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it

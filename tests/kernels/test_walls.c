@@ -135,7 +135,7 @@ static Scene full_box(pbmpm_isa isa, int dimension, double shift, int per_axis)
     return scene;
 }
 
-static void predict(Scene *scene)
+static void predict_beside(Scene *scene, bool resting_only)
 {
     World *world = scene->world;
     const ContactFrame contacts = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = CELL, .max_displacement = 32.0f};
@@ -144,8 +144,10 @@ static void predict(Scene *scene)
     float_mode_leave(mode);
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, (double)world->def.cell_size, 0, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&contacts, &world->memory, world->pool));
-    contacts_open_volume(&contacts, world->pool, true);
+    contacts_open_volume(&contacts, world->pool, resting_only);
 }
+
+static void predict(Scene *scene) { predict_beside(scene, true); }
 
 /* Every particle feels a density of 1, up to `bound`; the largest difference is returned. */
 static double density_error(const Scene *scene)
@@ -209,18 +211,22 @@ static bool feels(const World *world, int32_t block)
     return false;
 }
 
+static int count_marked(const Scene *scene)
+{
+    int marked = 0;
+    for (int32_t block = 0; block < scene->world->grid.node_blocks; block++) marked += scene->world->args.edged[block] != 0;
+    return marked;
+}
+
 /* Marked blocks of a full box beside a box of one cell there; none of those that feel it is missed. */
 static int marked_blocks(int dimension, bool with_box, double place)
 {
     Scene scene = full_box(cpu_isa(), dimension, 0.0, 2);
-    int marked = 0;
     if (with_box) add_box(scene.world, place);
     predict(&scene);
-    for (int32_t block = 0; block < scene.world->grid.node_blocks; block++) {
-        const bool is_marked = scene.world->args.edged[block] != 0;
-        marked += is_marked;
-        if (with_box && feels(scene.world, block)) TEST_ASSERT_TRUE(is_marked);
-    }
+    for (int32_t block = 0; with_box && block < scene.world->grid.node_blocks; block++)
+        if (feels(scene.world, block)) TEST_ASSERT_EQUAL_UINT32(1, scene.world->args.edged[block]);
+    const int marked = count_marked(&scene);
     scene_close(&scene);
     return marked;
 }
@@ -233,6 +239,26 @@ static void test_blocks_near_edges_are_marked(void)
         for (double place = -8.0; place <= 8.0; place += 0.5) marked_blocks(dimension, true, place);
         TEST_ASSERT_GREATER_THAN_INT(0, marked_blocks(dimension, true, 0.0));
     }
+}
+
+/* A box on its way takes no room where only what rests does, and marks go with the last obstacle. */
+static void test_marks_go_with_the_obstacle(void)
+{
+    static const float away[3] = {0.2f, 0.0f, 0.0f};
+    Scene scene = full_box(cpu_isa(), 3, 0.0, 2);
+    Collider *box = scene.world->colliders.slot;
+    add_box(scene.world, 0.0);
+    box->def.kinematic = 1;
+    collider_place(box, away, NULL, false);
+    predict_beside(&scene, true);
+    TEST_ASSERT_EQUAL_INT(0, count_marked(&scene));
+    predict_beside(&scene, false);
+    TEST_ASSERT_GREATER_THAN_INT(0, count_marked(&scene));
+    box->generation = 0;
+    scene.world->domain.enabled = false;
+    predict(&scene);
+    TEST_ASSERT_EQUAL_INT(0, count_marked(&scene));
+    scene_close(&scene);
 }
 
 /* ---- Images ---- */
@@ -420,6 +446,7 @@ int main(void)
     RUN_TEST(test_surfaces_that_lie_on_each_other_count_once);
     RUN_TEST(test_a_full_box_has_its_density);
     RUN_TEST(test_blocks_near_edges_are_marked);
+    RUN_TEST(test_marks_go_with_the_obstacle);
     RUN_TEST(test_images_are_an_orthogonal_projection);
     RUN_TEST(test_images_of_marked_blocks);
     RUN_TEST(test_where_walls_with_images_stand);

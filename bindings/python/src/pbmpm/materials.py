@@ -44,8 +44,8 @@ class Liquid:
         viscosity: share of the deviatoric strain rate removed per iteration, in [0, 1]. Acts as a kinematic viscosity
             of iterations * viscosity * cell_size^2 / (8 * substep length).
         volume_feedback: share per substep by which the volume ratio follows the volume measured on the grid where
-            that shows compression, in [0, 1]. Above 0 particles that are strained, in gravity, also shift from where the
-            grid holds too much.
+            that shows compression, in [0, 1]. Above 0, in gravity and where the liquid is strained, particles also
+            shift from where the grid holds too much, and the mean volume ratio of blocks follows the grid.
         bulk_modulus: K [Pa] (2D: N/m), in [1e-3, 1e15], or 0: incompressible. Not the paper's solver.
         kinematic_viscosity: [m^2/s], in [0, 1e6]. The paper's solver reaches at most N dx^2 / (8 dt) with N iterations.
     """

@@ -16,7 +16,7 @@ from .watch import GRAVITY, Watch, make_world
 CELL = 0.2  # [m]
 SHORT = "short"
 MILLION = "a million steps"
-#: Half of the particles of a pool of 4 x 3 cells lie at its surface, whose places alone move its height by half a percent and more.
+#: Of a pool of 4 x 3 cells half of the particles lie at the surface, whose places alone move its height by half a percent and more.
 POOL_CELLS = {2: (8, 6, 0), 3: (4, 4, 4)}
 SETTLE_SECONDS = 10.0
 STEPS = {SHORT: 1200, MILLION: 1_000_000}
