@@ -183,21 +183,14 @@ void solver_over_still(World *world, Kernel *kernel)
     pool_for(world->pool, world->grid.still_blocks, BLOCK_GRAIN, run_kernel, &job);
 }
 
-static void obey_contacts(void *context, int32_t begin, int32_t end) { contacts_apply(context, begin, end); }
-
-void solver_obey(World *world, const ContactFrame *contacts)
-{
-    ContactFrame frame = *contacts;
-    mirrors_apply(&world->mirrors, &world->grid, NULL);
-    pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, obey_contacts, &frame);
-}
+void solver_obey(World *world, const ContactFrame *contacts) { walls_apply(&world->walls, contacts, world->pool, false, NULL); }
 
 void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts)
 {
-    const bool mirrored = contacts && mirrors_any(&world->mirrors); /* images need all nodes */
-    KernelJob job = {kernel, &world->args, mirrored ? NULL : contacts};
+    const bool follows = contacts && walls_any(&world->walls); /* which needs all nodes */
+    KernelJob job = {kernel, &world->args, follows ? NULL : contacts};
     pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, run_kernel, &job);
-    if (mirrored) solver_obey(world, contacts);
+    if (follows) solver_obey(world, contacts);
 }
 
 void solver_predict(World *world)
@@ -245,9 +238,11 @@ bool solver_holds_liquid(const World *world)
     return false;
 }
 
-bool solver_mirrors(const World *world)
+bool solver_follows_walls(const World *world)
 {
-    const bool alone = world->record.solver == PBMPM_SOLVER_DUAL && !solver_holds_liquid(world);
+    const pbmpm_solver solver = world->record.solver;
+    if (solver != PBMPM_SOLVER_DUAL && solver != PBMPM_SOLVER_EXPLICIT) return false;
+    const bool alone = solver == PBMPM_SOLVER_DUAL && !solver_holds_liquid(world);
     return !alone || world->settings.iterations == 1;
 }
 
