@@ -7,7 +7,8 @@
 
 /* How far before a face [cells] the space must be open. */
 static const double BEFORE = 0.1;
-static const double ROUNDING = 1e-6, CLEAR_OF = 0.01; /* [cells] */
+/* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
+static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
 
 /* Planes whose normals differ by less than 45 degrees, halfway to an edge, count as one: the nearest. */
 static const double SAME_WAY = 0.7;
@@ -43,7 +44,7 @@ static bool is_open(const Near *near, const double point[3])
 {
     double normal[3];
     for (int i = 0; i < near->count; i++)
-        if (solid_distance(field_solid(near, near->obstacle[i]), point, normal) <= ROUNDING * near->cell_size) return false;
+        if (solid_distance(field_solid(near, near->obstacle[i]), point, normal) <= ON_SURFACE * near->cell_size) return false;
     return true;
 }
 
@@ -175,7 +176,7 @@ static int faces_inside(const Near *near, const double point[3], Face face[FIELD
     double best = INFINITY;
     int count = 0;
     for (int i = 0; i < candidates; i++) {
-        if (all[i].distance > 0.0 || -all[i].distance >= best || !bounds_space(near, &all[i])) continue;
+        if (all[i].distance > ON_SURFACE || -all[i].distance >= best || !bounds_space(near, &all[i])) continue;
         best = -all[i].distance;
         face[0] = all[i];
         count = 1;
@@ -183,10 +184,10 @@ static int faces_inside(const Near *near, const double point[3], Face face[FIELD
     for (int i = 0; i < candidates; i++)
         for (int j = i + 1; j < candidates; j++) {
             const Face *edge[3] = {&all[i], &all[j], NULL};
-            if (all[i].distance > 0.0 || all[j].distance > 0.0) continue;
+            if (all[i].distance > ON_SURFACE || all[j].distance > ON_SURFACE) continue;
             if (fmax(-all[i].distance, -all[j].distance) >= best) continue;
             double distance = corner_distance(near, point, edge, 2);
-            if (distance < best - ROUNDING) {
+            if (distance < best - ON_SURFACE) {
                 best = distance;
                 face[0] = all[i];
                 face[1] = all[j];
@@ -194,9 +195,9 @@ static int faces_inside(const Near *near, const double point[3], Face face[FIELD
             }
             for (int k = j + 1; k < candidates && near->dimension == 3; k++) {
                 edge[2] = &all[k];
-                if (all[k].distance > 0.0 || -all[k].distance >= best) continue;
+                if (all[k].distance > ON_SURFACE || -all[k].distance >= best) continue;
                 distance = corner_distance(near, point, edge, 3);
-                if (distance >= best - ROUNDING) continue;
+                if (distance >= best - ON_SURFACE) continue;
                 best = distance;
                 face[0] = all[i];
                 face[1] = all[j];
@@ -222,7 +223,7 @@ static bool is_exposed(const Near *near, const Face *face, const double point[3]
     }
     if (s->kind != PBMPM_BOX) return true;
     along_axes(s, point, local);
-    for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ROUNDING * near->cell_size;
+    for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ON_SURFACE * near->cell_size;
     for (int axis = 0; axis < s->dimension && outside > 1; axis++) {
         if (fabs(local[axis]) <= s->half_extents[axis]) continue;
         memcpy(before, face->foot, sizeof before);
@@ -291,7 +292,7 @@ static void reflect(const Near *near, const Face *face, int count, double point[
 {
     for (int i = 0; i < count; i++) {
         const double distance = distance_to(near, &face[i], point);
-        if (distance <= 0.0) ahead(near, point, -2.0 * distance + CLEAR_OF, face[i].normal, point);
+        if (distance <= ON_SURFACE) ahead(near, point, -2.0 * distance + CLEAR_OF, face[i].normal, point);
     }
 }
 
@@ -312,8 +313,8 @@ static int add_beside(const Near *near, const double point[3], double reach, Fac
     const int first = count;
     double open[3] = {point[0], point[1], point[2]};
     Face around[FIELD_FACES];
-    for (int tries = 0; tries < 3 && field_distance(near, open) <= 0.0; tries++) reflect(near, face, count, open);
-    if (field_distance(near, open) <= 0.0) return count;
+    for (int tries = 0; tries < 3 && field_distance(near, open) <= ON_SURFACE; tries++) reflect(near, face, count, open);
+    if (field_distance(near, open) <= ON_SURFACE) return count;
     const int seen = faces_seen(near, open, reach, around);
     for (int i = 0; i < seen; i++) {
         bool known = count == near->dimension;
@@ -328,7 +329,7 @@ static int add_beside(const Near *near, const double point[3], double reach, Fac
 
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
-    const bool outside = field_distance(near, point) > 0.0;
+    const bool outside = field_distance(near, point) > ON_SURFACE;
     const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, face);
     if (outside) sort_by_distance(face, 0, count);
     return outside || count == 0 ? count : add_beside(near, point, reach, face, count);

@@ -215,7 +215,7 @@ static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
         g->soft[i] = g->world->args.cell_softness[i] + g->least;
         stiffness[i] = u[3] * light * light;
         load[i] = energy + mass[i] * g->soft[i];
-        sum[0] += (double)(energy / (light * light) + mass[i] / light * g->soft[i]); /* as if all were as dense */
+        sum[0] += (double)(work_on_node(g, i) / (light * light) + mass[i] / light * g->soft[i]); /* as if all were as dense */
         sum[1] += (double)(mass[i] / light);
     }
 }
