@@ -41,7 +41,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    sum[2] = holds_work(p->contacts, p->gradient, block);
+    sum[2] = holds_work(p->contacts, p->gradient, p->best, p->slip_min, block);
     sum[7] = (double)holds_touching(p->contacts, block);
 }
 
@@ -69,7 +69,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -154,8 +154,11 @@ void primal_keep_energy(Primal *p)
 void primal_find_leaning(Primal *p)
 {
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (holds_any(p->contacts, block)) primal_body_of(p, block)->leans = true;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *body = primal_body_of(p, block);
+        body->leans = body->leans || holds_any(p->contacts, block);
+        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
+    }
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
 }

@@ -23,8 +23,21 @@ typedef struct BodySum {
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
+    bool meets;               /* may meet one in this substep */
     float kept, mean[3];      /* share of its velocities beside this mean displacement that a body with liquid keeps */
 } BodySum;
+
+/* Translations along and rotations about the axes, per radian. */
+enum { RIGID_MODES = 6 };
+
+/* A body's rigid motions: see primal_rigid.c. */
+typedef struct RigidBody {
+    bool used;
+    double centre[3];                          /* from the anchor [cells] */
+    double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
+    double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
+    double sum[10], motion[RIGID_MODES];
+} RigidBody;
 
 /* One substep. Vectors have W floats per node; the last is not used. */
 typedef struct Primal {
@@ -37,6 +50,9 @@ typedef struct Primal {
     float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients, newest first */
     double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
     int pairs;
+    bool rubs;      /* there is friction */
+    float slip_min; /* see holds_slip_min() */
+    bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     float share;                            /* of the step that is tried */
     double mass, energy, trial_energy, slope_before, slope_after;
@@ -84,6 +100,26 @@ void primal_pull_back_to(Primal *p, float share);
 
 /* Mends the bodies whose solution has more energy than there was. */
 void primal_keep_energy(Primal *p);
+
+/* ---- primal_rigid.c: rigid motions, in the order of a direction's passes ---- */
+
+/* Finds the bodies whose rigid motions count, and what they weigh. After primal_find_leaning(). */
+void primal_find_rigid(Primal *p);
+
+/* With the contacts that are active now. */
+void primal_weigh_rigid(Primal *p);
+
+/* In a pass: sums Z'v of a block, v from its first float on. Then the motions zc follow. */
+void primal_sum_rigid(Primal *p, int32_t block, const float *v, double *sum);
+void primal_solve_rigid(Primal *p);
+
+/* In a pass: p->right -= H zc; uses p->direction. */
+void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end);
+
+/* In a pass: sums Z'Hz of z = p->direction. Then the motions become what is added to it. They use p->force. */
+void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
+void primal_correct_rigid(Primal *p);
+void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end);
 
 /* ---- primal_liquid.c ---- */
 
