@@ -163,6 +163,21 @@ void holds_stiffen(const ContactFrame *frame, const float *u, const float *vecto
     }
 }
 
+void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        float moved[3], slip[3];
+        if (!(contact->limit > 0.0f)) continue;
+        for (int a = 0; a < 3; a++) moved[a] = u[list.node + contact->node * K_NODE_WIDTH + (size_t)a] + (float)way[a];
+        const float rub = rub_of(contact, slip_of(contact, moved, slip), least);
+        for (int a = 0; a < 3; a++) pull[a] -= (double)(rub * slip[a]);
+        *stiffness += (double)rub;
+    }
+}
+
 bool holds_any_rub(const ContactFrame *frame)
 {
     const Contact *contact = frame->colliders->contact.data;

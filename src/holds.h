@@ -55,6 +55,9 @@ float holds_rub_stiffness(const Contact *contact, const float *u, float least);
 /* to += sign times friction's stiffness times vector. */
 void holds_stiffen(const ContactFrame *frame, const float *u, const float *vector, float *to, float sign, float least, int32_t block);
 
+/* What friction of the contacts of a block pulls back if all nodes go by `way` from u, taken from `pull`, and its stiffness, added. */
+void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness);
+
 /* Sums what the active contacts of a block push, from a gradient without friction, and friction as it was; then scales, then new limits. */
 void holds_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyRub *body);
 void holds_scale(BodyRub *body, int32_t count);

@@ -41,6 +41,7 @@ pbmpm_result primal_prepare(World *world)
                     bodies_find(&state->bodies, memory, &world->grid) &&
                     array_reserve(memory, &state->body_sums, (size_t)state->bodies.count, sizeof(BodySum)) &&
                     array_reserve(memory, &state->rub, (size_t)state->bodies.count, sizeof(BodyRub)) &&
+                    array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
                     array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
@@ -50,7 +51,7 @@ pbmpm_result primal_prepare(World *world)
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->sums, &s->body_sums, &s->rigid, &s->rub};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->sums, &s->body_sums, &s->rigid, &s->rub, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -568,10 +569,11 @@ void primal_solve(World *world, const ContactFrame *contacts)
     p.mass = fmax(p.total[0], 1e-30);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     minimise(&p);
+    primal_keep_momentum(&p);
     primal_keep_energy(&p);
     primal_find_kept(&p);
     forget_past(&p);
-    primal_keep_momentum(&p);
+    if (solver_holds_liquid(world) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
     primal_over_blocks(&p, write_motion);
     holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
 }

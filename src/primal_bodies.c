@@ -128,6 +128,10 @@ void primal_pull_back_to(Primal *p, float share)
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {
+    memcpy(p->node, p->best, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->node); /* bodies were moved since */
+    primal_evaluate(p);
+    primal_accept(p, false);
+    primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
     if (primal_check_bodies(p) == 0) return;
     primal_pull_back_to(p, 0.0f);
@@ -149,8 +153,6 @@ void primal_keep_energy(Primal *p)
     record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
 }
 
-/* ---- Momentum ---- */
-
 void primal_find_leaning(Primal *p)
 {
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
@@ -161,41 +163,4 @@ void primal_find_leaning(Primal *p)
     }
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
-}
-
-static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    (void)block;
-    for (size_t i = begin; i < end; i += W) {
-        const double mass = (double)p->base[i + 3];
-        sum[0] += mass;
-        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
-    }
-}
-
-static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const BodySum *body = primal_body_of(p, block);
-    (void)sum;
-    if (body->leans || body->mass == 0.0) return;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
-}
-
-/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
- * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
-void primal_keep_momentum(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    BodySum *body = state->body_sums.data;
-    const double *sums = state->sums.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].mass = body[i].momentum[0] = body[i].momentum[1] = body[i].momentum[2] = 0.0;
-    primal_over_blocks(p, sum_momentum_error);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = primal_body_of(p, block);
-        b->mass += sums[(size_t)block * SUMS];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
-    }
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
-    primal_over_blocks(p, move_free_body);
 }

@@ -39,6 +39,14 @@ typedef struct RigidBody {
     double sum[10], motion[RIGID_MODES];
 } RigidBody;
 
+/* A translation of a body, see primal_momentum.c. */
+typedef struct BodyMove {
+    double mass, missing[3];  /* momentum */
+    int blocked;              /* how many directions it may not move along, and which */
+    double normal[3][3];
+    double way[3], pull[3], stiffness;
+} BodyMove;
+
 /* One substep. Vectors have W floats per node; the last is not used. */
 typedef struct Primal {
     World *world;
@@ -129,9 +137,9 @@ void primal_find_kept(Primal *p);
 /* The displacements that make the velocities: p->node, or where bodies keep less, p->right. */
 const float *primal_kept_motion(Primal *p);
 
-/* ---- primal_bodies.c ---- */
+/* ---- primal_momentum.c ---- */
 
-/* Gives bodies that lean on nothing the momentum that an unfinished solution kept from them. */
+/* Gives bodies the momentum that an unfinished solution kept from them, as far as they may move. */
 void primal_keep_momentum(Primal *p);
 
 #endif
