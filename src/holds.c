@@ -93,7 +93,7 @@ void holds_remove(const ContactFrame *frame, float *vector, int32_t begin, int32
 /* ---- Friction ---- */
 
 /* Below this slip [cells per 1/60 s] friction grows with it: a kink that iterations could not find. */
-static const float SLIP_MIN = 1e-3f;
+static const float SLIP_MIN = 1e-4f;
 
 /* What sticks rubs like this: the most that a collider may be given. */
 static const float STICKS = 100.0f;
@@ -163,6 +163,31 @@ void holds_stiffen(const ContactFrame *frame, const float *u, const float *vecto
     }
 }
 
+void holds_rub_weigh(const ContactFrame *frame, const float *u, float *weight, float least, int32_t block)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        const size_t node = list.node + contact->node * K_NODE_WIDTH;
+        const float rub = holds_rub_stiffness(contact, u + node, least);
+        for (size_t a = 0; a < 3 && rub > 0.0f; a++) weight[node + a] += rub * (1.0f - contact->normal[a] * contact->normal[a]);
+    }
+}
+
+void holds_soften(const ContactFrame *frame, const float *u, const float *inverse, float *vector, float least, int32_t block)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        const size_t node = list.node + contact->node * K_NODE_WIDTH;
+        const float rub = holds_rub_stiffness(contact, u + node, least), part = along(vector + node, contact->normal);
+        const float less = rub > 0.0f ? 1.0f / (1.0f + rub * inverse[node / K_NODE_WIDTH]) - 1.0f : 0.0f;
+        for (size_t a = 0; a < 3 && rub > 0.0f; a++) vector[node + a] += less * (vector[node + a] - part * contact->normal[a]);
+    }
+}
+
 void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness)
 {
     if (frame->colliders->contacts == 0) return;
@@ -175,6 +200,16 @@ void holds_pull(const ContactFrame *frame, const float *u, const double way[3], 
         const float rub = rub_of(contact, slip_of(contact, moved, slip), least);
         for (int a = 0; a < 3; a++) pull[a] -= (double)(rub * slip[a]);
         *stiffness += (double)rub;
+    }
+}
+
+void holds_sum_limits(const ContactFrame *frame, int32_t block, double *limit, double surface[3])
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        *limit += (double)list.contact[i].limit;
+        for (int a = 0; a < 3; a++) surface[a] += (double)(list.contact[i].limit * list.contact[i].surface[a]);
     }
 }
 

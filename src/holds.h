@@ -55,8 +55,17 @@ float holds_rub_stiffness(const Contact *contact, const float *u, float least);
 /* to += sign times friction's stiffness times vector. */
 void holds_stiffen(const ContactFrame *frame, const float *u, const float *vector, float *to, float sign, float least, int32_t block);
 
+/* Adds friction's stiffness to the first three floats of `weight`, which are stiffnesses along the axes. */
+void holds_rub_weigh(const ContactFrame *frame, const float *u, float *weight, float least, int32_t block);
+
+/* Along surfaces that rub: vector / (1 + friction's stiffness times inverse). `inverse`: one float per node. */
+void holds_soften(const ContactFrame *frame, const float *u, const float *inverse, float *vector, float least, int32_t block);
+
 /* What friction of the contacts of a block pulls back if all nodes go by `way` from u, taken from `pull`, and its stiffness, added. */
 void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness);
+
+/* Adds the limits of a block's contacts, and limits times motions of the surfaces. */
+void holds_sum_limits(const ContactFrame *frame, int32_t block, double *limit, double surface[3]);
 
 /* Sums what the active contacts of a block push, from a gradient without friction, and friction as it was; then scales, then new limits. */
 void holds_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyRub *body);

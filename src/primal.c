@@ -216,6 +216,7 @@ static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, doub
         stiff[i / W] = counts * stiffness;
         sum[0] += (double)mass;
     }
+    if (p->rubs) holds_rub_weigh(p->contacts, p->best, weight, p->slip_min, block);
 }
 
 /* ---- Accepting displacements ---- */
@@ -342,6 +343,7 @@ static void join_levels(Primal *p, int32_t block, size_t begin, size_t end)
         for (size_t c = 0; c < W; c++) joining[i + c] = joins * right[i + c];
         for (size_t c = 0; c < W; c++) direction[i + c] = own * right[i + c];
     }
+    if (p->rubs) holds_soften(p->contacts, p->best, inverse, direction, p->slip_min, block);
 }
 
 static void add_changes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -568,6 +570,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_over_blocks(&p, weigh_nodes);
     p.mass = fmax(p.total[0], 1e-30);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
+    primal_choose_start(&p);
     minimise(&p);
     primal_keep_momentum(&p);
     primal_keep_energy(&p);

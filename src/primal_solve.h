@@ -15,11 +15,13 @@ enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4 };
 typedef struct BodySum {
     double before, after, work;
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
+    double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
     double liquid;            /* energy of the liquid particles */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
+    double limit, surface[3]; /* of friction, and limits times motions of the surfaces */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
@@ -105,6 +107,10 @@ uint32_t primal_check_bodies(Primal *p);
 
 /* Moves failed bodies to `share` of the way from their start to the solution; the others stay as they are. */
 void primal_pull_back_to(Primal *p, float share);
+
+/* Starts bodies from their mean motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
+ * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
+void primal_choose_start(Primal *p);
 
 /* Mends the bodies whose solution has more energy than there was. */
 void primal_keep_energy(Primal *p);
