@@ -98,7 +98,10 @@ void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t
 /* How many contacts a block has. */
 uint32_t holds_contacts(const ContactFrame *frame, int32_t block);
 
-/* Whether a node of the block is at or in an obstacle. */
-bool holds_any(const ContactFrame *frame, int32_t block);
+/* Whether a node of the block may approach an obstacle by this at most. */
+bool holds_any(const ContactFrame *frame, float most, int32_t block);
+
+/* How far a displaced node may go on towards the surface. */
+float holds_room(const Contact *contact, const float *u);
 
 #endif

@@ -537,7 +537,8 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
         multistep_predict(p->world, block, block + 1);
         memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     }
-    const bool balanced = primal_body_of(p, block)->leans && !primal_body_of(p, block)->with_liquid;
+    const bool solid = !primal_body_of(p, block)->with_liquid, balanced = primal_body_of(p, block)->leans && solid;
+    if (solid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
     holds_project(p->contacts, p->node, block, block + 1);

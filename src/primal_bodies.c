@@ -212,14 +212,23 @@ void primal_keep_energy(Primal *p)
     record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
 }
 
+/* What gravity moves in the substep [cells]. */
+static float fall_of(const World *world)
+{
+    const float *g = world->args.gravity;
+    return sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
 void primal_find_leaning(Primal *p)
 {
+    const float fall = fall_of(p->world);
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *body = primal_body_of(p, block);
-        body->leans = body->leans || holds_any(p->contacts, block);
-        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
-    }
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
+    primal_widen_gaps(p);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *body = primal_body_of(p, block);
+        body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
+    }
 }

@@ -41,6 +41,7 @@ static BodyMove *move_of(const Primal *p, int32_t block)
     return (BodyMove *)state->moves.data + ((const int32_t *)state->bodies.of_block.data)[block];
 }
 
+/* Contacts that hold, and those that a body might run into. */
 static void find_blocked(const Primal *p)
 {
     const Colliders *colliders = p->contacts->colliders;
@@ -48,9 +49,11 @@ static void find_blocked(const Primal *p)
     for (int32_t block = 0; block < p->world->grid.node_blocks && colliders->contacts > 0; block++)
         for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
             const Contact *contact = (const Contact *)colliders->contact.data + i;
-            if (!contact->active && contact->gap > 0.0f) continue;
-            if (holds_whole(contact)) move_of(p, block)->blocked = 3;
-            else block_normal(move_of(p, block), contact->normal);
+            BodyMove *move = move_of(p, block);
+            const float *u = p->best + (size_t)block * (size_t)p->floats + (size_t)contact->node * W;
+            if (!contact->active && (double)holds_room(contact, u) > move->longest) continue;
+            if (holds_whole(contact)) move->blocked = 3;
+            else block_normal(move, contact->normal);
         }
 }
 
@@ -92,6 +95,10 @@ void primal_keep_momentum(Primal *p)
         BodyMove *m = move_of(p, block);
         m->mass += sums[(size_t)block * SUMS];
         for (int c = 0; c < 3; c++) m->missing[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        const double *m = move[i].missing;
+        move[i].longest = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / fmax(move[i].mass, 1e-30);
     }
     find_blocked(p);
     for (int step = 0; step < (p->rubs ? STEPS : 1); step++) move_on(p);

@@ -44,6 +44,7 @@ typedef struct RigidBody {
 /* A translation of a body, see primal_momentum.c. */
 typedef struct BodyMove {
     double mass, missing[3];  /* momentum */
+    double longest;           /* way */
     int blocked;              /* how many directions it may not move along, and which */
     double normal[3][3];
     double way[3], pull[3], stiffness;
@@ -142,6 +143,11 @@ void primal_find_kept(Primal *p);
 
 /* The displacements that make the velocities: p->node, or where bodies keep less, p->right. */
 const float *primal_kept_motion(Primal *p);
+
+/* ---- primal_gaps.c ---- */
+
+/* Lets nodes of solids go as far into obstacles as the particles that they carry have room. Nothing has been solved for yet. */
+void primal_widen_gaps(Primal *p);
 
 /* ---- primal_momentum.c ---- */
 
