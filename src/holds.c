@@ -203,16 +203,6 @@ void holds_pull(const ContactFrame *frame, const float *u, const double way[3], 
     }
 }
 
-void holds_sum_limits(const ContactFrame *frame, int32_t block, double *limit, double surface[3])
-{
-    if (frame->colliders->contacts == 0) return;
-    const BlockContacts list = contacts_of(frame, block);
-    for (uint32_t i = list.begin; i < list.end; i++) {
-        *limit += (double)list.contact[i].limit;
-        for (int a = 0; a < 3; a++) surface[a] += (double)(list.contact[i].limit * list.contact[i].surface[a]);
-    }
-}
-
 bool holds_any_rub(const ContactFrame *frame)
 {
     const Contact *contact = frame->colliders->contact.data;

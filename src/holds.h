@@ -64,9 +64,6 @@ void holds_soften(const ContactFrame *frame, const float *u, const float *invers
 /* What friction of the contacts of a block pulls back if all nodes go by `way` from u, taken from `pull`, and its stiffness, added. */
 void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness);
 
-/* Adds the limits of a block's contacts, and limits times motions of the surfaces. */
-void holds_sum_limits(const ContactFrame *frame, int32_t block, double *limit, double surface[3]);
-
 /* Sums what the active contacts of a block push, from a gradient without friction, and friction as it was; then scales, then new limits. */
 void holds_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyRub *body);
 void holds_scale(BodyRub *body, int32_t count);

@@ -578,6 +578,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_find_kept(&p);
     forget_past(&p);
     if (solver_holds_liquid(world) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
+    primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
     holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
 }

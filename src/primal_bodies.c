@@ -127,63 +127,6 @@ void primal_pull_back_to(Primal *p, float share)
     primal_accept(p, false);
 }
 
-/* What the start costs more than the body's mean motion, which strains nothing: sum m/2 |u - u*|^2 + Psi(u) over both. */
-static void sum_start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const double *start = primal_body_of(p, block)->start;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3; c++) {
-            const double away = (double)p->best[i + c] - (double)p->base[i + c], mean = start[c] - (double)p->base[i + c];
-            if (p->base[i + 3] > 0.0f) sum[0] += 0.5 * (double)p->base[i + 3] * (away * away - mean * mean);
-        }
-}
-
-/* Friction as of a rigid body: it brings the motion to that of the surfaces, by limit over mass at most. */
-static void rub_start(BodySum *body)
-{
-    double slip[3], length = 0.0;
-    for (int c = 0; c < 3; c++) {
-        slip[c] = body->start[c] - body->surface[c] / body->limit;
-        length += slip[c] * slip[c];
-    }
-    const double lost = fmin(1.0, body->limit / fmax(body->mass * sqrt(length), 1e-30));
-    for (int c = 0; c < 3; c++) body->start[c] -= lost * slip[c];
-}
-
-void primal_choose_start(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    const double *sums = state->sums.data;
-    const float *energy = state->block_energy.data;
-    BodySum *body = state->body_sums.data;
-    bool any = false;
-    primal_check_bodies(p);
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].limit = 0.0;
-    for (int32_t i = 0; i < state->bodies.count; i++) memset(body[i].surface, 0, sizeof body[i].surface);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = primal_body_of(p, block);
-        holds_turn_aside(p->contacts, block, b->start);
-        if (p->rubs) holds_sum_limits(p->contacts, block, &b->limit, b->surface);
-    }
-    for (int32_t i = 0; i < state->bodies.count; i++)
-        if (body[i].limit > 0.0) rub_start(&body[i]);
-    primal_over_blocks(p, sum_start);
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].after = 0.0;
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = primal_body_of(p, block);
-        const float *e = energy + 4 * block;
-        b->after += sums[(size_t)block * SUMS];
-        if (block < p->world->grid.particle_blocks) b->after += (double)e[0] + (double)e[1] - (double)e[2] - (double)e[3];
-    }
-    for (int32_t i = 0; i < state->bodies.count; i++) {
-        body[i].unsound = false;
-        body[i].failed = body[i].after > 0.0 && !body[i].with_liquid;
-        any = any || body[i].failed;
-    }
-    if (any) primal_pull_back_to(p, 0.0f);
-    p->world->record.iterations_used = 0;
-}
-
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {

@@ -24,21 +24,21 @@ static void corner_of(const Primal *p, int32_t block, double corner[3])
     for (int a = 0; a < 3; a++) corner[a] = a < p->world->grid.dimension ? (double)(place[a] * K_BLOCK_AXIS) : 0.0;
 }
 
-static void arm_of(const double corner[3], size_t node, double arm[3])
+void primal_arm(const double corner[3], size_t node, double arm[3])
 {
     arm[0] = corner[0] + (double)(node & 3);
     arm[1] = corner[1] + (double)(node >> 2 & 3);
     arm[2] = corner[2] + (double)(node >> 4);
 }
 
-static RigidBody *modes_of(const Primal *p, int32_t block)
+RigidBody *primal_rigid_of(const Primal *p, int32_t block)
 {
     const PrimalState *state = &p->world->primal;
     return (RigidBody *)state->rigid.data + ((const int32_t *)state->bodies.of_block.data)[block];
 }
 
 /* From the body's centre to the block's first node. */
-static void corner_in_body(const Primal *p, int32_t block, const RigidBody *body, double corner[3])
+void primal_corner(const Primal *p, int32_t block, const RigidBody *body, double corner[3])
 {
     corner_of(p, block, corner);
     for (int a = 0; a < 3; a++) corner[a] -= body->centre[a];
@@ -49,11 +49,11 @@ static void corner_in_body(const Primal *p, int32_t block, const RigidBody *body
 static void sum_weights(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     double corner[3], x[3];
-    if (!modes_of(p, block)->used) return;
+    if (!primal_rigid_of(p, block)->turns) return;
     corner_of(p, block, corner);
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
-        arm_of(corner, (i - begin) / W, x);
+        primal_arm(corner, (i - begin) / W, x);
         sum[0] += mass;
         for (int a = 0; a < 3; a++) {
             sum[1 + a] += mass * x[a];
@@ -80,15 +80,15 @@ static void weigh_body(RigidBody *body)
 }
 
 /* The sums of the last pass, per body. */
-static void gather_sums(Primal *p, int count)
+void primal_gather_rigid(Primal *p, int count)
 {
     PrimalState *state = &p->world->primal;
     RigidBody *body = state->rigid.data;
     const double *sums = state->sums.data;
     for (int32_t i = 0; i < state->bodies.count; i++) memset(body[i].sum, 0, sizeof body[i].sum);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        RigidBody *of = modes_of(p, block);
-        for (int k = 0; k < count && of->used; k++) of->sum[k] += sums[(size_t)block * SUMS + (size_t)k];
+        RigidBody *of = primal_rigid_of(p, block);
+        for (int k = 0; k < count; k++) of->sum[k] += sums[(size_t)block * SUMS + (size_t)k];
     }
 }
 
@@ -99,14 +99,14 @@ void primal_find_rigid(Primal *p)
     const BodySum *of = state->body_sums.data;
     p->rigid = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
-        body[i].used = of[i].meets && !of[i].with_liquid;
+        body[i].turns = !of[i].with_liquid;
+        body[i].used = of[i].meets && body[i].turns;
         p->rigid = p->rigid || body[i].used;
     }
-    if (!p->rigid) return;
     primal_over_blocks(p, sum_weights);
-    gather_sums(p, 10);
+    primal_gather_rigid(p, 10);
     for (int32_t i = 0; i < state->bodies.count; i++)
-        if (body[i].used) weigh_body(&body[i]);
+        if (body[i].turns) weigh_body(&body[i]);
 }
 
 /* ---- A ---- */
@@ -142,8 +142,8 @@ static void add_contact(Primal *p, int32_t block, RigidBody *body, const Contact
     const double mass = (double)p->base[node + 3], inverse = (double)((const float *)p->world->primal.inverse.data)[node / W];
     double corner[3], arm[3];
     if (!contact->active || !(inverse > 0.0)) return;
-    corner_in_body(p, block, body, corner);
-    arm_of(corner, contact->node, arm);
+    primal_corner(p, block, body, corner);
+    primal_arm(corner, contact->node, arm);
     const double jump = fmax(0.0, 1.0 / inverse - 2.0 * mass); /* K - M */
     const double rubs = holds_rub_stiffness(contact, p->best + node, p->slip_min);
     const bool held = holds_whole(contact);
@@ -187,10 +187,10 @@ void primal_weigh_rigid(Primal *p)
     const uint32_t *begin = colliders->contact_begin.data;
     for (int32_t i = 0; i < state->bodies.count; i++) memcpy(body[i].factor, body[i].mass, sizeof body[i].factor);
     for (int32_t block = 0; block < p->world->grid.node_blocks && colliders->contacts > 0; block++)
-        for (uint32_t i = begin[block]; i < begin[block + 1] && modes_of(p, block)->used; i++)
-            add_contact(p, block, modes_of(p, block), (const Contact *)colliders->contact.data + i);
+        for (uint32_t i = begin[block]; i < begin[block + 1] && primal_rigid_of(p, block)->used; i++)
+            add_contact(p, block, primal_rigid_of(p, block), (const Contact *)colliders->contact.data + i);
     for (int32_t i = 0; i < state->bodies.count; i++)
-        if (body[i].used) factorise(body[i].factor);
+        if (body[i].turns) factorise(body[i].factor);
 }
 
 /* ---- The two corrections ---- */
@@ -198,13 +198,13 @@ void primal_weigh_rigid(Primal *p)
 /* Sums of Z'v of a block, for vectors that keep to what contacts allow. */
 void primal_sum_rigid(Primal *p, int32_t block, const float *v, double *sum)
 {
-    const RigidBody *body = modes_of(p, block);
+    const RigidBody *body = primal_rigid_of(p, block);
     double corner[3], x[3];
-    if (!body->used) return;
-    corner_in_body(p, block, body, corner);
+    if (!body->turns) return;
+    primal_corner(p, block, body, corner);
     for (size_t i = 0; i < (size_t)p->floats; i += W) {
         const double a = (double)v[i], b = (double)v[i + 1], c = (double)v[i + 2];
-        arm_of(corner, i / W, x);
+        primal_arm(corner, i / W, x);
         sum[0] += a;
         sum[1] += b;
         sum[2] += c;
@@ -220,10 +220,10 @@ static void write_motion(Primal *p, int32_t block, const RigidBody *body, float 
     const float *base = p->base + (size_t)block * (size_t)p->floats;
     const double *t = body->motion, *r = body->motion + 3;
     double corner[3], x[3];
-    corner_in_body(p, block, body, corner);
+    primal_corner(p, block, body, corner);
     for (size_t i = 0; i < (size_t)p->floats; i += W) {
         const float there = base[i + 3] > 0.0f ? 1.0f : 0.0f;
-        arm_of(corner, i / W, x);
+        primal_arm(corner, i / W, x);
         to[i] = there * (float)(t[0] + r[1] * x[2] - r[2] * x[1]);
         to[i + 1] = there * (float)(t[1] + r[2] * x[0] - r[0] * x[2]);
         to[i + 2] = there * (float)(t[2] + r[0] * x[1] - r[1] * x[0]);
@@ -235,15 +235,15 @@ static void write_motion(Primal *p, int32_t block, const RigidBody *body, float 
 void primal_solve_rigid(Primal *p)
 {
     RigidBody *body = p->world->primal.rigid.data;
-    gather_sums(p, RIGID_MODES);
+    primal_gather_rigid(p, RIGID_MODES);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
-        if (body[i].used) solve_modes(&body[i], body[i].motion);
+        if (body[i].turns) solve_modes(&body[i], body[i].motion);
 }
 
 /* The block's r -= H zc. */
 void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end)
 {
-    const RigidBody *body = modes_of(p, block);
+    const RigidBody *body = primal_rigid_of(p, block);
     if (!body->used) return;
     write_motion(p, block, body, p->direction + begin);
     holds_remove(p->contacts, p->direction, block, block + 1);
@@ -255,7 +255,7 @@ void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end)
 /* Sums of Z'Hz of a block, of z = p->direction; uses p->force. */
 void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    if (!modes_of(p, block)->used) return;
+    if (!primal_rigid_of(p, block)->used) return;
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3; c++) p->force[i + c] = p->base[i + 3] * p->direction[i + c];
     holds_stiffen(p->contacts, p->best, p->direction, p->force, 1.0f, p->slip_min, block);
@@ -267,7 +267,7 @@ void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, doub
 void primal_correct_rigid(Primal *p)
 {
     RigidBody *body = p->world->primal.rigid.data;
-    gather_sums(p, RIGID_MODES);
+    primal_gather_rigid(p, RIGID_MODES);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         double less[RIGID_MODES];
         if (!body[i].used) continue;
@@ -278,9 +278,94 @@ void primal_correct_rigid(Primal *p)
 
 void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end)
 {
-    const RigidBody *body = modes_of(p, block);
+    const RigidBody *body = primal_rigid_of(p, block);
     if (!body->used) return;
     write_motion(p, block, body, p->force + begin);
     holds_remove(p->contacts, p->force, block, block + 1);
     for (size_t i = begin; i < end; i++) p->direction[i] += p->force[i];
+}
+
+/* ---- The start ---- */
+
+/* Z'M u*, of what contacts allow; uses p->force. */
+static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < 3; c++) p->force[i + c] = p->base[i + 3] * p->base[i + c];
+    holds_remove(p->contacts, p->force, block, block + 1);
+    primal_sum_rigid(p, block, p->force + begin, sum);
+}
+
+/* Where the motion w takes a point, turned by the angle whose tangent is |w|, as a step projects velocities: without strain. With s = cos = (1 + w^2)^-1/2
+ * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
+static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
+{
+    const double *t = body->motion, *w = body->motion + 3;
+    const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
+    const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
+    const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
+    for (int c = 0; c < 3; c++) out[c] = t[c] + s * v[c] + q * a[c];
+}
+
+/* What the start costs more than the rigid motion, of sum m/2 |u - u*|^2. */
+static void sum_start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const RigidBody *body = primal_rigid_of(p, block);
+    double corner[3], x[3], u[3];
+    if (!body->turns) return;
+    primal_corner(p, block, body, corner);
+    for (size_t i = begin; i < end; i += W) {
+        if (p->base[i + 3] == 0.0f) continue;
+        primal_arm(corner, (i - begin) / W, x);
+        move_rigidly(body, x, u);
+        for (size_t c = 0; c < 3; c++) {
+            const double free = (double)p->base[i + c], away = (double)p->best[i + c] - free;
+            sum[0] += 0.5 * (double)p->base[i + 3] * (away * away - (u[c] - free) * (u[c] - free));
+        }
+    }
+}
+
+static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const RigidBody *body = primal_rigid_of(p, block);
+    double corner[3], x[3], u[3];
+    (void)sum;
+    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
+    if (!body->turns || !(body->sum[0] > 0.0)) return;
+    primal_corner(p, block, body, corner);
+    for (size_t i = begin; i < end; i += W) {
+        if (p->base[i + 3] == 0.0f) continue;
+        primal_arm(corner, (i - begin) / W, x);
+        move_rigidly(body, x, u);
+        for (size_t c = 0; c < 3; c++) p->node[i + c] = (float)u[c];
+    }
+    holds_project(p->contacts, p->node, block, block + 1);
+}
+
+/* What the start stretches, beside what was stretched. */
+static void add_strain(Primal *p)
+{
+    const float *energy = p->world->primal.block_energy.data;
+    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++) {
+        const float *e = energy + 4 * block;
+        primal_rigid_of(p, block)->sum[0] += (double)e[0] + (double)e[1] - (double)e[2] - (double)e[3];
+    }
+}
+
+void primal_choose_start(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    const RigidBody *body = state->rigid.data;
+    bool any = false;
+    primal_weigh_rigid(p);
+    primal_over_blocks(p, sum_predicted);
+    primal_solve_rigid(p);
+    primal_over_blocks(p, sum_start);
+    primal_gather_rigid(p, 1);
+    add_strain(p);
+    for (int32_t i = 0; i < state->bodies.count; i++) any = any || (body[i].turns && body[i].sum[0] > 0.0);
+    if (!any) return;
+    primal_over_blocks(p, start_rigidly);
+    primal_evaluate(p);
+    primal_accept(p, false);
 }

@@ -21,7 +21,6 @@ typedef struct BodySum {
     double elastic;           /* energy of the elastic particles */
     double liquid;            /* energy of the liquid particles */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
-    double limit, surface[3]; /* of friction, and limits times motions of the surfaces */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
@@ -39,6 +38,8 @@ typedef struct RigidBody {
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
     double sum[10], motion[RIGID_MODES];
+    bool turns;                                /* it may; then: it gets this back */
+    double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
 } RigidBody;
 
 /* A translation of a body, see primal_momentum.c. */
@@ -109,10 +110,6 @@ uint32_t primal_check_bodies(Primal *p);
 /* Moves failed bodies to `share` of the way from their start to the solution; the others stay as they are. */
 void primal_pull_back_to(Primal *p, float share);
 
-/* Starts bodies from their mean motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
- * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
-void primal_choose_start(Primal *p);
-
 /* Mends the bodies whose solution has more energy than there was. */
 void primal_keep_energy(Primal *p);
 
@@ -135,6 +132,24 @@ void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end);
 void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
 void primal_correct_rigid(Primal *p);
 void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end);
+
+/* Starts bodies from their rigid motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
+ * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
+void primal_choose_start(Primal *p);
+
+/* The rigid motions of a block's body; from its centre to the block's first node, and to another one; the sums of the last pass per body. */
+RigidBody *primal_rigid_of(const Primal *p, int32_t block);
+void primal_corner(const Primal *p, int32_t block, const RigidBody *body, double corner[3]);
+void primal_arm(const double corner[3], size_t node, double arm[3]);
+void primal_gather_rigid(Primal *p, int count);
+
+/* ---- primal_spin.c ---- */
+
+/* Finds what bodies lose of their rotation. After all else; uses p->right. */
+void primal_find_spin(Primal *p);
+
+/* After particles have moved: gives it back. */
+void primal_turn(World *world);
 
 /* ---- primal_liquid.c ---- */
 
