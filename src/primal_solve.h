@@ -9,7 +9,7 @@
 #define PRIMAL_ERROR_PER_RESIDUAL 1.3
 #define PRIMAL_ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
 
-enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 4 };
+enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 6 };
 
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
@@ -37,7 +37,7 @@ typedef struct RigidBody {
     double centre[3];                          /* from the anchor [cells] */
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
-    double sum[10], motion[RIGID_MODES];
+    double sum[15], motion[RIGID_MODES];
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
 } RigidBody;

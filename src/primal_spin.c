@@ -35,6 +35,11 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[a] += x[b] * motion[c] - x[c] * motion[b];
             sum[3 + a] += x[b] * force[c] - x[c] * force[b];
         }
+        for (int a = 0; a < 3; a++) x[a] += (double)p->best[i + (size_t)a];
+        for (int a = 0; a < 3; a++) {
+            sum[9 + a] += mass * x[a] * x[a];
+            sum[12 + a] += mass * x[(a + 1) % 3] * x[(a + 2) % 3];
+        }
     }
 }
 
@@ -71,10 +76,26 @@ static void bound_spin(const RigidBody *body, const double l[3], double spin[3])
     for (int a = 0; a < 3; a++) spin[a] = share * w[a];
 }
 
+/* The tensor of inertia where the nodes arrive. That of the particles is not larger: no spin costs more than what follows from it. */
+static void weigh_arrived(RigidBody *body)
+{
+    const double mass = body->mass[0][0];
+    double way[3], square[3];
+    for (int a = 0; a < 3; a++) way[a] = body->sum[6 + a] / mass;
+    for (int a = 0; a < 3; a++) square[a] = fmax(0.0, body->sum[9 + a] - mass * way[a] * way[a]);
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        body->mass[3 + a][3 + a] = square[b] + square[c];
+        body->mass[3 + b][3 + c] = body->mass[3 + c][3 + b] = mass * way[b] * way[c] - body->sum[12 + a];
+        body->arrives[a] = body->centre[a] + way[a];
+    }
+}
+
 /* The rotation that the body gets back, from the sums above. */
 static void find_spin(RigidBody *body, const BodySum *of)
 {
     const double *l = body->sum, *lost = body->sum + 3, room = of->before + of->work - of->after;
+    weigh_arrived(body);
     double gain = 0.0;
     turn_by(body->mass, lost, body->spin);
     if (of->meets) bound_spin(body, l, body->spin);
@@ -82,10 +103,7 @@ static void find_spin(RigidBody *body, const BodySum *of)
         for (int b = 0; b < 3; b++) gain += 0.5 * body->spin[a] * body->mass[3 + a][3 + b] * body->spin[b];
     for (int a = 0; a < 3; a++) gain += body->spin[a] * l[a];
     const double share = gain <= 0.0 ? 1.0 : fmin(1.0, fmax(0.0, room) / gain);
-    for (int a = 0; a < 3; a++) {
-        body->spin[a] *= share;
-        body->arrives[a] = body->centre[a] + body->sum[6 + a] / body->mass[0][0];
-    }
+    for (int a = 0; a < 3; a++) body->spin[a] *= share;
 }
 
 void primal_find_spin(Primal *p)
@@ -94,7 +112,7 @@ void primal_find_spin(Primal *p)
     RigidBody *body = state->rigid.data;
     const BodySum *of = state->body_sums.data;
     primal_over_blocks(p, sum_torque);
-    primal_gather_rigid(p, 9);
+    primal_gather_rigid(p, 15);
     for (int32_t i = 0; i < state->bodies.count; i++) {
         memset(body[i].spin, 0, sizeof body[i].spin);
         if (body[i].turns && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
