@@ -109,6 +109,12 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
 {
     const BodySum *body = primal_body_of(p, block);
     (void)sum;
+    if (body->failed && p->turned && primal_rigid_of(p, block)->turns) {
+        primal_write_rigid(p, block, begin, end, p->node);
+        for (size_t i = begin; i < end; i++) p->node[i] = i % W == 3 ? p->base[i] : p->node[i] + p->share * (p->best[i] - p->node[i]);
+        holds_project(p->contacts, p->node, block, block + 1);
+        return;
+    }
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
@@ -136,10 +142,12 @@ static void mend(Primal *p)
     primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
     if (primal_check_bodies(p) == 0) return;
+    p->turned = true;
     primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
     for (int halving = 0; primal_check_bodies(p) > 0; halving++) {
+        p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;
     }

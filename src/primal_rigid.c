@@ -300,7 +300,7 @@ static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, do
  * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
 static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
 {
-    const double *t = body->motion, *w = body->motion + 3;
+    const double *t = body->start, *w = body->start + 3;
     const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
     const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
     const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
@@ -325,20 +325,26 @@ static void sum_start(Primal *p, int32_t block, size_t begin, size_t end, double
     }
 }
 
-static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, float *node)
 {
     const RigidBody *body = primal_rigid_of(p, block);
     double corner[3], x[3], u[3];
-    (void)sum;
-    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
-    if (!body->turns || !(body->sum[0] > 0.0)) return;
     primal_corner(p, block, body, corner);
     for (size_t i = begin; i < end; i += W) {
         if (p->base[i + 3] == 0.0f) continue;
         primal_arm(corner, (i - begin) / W, x);
         move_rigidly(body, x, u);
-        for (size_t c = 0; c < 3; c++) p->node[i + c] = (float)u[c];
+        for (size_t c = 0; c < 3; c++) node[i + c] = (float)u[c];
     }
+}
+
+static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const RigidBody *body = primal_rigid_of(p, block);
+    (void)sum;
+    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
+    if (!body->turns || !(body->sum[0] > 0.0)) return;
+    primal_write_rigid(p, block, begin, end, p->node);
     holds_project(p->contacts, p->node, block, block + 1);
 }
 
@@ -355,11 +361,12 @@ static void add_strain(Primal *p)
 void primal_choose_start(Primal *p)
 {
     const PrimalState *state = &p->world->primal;
-    const RigidBody *body = state->rigid.data;
+    RigidBody *body = state->rigid.data;
     bool any = false;
     primal_weigh_rigid(p);
     primal_over_blocks(p, sum_predicted);
     primal_solve_rigid(p);
+    for (int32_t i = 0; i < state->bodies.count; i++) memcpy(body[i].start, body[i].motion, sizeof body[i].start);
     primal_over_blocks(p, sum_start);
     primal_gather_rigid(p, 1);
     add_strain(p);

@@ -37,7 +37,7 @@ typedef struct RigidBody {
     double centre[3];                          /* from the anchor [cells] */
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
-    double sum[15], motion[RIGID_MODES];
+    double sum[15], motion[RIGID_MODES], start[RIGID_MODES];
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
 } RigidBody;
@@ -64,6 +64,7 @@ typedef struct Primal {
     int pairs;
     bool rubs;      /* there is friction */
     float slip_min; /* see holds_slip_min() */
+    bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     float share;                            /* of the step that is tried */
@@ -136,6 +137,9 @@ void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end);
 /* Starts bodies from their rigid motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
  * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
 void primal_choose_start(Primal *p);
+
+/* Writes those rigid motions to the nodes that have mass. */
+void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, float *node);
 
 /* The rigid motions of a block's body; from its centre to the block's first node, and to another one; the sums of the last pass per body. */
 RigidBody *primal_rigid_of(const Primal *p, int32_t block);
