@@ -103,7 +103,7 @@ static const double SCALE_MAX = 20.0;
 
 bool holds_whole(const Contact *contact) { return is_held(contact); }
 
-static float coefficient_of(const Contact *contact)
+float holds_coefficient(const Contact *contact)
 {
     if (is_held(contact) || contact->friction == PBMPM_FRICTION_SLIP) return 0.0f;
     return contact->friction == PBMPM_FRICTION_STICK ? STICKS : contact->coefficient;
@@ -207,7 +207,7 @@ bool holds_any_rub(const ContactFrame *frame)
 {
     const Contact *contact = frame->colliders->contact.data;
     for (uint32_t i = 0; i < frame->colliders->contacts; i++)
-        if (coefficient_of(&contact[i]) > 0.0f) return true;
+        if (holds_coefficient(&contact[i]) > 0.0f) return true;
     return false;
 }
 
@@ -303,7 +303,7 @@ void holds_limit(const ContactFrame *frame, int32_t block, const BodyRub *body)
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         Contact *contact = &list.contact[i];
-        contact->limit *= is_held(contact) ? 0.0f : coefficient_of(contact) * (float)body->group[contact->group].scale;
+        contact->limit *= is_held(contact) ? 0.0f : holds_coefficient(contact) * (float)body->group[contact->group].scale;
     }
 }
 

@@ -49,6 +49,9 @@ void holds_group(const ContactFrame *frame, const int32_t *body_of_block, BodyRu
 /* gradient += sign times friction, at the displacements u. Returns its energy. */
 double holds_rub(const ContactFrame *frame, const float *u, float *gradient, float sign, float least, int32_t block);
 
+/* 0: it slips, or is held. */
+float holds_coefficient(const Contact *contact);
+
 /* Friction's stiffness along the surface. */
 float holds_rub_stiffness(const Contact *contact, const float *u, float least);
 

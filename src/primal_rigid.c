@@ -112,7 +112,7 @@ void primal_find_rigid(Primal *p)
 /* ---- A ---- */
 
 /* J'd: what the motion along d is made of. */
-static void motion_along(const double arm[3], const float d[3], double out[RIGID_MODES])
+void primal_motion_along(const double arm[3], const float d[3], double out[RIGID_MODES])
 {
     for (int a = 0; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -127,10 +127,10 @@ static void add_square(RigidBody *body, const double v[RIGID_MODES], double fact
         for (int c = 0; c <= r; c++) body->factor[r][c] += factor * v[r] * v[c];
 }
 
-static void add_along(RigidBody *body, const double arm[3], const float direction[3], double stiffness)
+void primal_add_along(RigidBody *body, const double arm[3], const float direction[3], double stiffness)
 {
     double v[RIGID_MODES];
-    motion_along(arm, direction, v);
+    primal_motion_along(arm, direction, v);
     add_square(body, v, stiffness);
 }
 
@@ -147,13 +147,14 @@ static void add_contact(Primal *p, int32_t block, RigidBody *body, const Contact
     const double jump = fmax(0.0, 1.0 / inverse - 2.0 * mass); /* K - M */
     const double rubs = holds_rub_stiffness(contact, p->best + node, p->slip_min);
     const bool held = holds_whole(contact);
-    for (int a = 0; a < 3 && (held || rubs > 0.0); a++) add_along(body, arm, axis[a], held ? jump : rubs);
-    if (!held) add_along(body, arm, contact->normal, fmax(jump - rubs, 0.0));
+    for (int a = 0; a < 3 && (held || rubs > 0.0); a++) primal_add_along(body, arm, axis[a], held ? jump : rubs);
+    if (!held) primal_add_along(body, arm, contact->normal, fmax(jump - rubs, 0.0));
 }
 
 /* A = L L', in place. */
-static void factorise(double a[RIGID_MODES][RIGID_MODES])
+void primal_factorise(RigidBody *body)
 {
+    double(*a)[RIGID_MODES] = body->factor;
     for (int c = 0; c < RIGID_MODES; c++) {
         double d = a[c][c] * (1.0 + SINGULAR);
         for (int k = 0; k < c; k++) d -= a[c][k] * a[c][k];
@@ -166,7 +167,7 @@ static void factorise(double a[RIGID_MODES][RIGID_MODES])
     }
 }
 
-static void solve_modes(const RigidBody *body, double x[RIGID_MODES])
+void primal_solve_modes(const RigidBody *body, double x[RIGID_MODES])
 {
     for (int r = 0; r < RIGID_MODES; r++) {
         x[r] = body->sum[r];
@@ -190,7 +191,7 @@ void primal_weigh_rigid(Primal *p)
         for (uint32_t i = begin[block]; i < begin[block + 1] && primal_rigid_of(p, block)->used; i++)
             add_contact(p, block, primal_rigid_of(p, block), (const Contact *)colliders->contact.data + i);
     for (int32_t i = 0; i < state->bodies.count; i++)
-        if (body[i].turns) factorise(body[i].factor);
+        if (body[i].turns) primal_factorise(&body[i]);
 }
 
 /* ---- The two corrections ---- */
@@ -237,7 +238,7 @@ void primal_solve_rigid(Primal *p)
     RigidBody *body = p->world->primal.rigid.data;
     primal_gather_rigid(p, RIGID_MODES);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
-        if (body[i].turns) solve_modes(&body[i], body[i].motion);
+        if (body[i].turns) primal_solve_modes(&body[i], body[i].motion);
 }
 
 /* The block's r -= H zc. */
@@ -271,7 +272,7 @@ void primal_correct_rigid(Primal *p)
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         double less[RIGID_MODES];
         if (!body[i].used) continue;
-        solve_modes(&body[i], less);
+        primal_solve_modes(&body[i], less);
         for (int k = 0; k < RIGID_MODES; k++) body[i].motion[k] -= less[k];
     }
 }
@@ -283,96 +284,4 @@ void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end)
     write_motion(p, block, body, p->force + begin);
     holds_remove(p->contacts, p->force, block, block + 1);
     for (size_t i = begin; i < end; i++) p->direction[i] += p->force[i];
-}
-
-/* ---- The start ---- */
-
-/* Z'M u*, of what contacts allow; uses p->force. */
-static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3; c++) p->force[i + c] = p->base[i + 3] * p->base[i + c];
-    holds_remove(p->contacts, p->force, block, block + 1);
-    primal_sum_rigid(p, block, p->force + begin, sum);
-}
-
-/* Where the motion w takes a point, turned by the angle whose tangent is |w|, as a step projects velocities: without strain. With s = cos = (1 + w^2)^-1/2
- * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
-static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
-{
-    const double *t = body->start, *w = body->start + 3;
-    const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
-    const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
-    const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
-    for (int c = 0; c < 3; c++) out[c] = t[c] + s * v[c] + q * a[c];
-}
-
-/* What the start costs more than the rigid motion, of sum m/2 |u - u*|^2. */
-static void sum_start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const RigidBody *body = primal_rigid_of(p, block);
-    double corner[3], x[3], u[3];
-    if (!body->turns) return;
-    primal_corner(p, block, body, corner);
-    for (size_t i = begin; i < end; i += W) {
-        if (p->base[i + 3] == 0.0f) continue;
-        primal_arm(corner, (i - begin) / W, x);
-        move_rigidly(body, x, u);
-        for (size_t c = 0; c < 3; c++) {
-            const double free = (double)p->base[i + c], away = (double)p->best[i + c] - free;
-            sum[0] += 0.5 * (double)p->base[i + 3] * (away * away - (u[c] - free) * (u[c] - free));
-        }
-    }
-}
-
-void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, float *node)
-{
-    const RigidBody *body = primal_rigid_of(p, block);
-    double corner[3], x[3], u[3];
-    primal_corner(p, block, body, corner);
-    for (size_t i = begin; i < end; i += W) {
-        if (p->base[i + 3] == 0.0f) continue;
-        primal_arm(corner, (i - begin) / W, x);
-        move_rigidly(body, x, u);
-        for (size_t c = 0; c < 3; c++) node[i + c] = (float)u[c];
-    }
-}
-
-static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const RigidBody *body = primal_rigid_of(p, block);
-    (void)sum;
-    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
-    if (!body->turns || !(body->sum[0] > 0.0)) return;
-    primal_write_rigid(p, block, begin, end, p->node);
-    holds_project(p->contacts, p->node, block, block + 1);
-}
-
-/* What the start stretches, beside what was stretched. */
-static void add_strain(Primal *p)
-{
-    const float *energy = p->world->primal.block_energy.data;
-    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++) {
-        const float *e = energy + 4 * block;
-        primal_rigid_of(p, block)->sum[0] += (double)e[0] + (double)e[1] - (double)e[2] - (double)e[3];
-    }
-}
-
-void primal_choose_start(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    RigidBody *body = state->rigid.data;
-    bool any = false;
-    primal_weigh_rigid(p);
-    primal_over_blocks(p, sum_predicted);
-    primal_solve_rigid(p);
-    for (int32_t i = 0; i < state->bodies.count; i++) memcpy(body[i].start, body[i].motion, sizeof body[i].start);
-    primal_over_blocks(p, sum_start);
-    primal_gather_rigid(p, 1);
-    add_strain(p);
-    for (int32_t i = 0; i < state->bodies.count; i++) any = any || (body[i].turns && body[i].sum[0] > 0.0);
-    if (!any) return;
-    primal_over_blocks(p, start_rigidly);
-    primal_evaluate(p);
-    primal_accept(p, false);
 }

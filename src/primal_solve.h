@@ -38,6 +38,7 @@ typedef struct RigidBody {
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
     double sum[15], motion[RIGID_MODES], start[RIGID_MODES];
+    double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
 } RigidBody;
@@ -133,6 +134,15 @@ void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end);
 void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
 void primal_correct_rigid(Primal *p);
 void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end);
+
+/* What the motion along d of a point at `arm` is made of; the energy of a spring there, added to body->factor; L of that; the solution of
+ * L L' x = body->sum. */
+void primal_motion_along(const double arm[3], const float d[3], double out[RIGID_MODES]);
+void primal_add_along(RigidBody *body, const double arm[3], const float direction[3], double stiffness);
+void primal_factorise(RigidBody *body);
+void primal_solve_modes(const RigidBody *body, double x[RIGID_MODES]);
+
+/* ---- primal_start.c ---- */
 
 /* Starts bodies from their rigid motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
  * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
