@@ -37,7 +37,7 @@ typedef struct RigidBody {
     double centre[3];                          /* from the anchor [cells] */
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
-    double sum[15], motion[RIGID_MODES], start[RIGID_MODES];
+    double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
     double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */

@@ -16,6 +16,7 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
 {
     double corner[3], x[3];
     const RigidBody *body = primal_rigid_of(p, block);
+    const float *inverse = p->world->primal.inverse.data;
     float *inner = p->right;
     if (!body->turns || primal_is_multistep(p, block)) return;
     memcpy(inner + begin, p->gradient + begin, (end - begin) * sizeof *inner);
@@ -35,6 +36,7 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[a] += x[b] * motion[c] - x[c] * motion[b];
             sum[3 + a] += x[b] * force[c] - x[c] * force[b];
         }
+        if (inverse[i / W] > 0.0f) sum[15] += 1.0 / (double)inverse[i / W] - mass;
         for (int a = 0; a < 3; a++) x[a] += (double)p->best[i + (size_t)a];
         for (int a = 0; a < 3; a++) {
             sum[9 + a] += mass * x[a] * x[a];
@@ -62,18 +64,17 @@ static void turn_by(const double m[RIGID_MODES][RIGID_MODES], const double l[3],
     }
 }
 
-/* Of a body that is pushed inner forces are not known so well: of what it gets back that along its rotation w, and no more than chords lose,
- * w / sqrt(1 - w^2) - w. */
-static void bound_spin(const RigidBody *body, const double l[3], double spin[3])
+/* Of a body that is pushed a few iterations do not say the torque of inner forces. Chords take w / sqrt(1 - w^2) - w from a rotation w if they may not
+ * shrink the body, which they do by w^2 / 2: as far as it withstands, k / (1 + k) with k its stiffness against that over its inertia. */
+static void chord_spin(const RigidBody *body, const double l[3], double spin[3])
 {
-    double w[3], square = 0.0, along = 0.0;
+    const double *m = &body->mass[3][3], inertia = 0.5 * (m[0] + m[RIGID_MODES + 1] + m[2 * (RIGID_MODES + 1)]);
+    const double withstands = body->sum[15] / (body->sum[15] + 6.0 * inertia); /* sum k: 3/2 of the second derivative, and energies are a fourth of it */
+    double w[3], square = 0.0;
     turn_by(body->mass, l, w);
-    for (int a = 0; a < 3; a++) {
-        square += w[a] * w[a];
-        along += spin[a] * w[a];
-    }
-    const double most = 1.0 / sqrt(fmax(1e-2, 1.0 - square)) - 1.0, share = square > 0.0 ? fmin(fmax(along / square, 0.0), most) : 0.0;
-    for (int a = 0; a < 3; a++) spin[a] = share * w[a];
+    for (int a = 0; a < 3; a++) square += w[a] * w[a];
+    const double lost = 1.0 / sqrt(fmax(1e-2, 1.0 - square)) - 1.0;
+    for (int a = 0; a < 3; a++) spin[a] = withstands * lost * w[a];
 }
 
 /* The tensor of inertia where the nodes arrive. That of the particles is not larger: no spin costs more than what follows from it. */
@@ -97,8 +98,10 @@ static void find_spin(RigidBody *body, const BodySum *of)
     const double *l = body->sum, *lost = body->sum + 3, room = of->before + of->work - of->after;
     weigh_arrived(body);
     double gain = 0.0;
-    turn_by(body->mass, lost, body->spin);
-    if (of->meets) bound_spin(body, l, body->spin);
+    if (of->meets)
+        chord_spin(body, l, body->spin);
+    else
+        turn_by(body->mass, lost, body->spin);
     for (int a = 0; a < 3; a++)
         for (int b = 0; b < 3; b++) gain += 0.5 * body->spin[a] * body->mass[3 + a][3 + b] * body->spin[b];
     for (int a = 0; a < 3; a++) gain += body->spin[a] * l[a];
@@ -112,7 +115,7 @@ void primal_find_spin(Primal *p)
     RigidBody *body = state->rigid.data;
     const BodySum *of = state->body_sums.data;
     primal_over_blocks(p, sum_torque);
-    primal_gather_rigid(p, 15);
+    primal_gather_rigid(p, 16);
     for (int32_t i = 0; i < state->bodies.count; i++) {
         memset(body[i].spin, 0, sizeof body[i].spin);
         if (body[i].turns && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
