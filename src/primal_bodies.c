@@ -133,6 +133,32 @@ void primal_pull_back_to(Primal *p, float share)
     primal_accept(p, false);
 }
 
+/* A body that gained little goes where the solution leads, and pays with its velocities: they keep the share s of what they differ from its mean, with
+ * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
+static uint32_t let_pay(Primal *p)
+{
+    static const double MOST = 0.5; /* of that kinetic energy */
+    const PrimalState *state = &p->world->primal;
+    RigidBody *rigid = state->rigid.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        const BodySum *b = &body[i];
+        if (!b->failed) continue;
+        const double gain = b->after - b->before - b->work;
+        double own = b->kinetic;
+        for (int c = 0; c < 3; c++) own -= 0.5 * b->moved[c] * b->moved[c] / b->mass;
+        const bool pays = rigid[i].turns && gain <= MOST * own;
+        if (pays) {
+            rigid[i].kept = sqrt(1.0 - gain / own);
+            for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;
+        }
+        body[i].failed = !pays;
+        failed += !pays;
+    }
+    return failed;
+}
+
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {
@@ -141,12 +167,12 @@ static void mend(Primal *p)
     primal_accept(p, false);
     primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
-    if (primal_check_bodies(p) == 0) return;
+    if (primal_check_bodies(p) == 0 || let_pay(p) == 0) return;
     p->turned = true;
     primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
-    for (int halving = 0; primal_check_bodies(p) > 0; halving++) {
+    for (int halving = 0; primal_check_bodies(p) > 0 && let_pay(p) > 0; halving++) {
         p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;

@@ -100,6 +100,7 @@ void primal_find_rigid(Primal *p)
     p->rigid = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].turns = !of[i].with_liquid;
+        body[i].kept = 1.0;
         body[i].used = of[i].meets && body[i].turns;
         p->rigid = p->rigid || body[i].used;
     }

@@ -38,6 +38,7 @@ typedef struct RigidBody {
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
     double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
+    double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
     double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */

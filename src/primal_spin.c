@@ -119,11 +119,11 @@ void primal_find_spin(Primal *p)
     for (int32_t i = 0; i < state->bodies.count; i++) {
         memset(body[i].spin, 0, sizeof body[i].spin);
         if (body[i].turns && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
-        body[i].turns = fabs(body[i].spin[0]) + fabs(body[i].spin[1]) + fabs(body[i].spin[2]) > ROUNDING;
+        body[i].turns = body[i].turns && (body[i].kept < 1.0 || fabs(body[i].spin[0]) + fabs(body[i].spin[1]) + fabs(body[i].spin[2]) > ROUNDING);
     }
 }
 
-/* v += w x r, C += [w]x. */
+/* v += w x r, C += [w]x, of the share of v - mean and C that the body keeps. */
 static void turn_block(World *world, const RigidBody *body, int32_t block)
 {
     static const int next[3] = {1, 2, 0}, last[3] = {2, 0, 1};
@@ -136,7 +136,9 @@ static void turn_block(World *world, const RigidBody *body, int32_t block)
         for (int a = 0; a < dimension; a++) r[a] = (double)(p->cell[a][row] - world->grid.anchor[a]) + (double)p->fraction[a][row] - body->arrives[a];
         for (int a = 0; a < dimension; a++) {
             const double turn = body->spin[next[a]] * r[last[a]] - body->spin[last[a]] * r[next[a]];
-            p->velocity[a][row] += (float)(turn * dx / dt);
+            const double mean = body->mean[a] * dx / dt, kept = body->kept < 1.0 ? mean + body->kept * ((double)p->velocity[a][row] - mean) : (double)p->velocity[a][row];
+            p->velocity[a][row] = (float)(kept + turn * dx / dt);
+            for (int c = 0; c < dimension && body->kept < 1.0; c++) p->affine[a * 3 + c][row] *= (float)body->kept;
             if (last[a] < dimension) p->affine[a * 3 + last[a]][row] += (float)(body->spin[next[a]] / dt);
             if (next[a] < dimension) p->affine[a * 3 + next[a]][row] -= (float)(body->spin[last[a]] / dt);
         }
