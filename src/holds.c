@@ -378,6 +378,29 @@ void holds_book(const ContactFrame *frame, float *gradient, const float *u, cons
     share_missing(frame, missing, after, base);
 }
 
+void holds_scale_booked(const ContactFrame *frame, int32_t block, double factor)
+{
+    if (!frame->colliders->measures || frame->colliders->contacts == 0 || factor == 1.0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    double *booked = frame->colliders->impulses.contact.data;
+    for (size_t i = 3 * (size_t)list.begin; i < 3 * (size_t)list.end; i++) booked[i] *= factor;
+}
+
+double holds_rubbed(const ContactFrame *frame, const float *u, float least, int32_t block)
+{
+    double sum = 0.0;
+    if (frame->colliders->contacts == 0) return sum;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        float slip[3];
+        if (!(contact->limit > 0.0f)) continue;
+        const float length = slip_of(contact, u + list.node + contact->node * K_NODE_WIDTH, slip);
+        sum += (double)(rub_of(contact, length, least) * length * length);
+    }
+    return sum;
+}
+
 double holds_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block)
 {
     double work = 0.0;

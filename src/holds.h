@@ -82,6 +82,12 @@ bool holds_whole(const Contact *contact);
  * proportion to what they gave; without any it stays unaccounted. `after`: the displacements that make the velocities. Uses up `gradient`. */
 void holds_book(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least);
 
+/* What was booked of a block's contacts becomes `factor` times as much. */
+void holds_scale_booked(const ContactFrame *frame, int32_t block, double factor);
+
+/* The energy that friction of a block takes. */
+double holds_rubbed(const ContactFrame *frame, const float *u, float least, int32_t block);
+
 /* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of (gradient - friction) . surface over active contacts. */
 double holds_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 

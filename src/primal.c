@@ -581,4 +581,5 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
     holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
+    primal_find_bounces(&p);
 }

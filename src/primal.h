@@ -38,6 +38,9 @@ void primal_free(World *world);
 
 void primal_solve(World *world, const ContactFrame *contacts);
 
+/* Before particles move: keeps what primal_calm() needs of them. */
+void primal_before_going(World *world);
+
 /* After particles have moved: takes from the velocities of liquids what they have gained. */
 void primal_calm(World *world);
 

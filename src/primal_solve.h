@@ -39,6 +39,8 @@ typedef struct RigidBody {
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
     double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
     double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
+    bool bounces;
+    double bounce;                             /* see primal_bounce.c */
     double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
@@ -66,6 +68,7 @@ typedef struct Primal {
     int pairs;
     bool rubs;      /* there is friction */
     float slip_min; /* see holds_slip_min() */
+    bool bounces; /* a body does */
     bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
@@ -165,6 +168,14 @@ void primal_find_spin(Primal *p);
 
 /* After particles have moved: gives it back. */
 void primal_turn(World *world);
+
+/* ---- primal_bounce.c ---- */
+
+/* Finds what bodies get back of the energy that being pushed took. After holds_book(). */
+void primal_find_bounces(Primal *p);
+
+/* After particles have moved: they get it. */
+void primal_bounce(World *world);
 
 /* ---- primal_liquid.c ---- */
 
