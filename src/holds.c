@@ -434,6 +434,23 @@ void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacem
     }
 }
 
+double holds_free_share(const ContactFrame *frame, int32_t block, const double displacement[3])
+{
+    double share = 1.0;
+    if (frame->colliders->contacts == 0) return share;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        double inward = 0.0, room = (double)contact->gap;
+        for (int a = 0; a < 3; a++) {
+            inward -= displacement[a] * (double)contact->normal[a];
+            room -= (double)contact->surface[a] * (double)contact->normal[a];
+        }
+        if (inward > 0.0 && room < share * inward) share = fmax(0.0, room) / inward;
+    }
+    return share;
+}
+
 uint32_t holds_touching(const ContactFrame *frame, int32_t block)
 {
     uint32_t count = 0;

@@ -94,6 +94,9 @@ double holds_work(const ContactFrame *frame, const float *gradient, const float 
 /* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
 void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3]);
 
+/* The share of that displacement that no contact of the block ends. */
+double holds_free_share(const ContactFrame *frame, int32_t block, const double displacement[3]);
+
 /* How many contacts of a block are active and not held for good. */
 uint32_t holds_touching(const ContactFrame *frame, int32_t block);
 

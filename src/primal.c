@@ -215,6 +215,7 @@ static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, doub
         weight[i + 3] = counts * mass;
         stiff[i / W] = counts * stiffness;
         sum[0] += (double)mass;
+        sum[1] += (double)stiffness;
     }
     if (p->rubs) holds_rub_weigh(p->contacts, p->best, weight, p->slip_min, block);
 }
@@ -570,6 +571,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_accept(&p, false);
     primal_over_blocks(&p, weigh_nodes);
     p.mass = fmax(p.total[0], 1e-30);
+    primal_note_stiffness(&p);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     primal_choose_start(&p);
     minimise(&p);

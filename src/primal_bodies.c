@@ -54,13 +54,26 @@ static bool has_liquid(const World *world, int32_t block)
     return false;
 }
 
+/* What rounding F, whose distance from the identity is the strain, may do to the energy of a strain: stress times 2^-24, with the body's stiffness k
+ * about sqrt(k Psi) 2^-24. */
+static double rounding_of(const BodySum *body)
+{
+    return PRIMAL_ENERGY_ROUNDING * (body->before + body->still) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
+}
+
 /* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
  * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that:
  * of a body that starts at rest and without strain nothing else could. */
 static bool gained(const BodySum *body)
 {
     const double after = body->with_liquid ? body->elastic - body->fallen : body->after;
-    return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * (body->before + body->still);
+    return after > body->before + body->work + rounding_of(body);
+}
+
+void primal_note_stiffness(Primal *p)
+{
+    const double *sums = p->world->primal.sums.data;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->stiff += sums[(size_t)block * SUMS + 1];
 }
 
 uint32_t primal_check_bodies(Primal *p)
@@ -70,7 +83,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -101,6 +114,11 @@ uint32_t primal_check_bodies(Primal *p)
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
         holds_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++) {
+        BodySum *b = primal_body_of(p, block);
+        const double share = holds_free_share(p->contacts, block, b->start);
+        for (int c = 0; c < 3; c++) b->start[c] *= share;
+    }
     return failed;
 }
 

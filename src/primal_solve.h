@@ -15,6 +15,7 @@ enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 6 };
 typedef struct BodySum {
     double before, after, work;
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
+    double stiff;             /* sum of the nodes' stiffnesses */
     double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
@@ -109,6 +110,9 @@ bool primal_is_multistep(const Primal *p, int32_t block);
 
 /* Finds the bodies at or in an obstacle, and those with liquid. */
 void primal_find_leaning(Primal *p);
+
+/* After weigh_nodes(), which sums it. */
+void primal_note_stiffness(Primal *p);
 
 /* Compares energies at p->best. Returns the number of bodies that gained. */
 uint32_t primal_check_bodies(Primal *p);
