@@ -5,7 +5,7 @@
  *
  *     1/2 |Z y - u*|^2_M + sum over contacts of K/2 min(0, n.v + gap)^2 + friction,   v = (Z y)_i - surface,
  *
- * K the stiffness of a node, if that promises less energy. Found by Newton's method: a few sums over contacts. */
+ * K much more than the stiffness of a node, if that promises less energy. Found by Newton's method: a few sums over contacts. */
 #include <math.h>
 #include <string.h>
 
@@ -13,6 +13,10 @@
 #include "primal_solve.h"
 
 enum { ROUNDS = 6 };
+
+/* Nodes' stiffnesses times this: what contacts give way by is strain, and what was strained before resists that at once. With 1 bodies at rest started
+ * with more energy than they had; 30 mended half of that. */
+static const double RIGID = 1000.0;
 
 /* Z'M u*; uses p->force. */
 static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -22,7 +26,18 @@ static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, do
     primal_sum_rigid(p, block, p->force + begin, sum);
 }
 
-/* A contact's part in the next Newton step, at body->start. */
+/* Where the motion w takes a point, turned by the angle whose tangent is |w|, as a step projects velocities: without strain. With s = cos = (1 + w^2)^-1/2
+ * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
+static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
+{
+    const double *t = body->start, *w = body->start + 3;
+    const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
+    const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
+    const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
+    for (int c = 0; c < 3; c++) out[c] = t[c] + s * v[c] + q * a[c];
+}
+
+/* A contact's part in the next Newton step, at body->start. What a rotation does beside w x x counts as a motion of the surface, back. */
 static void add_push(Primal *p, int32_t block, RigidBody *body, const Contact *contact)
 {
     static const float axis[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -31,25 +46,28 @@ static void add_push(Primal *p, int32_t block, RigidBody *body, const Contact *c
     const double *t = body->start, *w = body->start + 3;
     double corner[3], x[3], v[RIGID_MODES];
     if (!(inverse > 0.0)) return;
-    const double stiffness = fmax(mass, 1.0 / inverse - mass);
+    const double stiffness = RIGID * fmax(mass, 1.0 / inverse - mass);
     primal_corner(p, block, body, corner);
     primal_arm(corner, contact->node, x);
     const double u[3] = {t[0] + w[1] * x[2] - w[2] * x[1], t[1] + w[2] * x[0] - w[0] * x[2], t[2] + w[0] * x[1] - w[1] * x[0]};
+    double turned[3], surface[3];
+    move_rigidly(body, x, turned);
+    for (int a = 0; a < 3; a++) surface[a] = (double)contact->surface[a] - (turned[a] - u[a]);
     double depth = -(double)contact->gap, along = 0.0, slip2 = 0.0;
-    for (int a = 0; a < 3; a++) along += (u[a] - (double)contact->surface[a]) * (double)contact->normal[a];
+    for (int a = 0; a < 3; a++) along += (u[a] - surface[a]) * (double)contact->normal[a];
     depth -= along;
     const bool held = holds_whole(contact);
     if (depth <= 0.0 && !held) return;
     for (int a = 0; a < 3; a++) {
-        const double slip = u[a] - (double)contact->surface[a] - along * (double)contact->normal[a];
+        const double slip = u[a] - surface[a] - along * (double)contact->normal[a];
         slip2 += slip * slip;
     }
     const double rubs = held ? stiffness : (double)holds_coefficient(contact) * stiffness * depth / fmax(sqrt(slip2), (double)p->slip_min);
     double to = (stiffness - rubs) * -(double)contact->gap; /* along the normal, beside what friction takes along */
-    for (int a = 0; a < 3; a++) to += (stiffness - rubs) * (double)contact->surface[a] * (double)contact->normal[a];
+    for (int a = 0; a < 3; a++) to += (stiffness - rubs) * surface[a] * (double)contact->normal[a];
     if (held) to = 0.0;
     for (int a = 0; a < 3 && rubs > 0.0; a++) {
-        const double goal = rubs * ((double)contact->surface[a] - (held ? 0.0 : (double)contact->gap * (double)contact->normal[a]));
+        const double goal = rubs * (surface[a] - (held ? 0.0 : (double)contact->gap * (double)contact->normal[a]));
         primal_motion_along(x, axis[a], v);
         for (int k = 0; k < RIGID_MODES; k++) body->sum[k] += goal * v[k];
         primal_add_along(body, x, axis[a], rubs);
@@ -99,17 +117,6 @@ static void fit_bodies(Primal *p)
         }
     }
     push_bodies(p);
-}
-
-/* Where the motion w takes a point, turned by the angle whose tangent is |w|, as a step projects velocities: without strain. With s = cos = (1 + w^2)^-1/2
- * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
-static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
-{
-    const double *t = body->start, *w = body->start + 3;
-    const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
-    const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
-    const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
-    for (int c = 0; c < 3; c++) out[c] = t[c] + s * v[c] + q * a[c];
 }
 
 /* What the start costs more than the rigid motion, of sum m/2 |u - u*|^2. */
