@@ -56,11 +56,9 @@ void primal_find_bounces(Primal *p)
     p->bounces = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].bounce = 0.0;
-        body[i].bounces = of[i].touches && !of[i].with_liquid && body[i].kept == 1.0;
+        body[i].bounces = of[i].touches && !of[i].with_liquid && !body[i].multistep && body[i].kept == 1.0;
         p->bounces = p->bounces || body[i].bounces;
     }
-    for (int32_t block = 0; block < p->world->grid.node_blocks && p->bounces; block++)
-        if (primal_is_multistep(p, block)) primal_rigid_of(p, block)->bounces = false;
     p->world->primal.bounces = p->bounces;
     if (!p->bounces) return;
     primal_over_blocks(p, sum_change);

@@ -101,9 +101,12 @@ void primal_find_rigid(Primal *p)
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].turns = !of[i].with_liquid;
         body[i].kept = 1.0;
+        body[i].multistep = false;
         body[i].used = of[i].meets && body[i].turns;
         p->rigid = p->rigid || body[i].used;
     }
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        if (primal_is_multistep(p, block)) primal_rigid_of(p, block)->multistep = true;
     primal_over_blocks(p, sum_weights);
     primal_gather_rigid(p, 10);
     for (int32_t i = 0; i < state->bodies.count; i++)

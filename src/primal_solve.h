@@ -40,6 +40,7 @@ typedef struct RigidBody {
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
     double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
     double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
+    bool multistep;                            /* it was solved for by BDF2, whether or not it forgets its past */
     bool bounces;
     double bounce;                             /* see primal_bounce.c */
     double strain;                             /* energy at contacts, of `start` */

@@ -18,7 +18,7 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
     const RigidBody *body = primal_rigid_of(p, block);
     const float *inverse = p->world->primal.inverse.data;
     float *inner = p->right;
-    if (!body->turns || primal_is_multistep(p, block)) return;
+    if (!body->turns || body->multistep) return;
     memcpy(inner + begin, p->gradient + begin, (end - begin) * sizeof *inner);
     if (p->rubs) holds_rub(p->contacts, p->best, inner, -1.0f, p->slip_min, block);
     primal_corner(p, block, body, corner);
