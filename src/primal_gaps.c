@@ -108,35 +108,47 @@ static void gather_at(const GapJob *job, int32_t block, int node, int width, flo
     const Grid *grid = &job->p->world->grid;
     const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
     const int local[3] = {node & 3, node >> 2 & 3, node >> 4};
-    for (int n = 0; n < grid->neighbours; n++) {
-        int32_t offset[3];
-        int at[3] = {0, 0, 0};
-        bool inside = neighbour[n] >= 0 && neighbour[n] < grid->particle_blocks;
-        grid_neighbour_offset(n, grid->dimension, offset);
-        for (int a = 0; a < grid->dimension; a++) {
-            at[a] = local[a] - BLOCK * (int)offset[a] + 1; /* a tile begins one node before its block */
-            inside = inside && at[a] >= 0 && at[a] < TILE;
-        }
-        if (!inside) continue;
-        const float *from = job->tile + (size_t)neighbour[n] * job->stride + (size_t)(width * ((at[2] * TILE + at[1]) * TILE + at[0]));
-        if (width == 1) value[0] = fminf(value[0], from[0]);
-        for (int k = 0; k < width && width == 2; k++) value[k] += from[k];
+    int low[3] = {0, 0, 0}, high[3] = {0, 0, 0};
+    for (int a = 0; a < grid->dimension; a++) {
+        low[a] = local[a] == 0 ? -1 : 0; /* the next block's tile reaches one node into this one */
+        high[a] = local[a] == BLOCK - 1 ? 1 : 0;
     }
+    for (int z = low[2]; z <= high[2]; z++)
+        for (int y = low[1]; y <= high[1]; y++)
+            for (int x = low[0]; x <= high[0]; x++) {
+                const int32_t there = neighbour[grid->dimension == 3 ? ((z + 1) * 3 + y + 1) * 3 + x + 1 : (y + 1) * 3 + x + 1];
+                if (there < 0 || there >= grid->particle_blocks) continue;
+                const int tz = grid->dimension == 3 ? local[2] - BLOCK * z + 1 : 0;
+                const int at = (tz * TILE + local[1] - BLOCK * y + 1) * TILE + local[0] - BLOCK * x + 1;
+                const float *from = job->tile + (size_t)there * job->stride + (size_t)(width * at);
+                if (width == 1) value[0] = fminf(value[0], from[0]);
+                for (int k = 0; k < width && width == 2; k++) value[k] += from[k];
+            }
 }
+
+/* NONE: no contact asks for it. */
+static const float NONE = -1e30f;
 
 static void gather_least(void *context, int32_t begin, int32_t end)
 {
     const GapJob *job = context;
     const Grid *grid = &job->p->world->grid;
-    for (int32_t block = begin; block < end; block++)
-        for (int i = 0; i < grid->block_cells; i++) {
+    const Colliders *colliders = job->p->contacts->colliders;
+    const uint32_t *contact_begin = colliders->contact_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        float *least = job->least + (size_t)block * (size_t)grid->block_cells;
+        for (int i = 0; i < grid->block_cells; i++) least[i] = NONE;
+        for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
+            const int node = ((const Contact *)colliders->contact.data)[i].node;
             float value[2] = {FLT_MAX, 0.0f};
-            if (holds_contacts(job->p->contacts, block) > 0) gather_at(job, block, i, 1, value);
-            job->least[(size_t)block * (size_t)grid->block_cells + (size_t)i] = value[0];
+            if (least[node] != NONE) continue;
+            gather_at(job, block, node, 1, value);
+            least[node] = value[0];
         }
+    }
 }
 
-/* The least room of a tile node of a particle block; FLT_MAX where there is none. */
+/* The least room of a tile node of a particle block. */
 static float least_of(const GapJob *job, int32_t block, int x, int y, int z)
 {
     const Grid *grid = &job->p->world->grid;
@@ -148,7 +160,7 @@ static float least_of(const GapJob *job, int32_t block, int x, int y, int z)
         node = BLOCK * node + at[a] - BLOCK * (side - 1);
     }
     const int32_t there = ((const int32_t *)grid->neighbour.data)[(ptrdiff_t)block * grid->neighbours + n];
-    return there < 0 ? FLT_MAX : job->least[(ptrdiff_t)there * grid->block_cells + node];
+    return there < 0 ? NONE : job->least[(ptrdiff_t)there * grid->block_cells + node];
 }
 
 static void spread_run(const GapJob *job, int32_t block, uint32_t run, float *tile)
@@ -160,6 +172,7 @@ static void spread_run(const GapJob *job, int32_t block, uint32_t run, float *ti
     for (int i = 0; i < 9 * layers; i++) {
         const int x = i % 3, y = i / 3 % 3, z = i / 9;
         const float least = least_of(job, block, (cell & 3) + x, (cell >> 2 & 3) + y, grid->dimension == 3 ? (cell >> 4) + z : 1);
+        if (least == NONE) continue;
         float *sum = tile + 2 * (corner + (z * TILE + y) * TILE + x);
         for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++) {
             const float weight = weight_at(particles->fraction[0][row], x) * weight_at(particles->fraction[1][row], y) *

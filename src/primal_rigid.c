@@ -15,6 +15,8 @@
 #include "holds.h"
 #include "primal_solve.h"
 
+enum { BLOCK = K_BLOCK_AXIS };
+
 static const double SINGULAR = 1e-9; /* share of the diagonal that is added to it */
 
 /* Of a block's first node from the anchor [cells]: whole numbers, so a scene that is shifted by cells moves the same. */
@@ -204,18 +206,24 @@ void primal_weigh_rigid(Primal *p)
 void primal_sum_rigid(Primal *p, int32_t block, const float *v, double *sum)
 {
     const RigidBody *body = primal_rigid_of(p, block);
-    double corner[3], x[3];
+    double corner[3];
     if (!body->turns) return;
+    float plain[W] = {0}, along[3][W] = {{0}}; /* sums of v, and of v times places in the block */
+    const float *node = v;
+    for (size_t k = 0; k < (size_t)p->floats / (W * BLOCK * BLOCK); k++)
+        for (size_t j = 0; j < BLOCK; j++)
+            for (size_t i = 0; i < BLOCK; i++, node += W)
+                for (size_t c = 0; c < W; c++) {
+                    plain[c] += node[c];
+                    along[0][c] += (float)i * node[c];
+                    along[1][c] += (float)j * node[c];
+                    along[2][c] += (float)k * node[c];
+                }
     primal_corner(p, block, body, corner);
-    for (size_t i = 0; i < (size_t)p->floats; i += W) {
-        const double a = (double)v[i], b = (double)v[i + 1], c = (double)v[i + 2];
-        primal_arm(corner, i / W, x);
-        sum[0] += a;
-        sum[1] += b;
-        sum[2] += c;
-        sum[3] += x[1] * c - x[2] * b;
-        sum[4] += x[2] * a - x[0] * c;
-        sum[5] += x[0] * b - x[1] * a;
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        sum[a] += (double)plain[a];
+        sum[3 + a] += corner[b] * (double)plain[c] - corner[c] * (double)plain[b] + (double)along[b][c] - (double)along[c][b];
     }
 }
 
@@ -224,16 +232,20 @@ static void write_motion(Primal *p, int32_t block, const RigidBody *body, float 
 {
     const float *base = p->base + (size_t)block * (size_t)p->floats;
     const double *t = body->motion, *r = body->motion + 3;
-    double corner[3], x[3];
-    primal_corner(p, block, body, corner);
-    for (size_t i = 0; i < (size_t)p->floats; i += W) {
-        const float there = base[i + 3] > 0.0f ? 1.0f : 0.0f;
-        primal_arm(corner, i / W, x);
-        to[i] = there * (float)(t[0] + r[1] * x[2] - r[2] * x[1]);
-        to[i + 1] = there * (float)(t[1] + r[2] * x[0] - r[0] * x[2]);
-        to[i + 2] = there * (float)(t[2] + r[0] * x[1] - r[1] * x[0]);
-        to[i + 3] = 0.0f;
+    double x[3];
+    float first[W] = {0}, step[3][W] = {{0}}; /* of the block's first node, and from one to the next */
+    primal_corner(p, block, body, x);
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        first[a] = (float)(t[a] + r[b] * x[c] - r[c] * x[b]);
+        step[c][a] = (float)r[b];
+        step[b][a] = (float)-r[c];
     }
+    for (size_t k = 0; k < (size_t)p->floats / (W * BLOCK * BLOCK); k++)
+        for (size_t j = 0; j < BLOCK; j++)
+            for (size_t i = 0; i < BLOCK; i++, to += W, base += W)
+                for (size_t c = 0; c < W; c++)
+                    to[c] = base[3] > 0.0f ? first[c] + (float)i * step[0][c] + (float)j * step[1][c] + (float)k * step[2][c] : 0.0f;
 }
 
 /* After a pass that summed Z'r. */

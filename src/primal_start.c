@@ -13,6 +13,7 @@
 #include "primal_solve.h"
 
 enum { ROUNDS = 6 };
+static const double FOUND = 1e-7; /* [cells], [radians] */
 
 /* Nodes' stiffnesses times this: what contacts give way by is strain, and what was strained before resists that at once. With 1 bodies at rest started
  * with more energy than they had; 30 mended half of that. */
@@ -108,12 +109,17 @@ static void fit_bodies(Primal *p)
         primal_factorise(&body[i]);
         primal_solve_modes(&body[i], body[i].start);
     }
-    for (int round = 0; round < ROUNDS && p->rigid; round++) {
+    bool moves = p->rigid;
+    for (int round = 0; round < ROUNDS && moves; round++) {
         push_bodies(p);
+        moves = false;
         for (int32_t i = 0; i < state->bodies.count; i++) {
+            double next[RIGID_MODES];
             if (!body[i].used) continue;
             primal_factorise(&body[i]);
-            primal_solve_modes(&body[i], body[i].start);
+            primal_solve_modes(&body[i], next);
+            for (int k = 0; k < RIGID_MODES; k++) moves = moves || fabs(next[k] - body[i].start[k]) > FOUND;
+            memcpy(body[i].start, next, sizeof next);
         }
     }
     push_bodies(p);
