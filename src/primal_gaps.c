@@ -169,18 +169,27 @@ static void spread_run(const GapJob *job, int32_t block, uint32_t run, float *ti
     const Particles *particles = &job->p->world->particles;
     const float *room = rooms_of(job->p);
     const int cell = (int)(grid->run_key[run] & K_RUN_CELL_MASK), layers = grid->dimension == 3 ? 3 : 1, corner = corner_of_run(grid, run);
+    float least[27], sums[27][2];
+    bool any = false;
     for (int i = 0; i < 9 * layers; i++) {
-        const int x = i % 3, y = i / 3 % 3, z = i / 9;
-        const float least = least_of(job, block, (cell & 3) + x, (cell >> 2 & 3) + y, grid->dimension == 3 ? (cell >> 4) + z : 1);
-        if (least == NONE) continue;
-        float *sum = tile + 2 * (corner + (z * TILE + y) * TILE + x);
-        for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++) {
-            const float weight = weight_at(particles->fraction[0][row], x) * weight_at(particles->fraction[1][row], y) *
-                                 (layers == 3 ? weight_at(particles->fraction[2][row], z) : 1.0f);
-            const float share = weight * fminf(1.0f, fmaxf(0.0f, 2.0f - (room[row] - least) / SURFACE));
-            sum[0] += share;
-            sum[1] += share * room[row];
+        least[i] = least_of(job, block, (cell & 3) + i % 3, (cell >> 2 & 3) + i / 3 % 3, layers == 3 ? (cell >> 4) + i / 9 : 1);
+        any = any || least[i] != NONE;
+        sums[i][0] = sums[i][1] = 0.0f;
+    }
+    for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1] && any; row++) {
+        float w[3][3] = {{1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}, {1.0f, 1.0f, 1.0f}};
+        for (int a = 0; a < grid->dimension; a++)
+            for (int i = 0; i < 3; i++) w[a][i] = weight_at(particles->fraction[a][row], i);
+        for (int i = 0; i < 9 * layers; i++) {
+            const float near = 2.0f - (room[row] - least[i]) * (1.0f / SURFACE), share = w[0][i % 3] * w[1][i / 3 % 3] * w[2][i / 9] * (near > 1.0f ? 1.0f : (near > 0.0f ? near : 0.0f));
+            sums[i][0] += share;
+            sums[i][1] += share * room[row];
         }
+    }
+    for (int i = 0; i < 9 * layers && any; i++) {
+        float *sum = tile + 2 * (corner + ((i / 9) * TILE + i / 3 % 3) * TILE + i % 3);
+        sum[0] += sums[i][0];
+        sum[1] += sums[i][1];
     }
 }
 
