@@ -467,6 +467,15 @@ uint32_t holds_contacts(const ContactFrame *frame, int32_t block)
     return list.end - list.begin;
 }
 
+bool holds_held(const ContactFrame *frame, int32_t block)
+{
+    if (frame->colliders->contacts == 0) return false;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++)
+        if (is_held(&list.contact[i])) return true;
+    return false;
+}
+
 float holds_room(const Contact *contact, const float *u) { return -excess_of(contact, u); }
 
 bool holds_any(const ContactFrame *frame, float most, int32_t block)

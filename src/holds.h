@@ -104,6 +104,9 @@ uint32_t holds_touching(const ContactFrame *frame, int32_t block);
  * to the first three floats of `share`, which are 0 elsewhere. */
 void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end);
 
+/* Whether a node of the block is held in all directions. */
+bool holds_held(const ContactFrame *frame, int32_t block);
+
 /* How many contacts a block has. */
 uint32_t holds_contacts(const ContactFrame *frame, int32_t block);
 

@@ -83,7 +83,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -224,6 +224,7 @@ void primal_find_leaning(Primal *p)
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *body = primal_body_of(p, block);
         body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->held = body->held || holds_held(p->contacts, block);
         body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
     }
 }

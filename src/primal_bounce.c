@@ -56,7 +56,7 @@ void primal_find_bounces(Primal *p)
     p->bounces = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].bounce = 0.0;
-        body[i].bounces = of[i].touches && !of[i].with_liquid && !body[i].multistep && body[i].kept == 1.0;
+        body[i].bounces = of[i].touches && !of[i].with_liquid && !of[i].held && !body[i].multistep && body[i].kept == 1.0;
         p->bounces = p->bounces || body[i].bounces;
     }
     p->world->primal.bounces = p->bounces;

@@ -101,7 +101,7 @@ void primal_find_rigid(Primal *p)
     const BodySum *of = state->body_sums.data;
     p->rigid = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
-        body[i].turns = !of[i].with_liquid;
+        body[i].turns = !of[i].with_liquid && !of[i].held;
         body[i].kept = 1.0;
         body[i].multistep = false;
         body[i].used = of[i].meets && body[i].turns;

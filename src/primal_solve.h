@@ -25,6 +25,7 @@ typedef struct BodySum {
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
+    bool held;                /* by an obstacle that sticks: it has no rigid motion */
     bool meets;               /* may meet one in this substep */
     float kept, mean[3];      /* share of its velocities beside this mean displacement that a body with liquid keeps */
 } BodySum;
