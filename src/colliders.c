@@ -6,6 +6,7 @@
 #include "concave.h"
 #include "numbers.h"
 #include "result.h"
+#include "walls.h"
 
 /* Colliders, walls, and what holds nodes. */
 enum { OBSTACLES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1 };
@@ -25,6 +26,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     memory_give(memory, colliders->obstacle, OBSTACLES * sizeof(Obstacle));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
+    array_free(memory, &colliders->open);
     impulses_free(&colliders->impulses, memory);
     *colliders = (Colliders){0};
 }
@@ -144,51 +146,7 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
     return o;
 }
 
-/* How far [cells] apart a box and a plane may be of which it stands on one: nothing fits between them. */
-static const double STANDS = 0.1;
-
-/* Whether the face of a box on this side of its axis lies on a plane or behind it. */
-static bool stands_on(const Solid *box, int axis, double side, const Solid *plane, double cell_size)
-{
-    double facing = 0.0, above = 0.0;
-    for (int a = 0; a < box->dimension; a++) {
-        const double outward = side * box->rotation[3 * a + axis];
-        facing += plane->normal[a] * outward;
-        above += plane->normal[a] * (box->position[a] + outward * box->half_extents[axis] - plane->position[a]);
-    }
-    return facing < -1.0 + 1e-6 && above < STANDS * cell_size;
-}
-
-static void lengthen(Solid *box, int axis, double side, double by)
-{
-    for (int a = 0; a < box->dimension; a++) box->position[a] += side * 0.5 * by * box->rotation[3 * a + axis];
-    box->half_extents[axis] += 0.5 * by;
-}
-
-/* What gets into a box that stands on a plane must not be let out through the face on the plane, which would put it back into the box: matter
- * would seep along below. So the box goes on behind the plane, farther than it is wide. */
-static void go_on_behind(Obstacle *box, const Obstacle *plane, double cell_size)
-{
-    double size = 0.0;
-    for (int a = 0; a < box->start.dimension; a++) size += 2.0 * box->start.half_extents[a];
-    for (int axis = 0; axis < box->start.dimension; axis++) {
-        for (double side = -1.0; side < 2.0; side += 2.0) {
-            if (!stands_on(&box->start, axis, side, &plane->start, cell_size)) continue;
-            if (!stands_on(&box->end, axis, side, &plane->end, cell_size)) continue;
-            lengthen(&box->start, axis, side, size);
-            lengthen(&box->end, axis, side, size);
-        }
-    }
-}
-
-static void close_below(Obstacle *obstacle, int count, double cell_size)
-{
-    for (int b = 0; b < count; b++)
-        for (int p = 0; p < count && obstacle[b].start.kind == PBMPM_BOX; p++)
-            if (obstacle[p].start.kind == PBMPM_PLANE) go_on_behind(&obstacle[b], &obstacle[p], cell_size);
-}
-
-void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, double cell_size, int part, int parts)
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts)
 {
     int count = 0;
     colliders->measures = domain->enabled && domain->measures;
@@ -204,7 +162,6 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         colliders->obstacle[count++] = domain_wall(domain, dimension, axis, true);
     }
     colliders->obstacle_count = count;
-    close_below(colliders->obstacle, count, cell_size);
 }
 
 void colliders_end_step(Colliders *colliders)
@@ -317,43 +274,72 @@ static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o,
     return (uint32_t)count;
 }
 
-/* How deep [cells] in a box a node is more than on its surface. */
+/* How deep [cells] in an obstacle a node is more than on its surface. */
 static const double INSIDE = 1e-3;
 
-/* Contacts of a node in a box with the faces beside the nearest one that matter outside may press it through. Were it held by one face alone,
- * what presses on the other would push past it: each face of a floating box would bear pressure on less than its width, and the box would lie
- * too deep in the water. */
-static uint32_t contacts_at_edges(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, Contact *out)
+/* The obstacles around a block, and how close to each a node must be; `most`: to any. */
+typedef struct Around {
+    Near near;
+    double reach[OBSTACLES], most;
+} Around;
+
+/* Contacts of a node with the planes around it. In a box near its outer edge the other faces of the edge hold it, too: were it held by one alone, what presses on the
+ * other would push past it, and a floating box would lie too deep in the water. */
+static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *around, const float *u, const double point[3], int node, Contact *out)
 {
-    double normals[2][3];
-    const int count = solid_other_faces(&o->start, point, NODE_REACH * frame->cell_size, normals);
-    for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, 0.0, normals[i]);
-    return (uint32_t)count;
+    Face face[FIELD_FACES];
+    uint32_t count = 0;
+    int faces = field_faces(&around->near, point, around->most, face);
+    if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
+    for (int i = 0; i < faces; i++) {
+        const Obstacle *o = face[i].obstacle;
+        int k = 0;
+        while (around->near.obstacle[k] != o) k++;
+        if (o->start.grid || face[i].distance > around->reach[k] || way_passes(frame, o, u, point, face[i].distance, face[i].normal)) continue;
+        if (out) out[count] = contact_at(frame, o, point, node, face[i].distance, face[i].normal);
+        count++;
+    }
+    return count;
 }
 
-/* Contacts of one obstacle with one block's nodes; writes them if `out` is not null, and returns their number. */
-static uint32_t contacts_with(const ContactFrame *frame, const Obstacle *o, int32_t block, double reach, Contact *out)
+/* Contacts of one block's nodes; writes them if `out` is not null, and returns their number. */
+static uint32_t contacts_of_block(const ContactFrame *frame, const Around *around, int32_t block, Contact *out)
 {
     const Grid *grid = frame->grid;
+    const Near *near = &around->near;
     const float *node = (const float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
     uint32_t count = 0;
     for (int i = 0; i < grid->block_cells; i++) {
-        if (node[i * K_NODE_WIDTH + 3] == 0.0f) continue; /* no mass, nobody listens */
+        const float *u = node + i * K_NODE_WIDTH;
+        const uint32_t first = count;
         double point[3], normal[3];
+        if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
         contacts_node_position(frame, block, i, point);
-        const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
-        const bool image = o->wall && frame->mirrored && distance < -0.25 && distance > -1.25;
-        if (o->start.grid) {
-            if (distance <= reach)
-                count += contacts_in_hollow(frame, o, node + i * K_NODE_WIDTH, point, i, distance, normal, out ? out + count : NULL);
-            continue;
+        if (field_distance(near, point) > around->most) continue;
+        count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);
+        for (int k = 0; k < near->count; k++) {
+            const Obstacle *o = near->obstacle[k];
+            if (!o->start.grid) continue;
+            const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
+            if (distance <= around->reach[k]) count += contacts_in_hollow(frame, o, u, point, i, distance, normal, out ? out + count : NULL);
         }
-        if (image || distance > reach || way_passes(frame, o, node + i * K_NODE_WIDTH, point, distance, normal)) continue;
-        if (out) out[count] = contact_at(frame, o, point, i, distance, normal);
-        count++;
-        if (distance < -INSIDE) count += contacts_at_edges(frame, o, point, i, out ? out + count : NULL);
+        const bool walled = walls_list(frame->walls, (uint32_t)(block * grid->block_cells + i));
+        for (uint32_t k = first; k < count && out; k++) out[k].walled = walled;
     }
     return count;
+}
+
+static void look_around(const ContactFrame *frame, int32_t block, Around *around)
+{
+    static const double BESIDE = 4.5; /* [cells]: how far obstacles matter to a node in another one: those beside it, seen from its reflection */
+    const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
+    double centre[3];
+    contacts_block_centre(frame, block, centre);
+    around->most = 0.0;
+    for (int i = 0; i < frame->colliders->obstacle_count; i++)
+        around->most = fmax(around->most, reach_of(frame, &frame->colliders->obstacle[i], block, centre));
+    field_near(&around->near, frame, centre, half_diagonal + fmax(around->most, BESIDE), false);
+    for (int i = 0; i < around->near.count; i++) around->reach[i] = reach_of(frame, around->near.obstacle[i], block, centre);
 }
 
 /* Nodes that are held stick to an obstacle that does not move. */
@@ -385,21 +371,13 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
     const ContactFrame *frame = job->frame;
     Colliders *colliders = frame->colliders;
     uint32_t *contact_begin = colliders->contact_begin.data;
-    const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
+    Around around;
     for (int32_t block = begin; block < end; block++) {
+        const bool listed = job->write && colliders->contact.data;
         uint32_t contacts = 0;
-        double centre[3];
-        contacts_block_centre(frame, block, centre);
-        for (int i = 0; i < colliders->obstacle_count; i++) {
-            const Obstacle *o = &colliders->obstacle[i];
-            const double reach = reach_of(frame, o, block, centre);
-            if (solid_least(&o->start, centre) / frame->cell_size > reach + half_diagonal) continue;
-            const bool listed = job->write && colliders->contact.data;
-            Contact *out = listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL;
-            contacts += contacts_with(frame, o, block, reach, out);
-        }
+        look_around(frame, block, &around);
+        if (around.near.count > 0) contacts = contacts_of_block(frame, &around, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] : NULL);
         if (frame->held && frame->held[block]) {
-            const bool listed = job->write && colliders->contact.data;
             contacts += contacts_of_held(frame, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL);
         }
         if (!job->write) contact_begin[block + 1] = contacts;
@@ -478,10 +456,22 @@ void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end)
         float *node = (float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
         for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
             const Contact *contact = (const Contact *)colliders->contact.data + i;
-            if (colliders->measures)
+            if (colliders->measures && !contact->walled)
                 obey_and_book(&colliders->impulses, contact, i, node + contact->node * K_NODE_WIDTH);
             else
                 obey(contact, node + contact->node * K_NODE_WIDTH);
+        }
+    }
+}
+
+void contacts_apply_walled(const ContactFrame *frame, int32_t begin, int32_t end)
+{
+    const uint32_t *contact_begin = frame->colliders->contact_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        float *node = (float *)frame->grid->node.data + (size_t)block * (size_t)frame->grid->block_cells * K_NODE_WIDTH;
+        for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
+            const Contact *contact = (const Contact *)frame->colliders->contact.data + i;
+            if (contact->walled) obey(contact, node + contact->node * K_NODE_WIDTH);
         }
     }
 }

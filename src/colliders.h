@@ -37,6 +37,7 @@ typedef struct Contact {
     bool active; /* while the primal solver works: see holds_find() */
     uint8_t group; /* of the body's contacts with about this normal, and */
     float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see holds_rub() */
+    bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
     float surface[3]; /* displacement of the obstacle's surface */
@@ -51,6 +52,7 @@ typedef struct Colliders {
     Array contact;       /* Contact */
     Array contact_begin; /* uint32_t per node block, and the end */
     uint32_t contacts;
+    Array open;          /* float per node: the share that is open */
 
     Impulses impulses;
     bool measures; /* an obstacle of this substep does */
@@ -74,14 +76,14 @@ bool collider_moves(const Collider *collider);
 /* A live collider during part `part` of `parts` of a step. */
 Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts);
 
-/* The obstacles of part `part` of `parts` of a step. Boxes that stand on a plane or a wall go on behind it. */
+/* The obstacles of part `part` of `parts` of a step. */
 typedef struct Domain {
     bool enabled;
     bool measures; /* its walls' impulses */
     double low[3], high[3]; /* [m] */
     float friction;
 } Domain;
-void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, double cell_size, int part, int parts);
+void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts);
 /* After the last part: the targets are reached. */
 void colliders_end_step(Colliders *colliders);
 
@@ -97,7 +99,7 @@ typedef struct ContactFrame {
     const Grid *grid;
     double cell_size;
     float max_displacement; /* cells */
-    bool mirrored;          /* walls of the domain have images behind them, see mirror.h, and no contacts with those nodes */
+    const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
@@ -112,6 +114,9 @@ void contacts_block_centre(const ContactFrame *frame, int32_t block, double cent
 
 /* Makes the displacements of the nodes of the blocks [begin, end) obey their contacts. Books what that takes. */
 void contacts_apply(const ContactFrame *frame, int32_t begin, int32_t end);
+
+/* The same for nodes that walls list alone. */
+void contacts_apply_walled(const ContactFrame *frame, int32_t begin, int32_t end);
 
 /* Takes from the nodes of the blocks [begin, end) what would move them against the surfaces they are on or in: the linear part of
  * contacts_apply(). */

@@ -84,7 +84,8 @@ static double open_share_of(const World *world, const int32_t node[3])
 {
     double place[3];
     node_place(world, node, place);
-    return open_share_at(&world->colliders, place, (double)world->def.cell_size);
+    const ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size};
+    return open_share_at(&frame, place);
 }
 
 /* Farther inside of an obstacle than this [cells] a node has no room, and open_share_at() says no more than that it is small. */

@@ -7,8 +7,8 @@
 #include "depth.h"
 #include "result.h"
 
-/* Arrays of cells: residual, preconditioned residual, direction, response, pressure before, mask, softness. */
-enum { GUESS_ARRAYS = 7 };
+/* Arrays of cells: residual, preconditioned residual, direction, response, mask, softness. */
+enum { GUESS_ARRAYS = 6 };
 
 /* Sums of a loop over cells; blocks that a thread takes at once; sums side by side, which divide the cells of a block. */
 enum { SUMS = 2, GRAIN = 8, LANES = 4 };
@@ -69,11 +69,15 @@ static Asked asked_of(const World *world)
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
-    float *residual, *better, *direction, *response, *before, *mask, *soft;
+    float *residual, *better, *direction, *response, *mask, *soft;
     Asked asked;
     float density;                 /* see guess_density() */
+    float little;                  /* cells with less mass are not asked */
     float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
 } Guess;
+
+/* Of a full cell's mass. What a few particles at the edge of their reach say of a cell behind a wall would count as much as what a full cell says. */
+static const double LITTLE = 0.01;
 
 static Guess guess_of(World *world, const ContactFrame *contacts)
 {
@@ -85,11 +89,11 @@ static Guess guess_of(World *world, const ContactFrame *contacts)
                    .better = cells + n,
                    .direction = cells + 2 * n,
                    .response = cells + 3 * n,
-                   .before = cells + 4 * n,
-                   .mask = cells + 5 * n,
-                   .soft = cells + 6 * n,
+                   .mask = cells + 4 * n,
+                   .soft = cells + 5 * n,
                    .asked = asked_of(world),
                    .density = (float)guess_density(world),
+                   .little = (float)(LITTLE * materials_lightest(&world->materials, &world->particles)),
                    .least = least_softness(world)};
 }
 
@@ -141,22 +145,18 @@ static double dot(const Guess *g, const float *a, const float *b, size_t begin, 
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-static void hold_nodes(void *context, int32_t begin, int32_t end) { contacts_hold(context, begin, end); }
-
 /* Displacements of the nodes from the pressures `of` alone. */
 static void respond(const Guess *g, float *of)
 {
     World *world = g->world;
     KernelArgs *a = &world->args;
-    ContactFrame contacts = *g->contacts;
     float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
     a->cell_pressure = a->cell_pressure_old = of;
     a->probing = 1;
     solver_over_particles(world, world->kernels->cells_push);
     a->probing = 0;
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);
-    mirrors_apply(&world->mirrors, &world->grid, NULL);
-    pool_for(world->pool, world->grid.node_blocks, 4, hold_nodes, &contacts);
+    walls_apply(&world->walls, g->contacts, world->pool, true, NULL);
     a->cell_pressure = pressure;
     a->cell_pressure_old = pressure_old;
 }
@@ -172,9 +172,16 @@ static void trace(const Guess *g)
     world->args.probing = 0;
 }
 
-/* 4 m |u|^2. Over nodes that hold the response to pressures s it sums up to sum_c m_c s_c r_c, with r the means of tr D: both transfers are each
- * other's transpose. */
+/* 4 m |u|^2. */
 static float energy_of_node(const float *u) { return 4.0f * u[3] * (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]); }
+
+/* 4 p . u, with p the momentum that pressures gave to a node and u what the walls leave of it; elsewhere p = m u. Over nodes that hold the response to pressures s it
+ * sums up to sum_c m_c s_c r_c, with r the means of tr D: both transfers are each other's transpose. */
+static float work_on_node(const Guess *g, size_t node)
+{
+    const float *u = g->world->args.node + node * K_NODE_WIDTH;
+    return walls_list(&g->world->walls, (uint32_t)node) ? 4.0f * walls_work(&g->world->walls, (uint32_t)node, u) : energy_of_node(u);
+}
 
 /* ---- The preconditioner ---- */
 
@@ -284,7 +291,7 @@ static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
         const float r = growth_of(a, g->asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        g->mask[i] = a->cell_mass[i] > g->little && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
 }
@@ -295,7 +302,6 @@ static void start_direction(const Guess *g, size_t begin, size_t end, double *su
     for (size_t i = begin; i < end; i++) g->residual[i] -= g->mean * g->mask[i];
     scale_residual(g, begin, end);
     memset(g->direction + begin, 0, (end - begin) * sizeof(float));
-    memcpy(g->before + begin, g->world->args.cell_pressure + begin, (end - begin) * sizeof(float));
 }
 
 static void turn_direction(const Guess *g, size_t begin, size_t end, double *sum)
@@ -314,10 +320,10 @@ static void soften_response(const Guess *g, size_t begin, size_t end, double *su
 /* The same from the nodes alone, where the response itself is not wanted any more. */
 static void sum_curvature(const Guess *g, size_t begin, size_t end, double *sum)
 {
-    const float *node = g->world->grid.node.data, *mass = g->world->args.cell_mass;
+    const float *mass = g->world->args.cell_mass;
     for (size_t i = begin; i < end; i++) {
         const float s = g->direction[i];
-        sum[0] += (double)(energy_of_node(node + i * K_NODE_WIDTH) + mass[i] * g->soft[i] * s * s);
+        sum[0] += (double)(work_on_node(g, i) + mass[i] * g->soft[i] * s * s);
     }
 }
 
@@ -335,10 +341,10 @@ static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum
 static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
+    float *pressure = g->world->args.cell_pressure;
     for (size_t i = begin; i < end; i++) {
         const float next = pressure[i] + g->step * g->direction[i];
-        pressure[i] = old[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
+        pressure[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
     }
 }
 
@@ -353,7 +359,6 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
     double size = precondition(&g);
     g.keep = g.step = 0.0f;
     for (int left = iterations; left > 0 && size > 0.0 && !solver_time_is_up(world); left--) {
-        world->record.iterations_used++;
         over_cells(&g, turn_direction);
         respond(&g, g.direction);
         if (left > 1) trace(&g);
@@ -369,9 +374,9 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
     over_cells(&g, step_and_stop);
 }
 
-/* With u the projection of u* + q/m, the best displacements for the pressures p among those that obey: the value of
+/* With u the best displacements for the pressures p among those that are admissible, the value of
  *     sum_i m_i/2 |u_i - u*_i|^2 - q_i . u_i + sum_c m_c/4 p_c (growth_c - softness_c p_c / 2),
- * of which the pressures that are sought are the maximum. */
+ * of which the pressures that are sought are the maximum. Nodes at walls count by their lumped masses, see walls_value(). */
 static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
 {
     const KernelArgs *a = &g->world->args;
@@ -379,7 +384,10 @@ static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
         const float *u = a->node + i * K_NODE_WIDTH, *base = a->node_base + i * K_NODE_WIDTH, *q = a->node_push + i * K_NODE_WIDTH;
         const float growth = growth_of(a, g->asked, i), p = a->cell_pressure[i];
         float gain = 0.25f * a->cell_mass[i] * p * (growth - 0.5f * a->cell_softness[i] * p);
-        for (int k = 0; k < 3; k++) gain += 0.5f * u[3] * (u[k] - base[k]) * (u[k] - base[k]) - q[k] * u[k];
+        if (walls_list(&g->world->walls, (uint32_t)i))
+            gain += walls_value(&g->world->walls, (uint32_t)i, u, base, q);
+        else
+            for (int k = 0; k < 3; k++) gain += 0.5f * u[3] * (u[k] - base[k]) * (u[k] - base[k]) - q[k] * u[k];
         sum[0] += (double)gain;
     }
 }
@@ -393,8 +401,8 @@ double guess_gain(World *world)
 static void take_back(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
-    for (size_t i = begin; i < end; i++) pressure[i] = old[i] = g->before[i];
+    const KernelArgs *a = &g->world->args;
+    memcpy(a->cell_pressure + begin, a->cell_pressure_old + begin, (end - begin) * sizeof(float));
 }
 
 void guess_take_back(World *world)

@@ -3,125 +3,91 @@
 #include <math.h>
 #include <string.h>
 
-/* The share of a node's weight that lies outside an obstacle whose surface is at `distance` [cells]: the integral of the quadratic spline
- * up to there, as the surface is nearly flat over a cell. At least what is left one cell inside, 1/48: behind that nothing is known. */
-static double open_share(double distance)
+#include "walls.h"
+
+/* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not
+ * matter. */
+static const double DEEPEST = 1.0;
+static const float LEAST_SHARE = 1.0f / 48.0f; /* there */
+
+double open_share_at(const ContactFrame *frame, const double node[3])
 {
-    if (distance >= NODE_REACH) return 1.0;
-    if (distance <= -1.0) return 1.0 / 48.0;
-    const double rest = NODE_REACH - fabs(distance);
-    if (distance > 0.5) return 1.0 - rest * rest * rest / 6.0;
-    if (distance < -0.5) return rest * rest * rest / 6.0;
-    return 0.5 + distance * (0.75 - distance * distance / 3.0);
-}
-
-/* Surfaces near a node. Those that face the same way, a plane on the floor of the domain or boxes side by side, hide the same volume, so
- * that of the deepest counts; what others hide is independent of it, as at an edge or in a corner. */
-enum { SURFACES = 8 };
-typedef struct Shade {
-    int count;
-    double share[SURFACES], normal[SURFACES][3];
-} Shade;
-
-static const double SAME_WAY = 0.7; /* cosine of the angle between normals: 45 degrees, halfway to an edge */
-
-static void shade_add(Shade *shade, double distance, const double normal[3])
-{
-    const double share = open_share(distance);
-    if (share == 1.0) return;
-    int i = 0;
-    while (i < shade->count) {
-        const double *other = shade->normal[i];
-        if (normal[0] * other[0] + normal[1] * other[1] + normal[2] * other[2] > SAME_WAY) break;
-        i++;
-    }
-    if (i == SURFACES || (i < shade->count && shade->share[i] <= share)) return;
-    shade->count = i < shade->count ? shade->count : i + 1;
-    shade->share[i] = share;
-    for (int a = 0; a < 3; a++) shade->normal[i][a] = normal[a];
-}
-
-static double shade_share(const Shade *shade)
-{
-    double share = 1.0;
-    for (int i = 0; i < shade->count; i++) share *= shade->share[i];
-    return share;
-}
-
-double open_share_at(const Colliders *colliders, const double node[3], double cell_size)
-{
-    Shade shade = {0};
-    for (int i = 0; i < colliders->obstacle_count; i++) {
-        double normal[3];
-        const double distance = obstacle_distance(&colliders->obstacle[i], node, normal) / cell_size;
-        shade_add(&shade, distance, normal);
-    }
-    return shade_share(&shade);
+    Near near;
+    field_near(&near, frame, node, 2.0 * NODE_REACH, true);
+    return field_open_share(&near, node, DEEPEST);
 }
 
 typedef struct OpenJob {
     const ContactFrame *frame;
     bool resting_only;
+    float *open; /* per node */
 } OpenJob;
 
 /* Obstacles near a block. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
-typedef struct Near {
-    int count;
-    bool edged;
-    const Obstacle *obstacle[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS];
-} Near;
-
-static void find_near(const OpenJob *job, int32_t block, Near *near)
+static void find_near(const OpenJob *job, int32_t block, Near *near, bool *edged)
 {
     const ContactFrame *frame = job->frame;
     const double diagonal = sqrt((double)frame->grid->dimension), half_block = 0.5 * (K_BLOCK_AXIS - 1) * diagonal;
     double centre[3];
-    near->count = 0;
-    near->edged = false;
+    int kept = 0;
     contacts_block_centre(frame, block, centre);
-    for (int i = 0; i < frame->colliders->obstacle_count; i++) {
-        const Obstacle *o = &frame->colliders->obstacle[i];
+    field_near(near, frame, centre, half_block + 2.0 * NODE_REACH, false);
+    *edged = false;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
         if (job->resting_only && o->moves) continue;
+        near->obstacle[kept++] = o;
         const double gap = solid_least(&o->start, centre) / frame->cell_size - half_block;
-        if (gap < NODE_REACH) near->obstacle[near->count++] = o;
-        if (gap < NODE_REACH + diagonal && o->start.kind != PBMPM_PLANE) near->edged = true;
+        if (gap < NODE_REACH + diagonal && o->start.kind != PBMPM_PLANE) *edged = true;
     }
+    near->count = kept;
 }
 
-static void open_block(const ContactFrame *frame, const Near *near, int32_t block)
-{
-    const int cells = frame->grid->block_cells;
-    float *volume = (float *)frame->grid->node_volume.data + (size_t)block * (size_t)cells;
-    for (int node = 0; node < cells; node++) {
-        double point[3], normal[3];
-        Shade shade = {0};
-        if (volume[node] == 0.0f) continue;
-        contacts_node_position(frame, block, node, point);
-        for (int i = 0; i < near->count; i++) {
-            const double distance = solid_distance(&near->obstacle[i]->start, point, normal) / frame->cell_size;
-            shade_add(&shade, distance, normal);
-        }
-        volume[node] /= (float)shade_share(&shade);
-    }
-}
-
-static void open_blocks(void *context, int32_t begin, int32_t end)
+static void find_open(void *context, int32_t begin, int32_t end)
 {
     const OpenJob *job = context;
-    uint32_t *edged = job->frame->grid->edged.data;
+    const Grid *grid = job->frame->grid;
+    const int cells = grid->block_cells;
+    uint32_t *marks = grid->edged.data;
     Near near;
     for (int32_t block = begin; block < end; block++) {
-        find_near(job, block, &near);
-        edged[block] = near.edged;
-        if (near.count) open_block(job->frame, &near, block);
+        const float *volume = (const float *)grid->node_volume.data + (size_t)block * (size_t)cells;
+        float *open = job->open + (size_t)block * (size_t)cells;
+        bool edged;
+        find_near(job, block, &near, &edged);
+        marks[block] = edged;
+        for (int node = 0; node < cells; node++) {
+            double point[3];
+            open[node] = 1.0f;
+            const bool asked = volume[node] > 0.0f || walls_list(job->frame->walls, (uint32_t)(block * cells + node));
+            if (near.count == 0 || !asked) continue;
+            contacts_node_position(job->frame, block, node, point);
+            open[node] = (float)field_open_share(&near, point, job->frame->walls ? NODE_REACH : DEEPEST);
+        }
     }
 }
 
-void contacts_open_volume(const ContactFrame *frame, Pool *pool, bool resting_only)
+static void divide(void *context, int32_t begin, int32_t end)
 {
-    OpenJob job = {frame, resting_only};
-    if (frame->colliders->obstacle_count == 0)
-        memset(frame->grid->edged.data, 0, (size_t)frame->grid->node_blocks * sizeof(uint32_t));
-    else
-        pool_for(pool, frame->grid->node_blocks, 16, open_blocks, &job);
+    const OpenJob *job = context;
+    const size_t cells = (size_t)job->frame->grid->block_cells;
+    float *volume = job->frame->grid->node_volume.data;
+    for (size_t i = (size_t)begin * cells; i < (size_t)end * cells; i++) volume[i] /= fmaxf(job->open[i], LEAST_SHARE);
+}
+
+bool contacts_open_volume(const ContactFrame *frame, Memory *memory, Pool *pool, bool resting_only)
+{
+    Colliders *colliders = frame->colliders;
+    const Grid *grid = frame->grid;
+    const size_t blocks = (size_t)grid->node_blocks;
+    if (colliders->obstacle_count == 0) {
+        memset(grid->edged.data, 0, blocks * sizeof(uint32_t));
+        return true;
+    }
+    if (!array_reserve(memory, &colliders->open, blocks * (size_t)grid->block_cells, sizeof(float))) return false;
+    OpenJob job = {frame, resting_only, colliders->open.data};
+    pool_for(pool, grid->node_blocks, 16, find_open, &job);
+    if (frame->walls) walls_fold_volume(frame->walls, grid->node_volume.data, job.open);
+    pool_for(pool, grid->node_blocks, 64, divide, &job);
+    return true;
 }

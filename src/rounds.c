@@ -43,38 +43,28 @@ void rounds_begin(World *world)
         for (int n = 0; n < grid->neighbours; n++)
             if (neighbour[n] >= 0) mark[neighbour[n]] = 1;
     }
-    mirrors_close(&world->mirrors, grid, mark);
     for (int32_t block = 0; block < grid->node_blocks; block++)
         if (mark[block]) touched[rounds->touches++] = block;
 }
 
 typedef struct ListJob {
     World *world;
-    Kernel *kernel; /* null: only contacts */
-    const ContactFrame *contacts; /* or null */
+    Kernel *kernel;
     const int32_t *list;
 } ListJob;
 
 static void run_list(void *context, int32_t begin, int32_t end)
 {
     const ListJob *job = context;
-    for (int32_t i = begin; i < end; i++) {
-        const int32_t block = job->list[i];
-        if (job->kernel) job->kernel(&job->world->args, block, block + 1);
-        if (job->contacts) contacts_apply(job->contacts, block, block + 1);
-    }
+    for (int32_t i = begin; i < end; i++) job->kernel(&job->world->args, job->list[i], job->list[i] + 1);
 }
 
 static void push_touched(World *world, const ContactFrame *contacts)
 {
     const RoundsState *rounds = &world->dual.rounds;
-    const bool mirrored = mirrors_any(&world->mirrors);
-    ListJob job = {world, world->kernels->push_nodes, mirrored ? NULL : contacts, rounds->touched.data};
+    ListJob job = {world, world->kernels->push_nodes, rounds->touched.data};
     pool_for(world->pool, rounds->touches, BLOCK_GRAIN, run_list, &job);
-    if (!mirrored) return;
-    mirrors_apply(&world->mirrors, &world->grid, rounds->mark.data);
-    job = (ListJob){world, NULL, contacts, rounds->touched.data};
-    pool_for(world->pool, rounds->touches, BLOCK_GRAIN, run_list, &job);
+    walls_apply(&world->walls, contacts, world->pool, false, rounds->mark.data);
 }
 
 static double uphill_of(const World *world)
@@ -92,7 +82,7 @@ void rounds_run(World *world, const ContactFrame *contacts, int rounds)
     Acceleration acceleration = acceleration_begin(world);
     bool more = rounds > 0 && world->dual.rounds.solids > 0;
     for (int round = 1; more; round++) {
-        ListJob job = {world, world->kernels->dual_iterate, NULL, world->dual.rounds.solid.data};
+        ListJob job = {world, world->kernels->dual_iterate, world->dual.rounds.solid.data};
         pool_for(world->pool, world->dual.rounds.solids, BLOCK_GRAIN, run_list, &job);
         more = round < rounds && !solver_time_is_up(world);
         acceleration_next(&acceleration, uphill_of(world) > 0.0, more);

@@ -27,7 +27,7 @@ void solver_over_particles(World *world, Kernel *kernel);
 /* The same over those whose particles sleep. */
 void solver_over_still(World *world, Kernel *kernel);
 
-/* Makes the nodes obey the contacts and mirrors. */
+/* Makes the motion of the nodes admissible at walls and contacts. */
 void solver_obey(World *world, const ContactFrame *contacts);
 
 /* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
@@ -39,10 +39,10 @@ bool solver_holds_liquid(const World *world);
 /* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
 float solver_feedback_share(const pbmpm_material_def *def, float dt);
 
-/* Whether walls have images of the matter, see mirror.h: they carry the pressure of a liquid to the wall. Solids of the dual solver without liquid
- * have none, for what leans on two walls would creep round the corner between them: a block in a box as wide as itself sank by 1 to 4 % in 20 s. One
- * iteration bears no weight whatever it does; with images what lies in a row of cells then has no strain that later, stiffer substeps throw up. */
-bool solver_mirrors(const World *world);
+/* Whether nodes at walls follow others, see walls.h: so walls bear the pressure of a liquid. For solids of the dual solver without liquid they
+ * do not, for what leans on two walls would creep round the corner between them: a block in a box as wide as itself sank by 1 to 4 % in 20 s. One
+ * iteration bears no weight whatever it does; where they follow what lies in a row of cells then has no strain that later, stiffer substeps throw up. */
+bool solver_follows_walls(const World *world);
 
 /* Whether the time budget of the step is spent. */
 bool solver_time_is_up(const World *world);

@@ -124,7 +124,7 @@ static void keep_places(void *context, int32_t begin, int32_t end)
 static pbmpm_result empty_substep(World *world, int part)
 {
     grid_clear(&world->grid);
-    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, (double)world->def.cell_size, part, world->settings.substeps);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     return PBMPM_OK;
 }
 
@@ -147,35 +147,27 @@ static pbmpm_result predict(World *world, float dt, bool with_volume)
     return forces_apply(world, dt);
 }
 
-static pbmpm_result find_mirrors(World *world, const Domain *domain)
-{
-    const double cell_size = (double)world->def.cell_size;
-    if (mirrors_find(&world->mirrors, &world->memory, &world->grid, domain, cell_size) &&
-        mirrors_measure(&world->mirrors, &world->memory, world->domain.measures))
-        return PBMPM_OK;
-    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the images behind walls");
-}
-
 /* What they may meet on the way. */
 static pbmpm_result find_contacts(World *world, int part, bool with_volume, ContactFrame *contacts)
 {
     const double cell_size = (double)world->def.cell_size;
     const pbmpm_solver solver = world->record.solver;
-    const bool could_mirror = solver == PBMPM_SOLVER_DUAL || solver == PBMPM_SOLVER_EXPLICIT;
-    const bool mirrored = could_mirror && solver_mirrors(world); /* walls stand where they do with liquid, which may come and go */
-    const Domain domain = could_mirror ? mirror_domain(&world->domain, world->def.dimension, cell_size) : world->domain;
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
-    *contacts = (ContactFrame){&world->colliders, &world->grid, cell_size, world->settings.max_displacement, mirrored,
+    *contacts = (ContactFrame){&world->colliders, &world->grid, cell_size, world->settings.max_displacement, NULL,
                                world->sleep.holds ? world->sleep.held.data : NULL, by_ratio ? world->materials.kernel : NULL};
-    mirrors_clear(&world->mirrors);
-    pbmpm_result result = mirrored ? find_mirrors(world, &domain) : PBMPM_OK;
-    if (result != PBMPM_OK) return result;
-    colliders_begin_substep(&world->colliders, &domain, world->def.dimension, cell_size, part, world->settings.substeps);
-    result = contacts_find(contacts, &world->memory, world->pool);
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    walls_clear(&world->walls);
+    pbmpm_result result = PBMPM_OK;
+    if (solver_follows_walls(world)) {
+        result = walls_find(&world->walls, contacts, &world->memory, world->pool);
+        contacts->walls = &world->walls;
+    }
+    if (result == PBMPM_OK) result = contacts_find(contacts, &world->memory, world->pool);
     if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
-    if (result == PBMPM_OK && with_volume) contacts_open_volume(contacts, world->pool, by_ratio);
+    if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
+        result = fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the open shares of %d blocks", world->grid.node_blocks);
     return result;
 }
 
@@ -183,7 +175,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
 static void go(World *world, float dt, int part, const ContactFrame *contacts)
 {
     contacts_book(contacts, (double)dt);
-    mirrors_book(&world->mirrors, contacts, (double)dt);
+    walls_book(&world->walls, contacts, (double)dt);
     PushJob push = {world, contacts, dt};
     if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
     solver_integrate(world);

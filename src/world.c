@@ -152,7 +152,7 @@ void world_destroy(World *world)
     forces_free(&world->forces, &world->memory);
     dual_free(world);
     guess_free(world);
-    mirrors_free(&world->mirrors, &world->memory);
+    walls_free(&world->walls, &world->memory);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);
     grid_free(&world->grid, &world->memory);

@@ -14,13 +14,13 @@
 #include "lookup.h"
 #include "materials.h"
 #include "memory.h"
-#include "mirror.h"
 #include "multilevel.h"
 #include "particles.h"
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
 #include "sinks.h"
 #include "sleep.h"
+#include "walls.h"
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
@@ -102,7 +102,7 @@ typedef struct World {
     KernelArgs args;
     DualState dual;
     GuessState guess;
-    Mirrors mirrors;
+    Walls walls;
     PrimalState primal;
     Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see paper.c */
