@@ -29,7 +29,7 @@ static bool shares_world(const World *world)
 static int guess_iterations(const World *world)
 {
     enum { MOST = 4 };
-    if (!solver_holds_liquid(world)) return 0;
+    if (!solver_holds_liquid(world) && !solver_holds_sand(world)) return 0;
     const int half = world->settings.iterations / 2;
     if (half == 1 && gravity_strength(world) == 0.0) return 0;
     return half < MOST ? half : MOST;
@@ -47,6 +47,11 @@ static double trusted_iterations(const World *world)
 
 static bool takes_rounds(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
 
+static bool guesses_solids(const World *world)
+{
+    return guess_iterations(world) > 0 && !in_cells(world) && (shares_world(world) || solver_holds_sand(world));
+}
+
 pbmpm_result dual_prepare(World *world)
 {
     DualState *dual = &world->dual;
@@ -59,7 +64,8 @@ pbmpm_result dual_prepare(World *world)
         ok = array_reserve(&world->memory, &dual->cells, CELL_ARRAYS * nodes, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
-    if (ok && takes_rounds(world)) ok = array_reserve(&world->memory, &dual->cell_strain, nodes, sizeof(float)) && rounds_reserve(world);
+    if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_strain, nodes, sizeof(float));
+    if (ok && takes_rounds(world)) ok = rounds_reserve(world);
     ok = ok && dual_error_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     const pbmpm_result result = guess_prepare(world);
@@ -95,7 +101,7 @@ static void bind_cells(World *world)
     a->cell_softness = cells + 2 * nodes;
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
-    a->cell_strain = takes_rounds(world) ? world->dual.cell_strain.data : NULL;
+    a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
     a->cell_relaxation = smallest_relaxation(world);
@@ -363,6 +369,7 @@ double dual_stiffened(const World *world, double substep, double iterations)
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return 1.0;
     if (solver_holds_liquid(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;

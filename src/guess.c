@@ -151,7 +151,7 @@ static void respond(const Guess *g, float *of)
     ContactFrame contacts = *g->contacts;
     float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
     a->cell_pressure = a->cell_pressure_old = of;
-    a->probing = 1;
+    a->probing = 2;
     solver_over_particles(world, world->kernels->cells_push);
     a->probing = 0;
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);

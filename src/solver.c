@@ -89,6 +89,8 @@ static void set_moduli(World *world, float dt)
             }
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
+            material->carried = (float)fmin(carried_share(world) * c, 1e30);
+            material->pascal = (float)fmin(1.0 / c, 1e30);
             plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
         }
     }
@@ -266,7 +268,7 @@ bool solver_mirrors(const World *world)
 }
 
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep. */
-static bool holds_sand(const World *world)
+bool solver_holds_sand(const World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (world->particles.of_material[slot] > 0 && world->materials.kernel[slot].yields == K_SAND) return true;
@@ -276,7 +278,7 @@ static bool holds_sand(const World *world)
 pbmpm_result solver_prepare(World *world)
 {
     pbmpm_solver solver = world->settings.solver;
-    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_holds_liquid(world) || holds_sand(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_holds_liquid(world) || solver_holds_sand(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     world->record.solver = solver;
     if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
