@@ -1,6 +1,7 @@
 #include "dual.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "depth.h"
@@ -12,7 +13,12 @@
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
 enum { CELL_ARRAYS = 5 };
 
-static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
+static bool sand_in_cells(const World *world)
+{
+    return !getenv("NOCELLS") && solver_holds_sand(world) && !solver_holds_liquid(world);
+}
+
+static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS || sand_in_cells(world); }
 
 /* Whether liquids share the world with solids. These then take part in the guess of the pressure, which would push them as if they had no
  * stiffness, and take rounds by themselves. */
@@ -30,13 +36,14 @@ static int guess_iterations(const World *world)
 {
     enum { MOST = 4 };
     if (!solver_holds_liquid(world) && !solver_holds_sand(world)) return 0;
+    if (getenv("GI")) return atoi(getenv("GI"));
     const int half = world->settings.iterations / 2;
     if (half == 1 && gravity_strength(world) == 0.0) return 0;
     return half < MOST ? half : MOST;
 }
 
 /* How many iterations a substep has that are no guess. */
-static int own_iterations(const World *world) { return world->settings.iterations - guess_iterations(world); }
+static int own_iterations(const World *world) { return getenv("OI") ? atoi(getenv("OI")) : world->settings.iterations - guess_iterations(world); }
 
 /* What solids are asked to hold follows them, slowly where they were raised; see solver.c. */
 static double trusted_iterations(const World *world)
@@ -49,7 +56,7 @@ static bool takes_rounds(const World *world) { return guess_iterations(world) > 
 
 static bool guesses_solids(const World *world)
 {
-    return guess_iterations(world) > 0 && !in_cells(world) && (shares_world(world) || solver_holds_sand(world));
+    return solver_holds_sand(world) ? in_cells(world) || guess_iterations(world) > 0 : takes_rounds(world);
 }
 
 pbmpm_result dual_prepare(World *world)
@@ -86,7 +93,7 @@ static float smallest_relaxation(const World *world)
 {
     float smallest = 2.0f;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot))
+        if (world->particles.of_material[slot] > 0 && (!material_is_solid(&world->materials, slot) || world->materials.kernel[slot].yields == K_SAND))
             smallest = fminf(smallest, world->materials.kernel[slot].relaxation);
     return smallest;
 }
@@ -102,6 +109,7 @@ static void bind_cells(World *world)
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
     a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
+    a->elastic_guesses = takes_rounds(world);
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
     a->cell_relaxation = smallest_relaxation(world);
@@ -176,6 +184,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations)
     const double before = guess_gain(world);
     guess_solve(world, contacts, iterations);
     push(world, contacts, true);
+    if (getenv("DBG")) { extern int printf(const char*,...); printf("gain %g -> %g closed %d\n", before, guess_gain(world), world->guess.closed); }
     if (guess_gain(world) >= before) return;
     guess_take_back(world);
     push(world, contacts, true);
@@ -264,13 +273,14 @@ static void iterate_all(World *world, const ContactFrame *contacts, double mass)
     DualModes modes = dual_modes_of(world, (double)smallest_relaxation(world));
     const bool watched = world->settings.target_error > 0.0f; /* else the last displacements alone are compared */
     Acceleration acceleration = acceleration_begin(world);
-    bool more = true;
+    bool more = true; int own = 0;
     if (watched) dual_compare_displacements(world);
     while (more) {
         const Change change = iterate(world);
         record->iterations_used++;
         record->residual = sqrt(change.change2 / mass);
         more = solver_may_go_on(world, dual_predicted_error(&modes, record->residual));
+        if (getenv("OI")) more = ++own < atoi(getenv("OI"));
         acceleration_next(&acceleration, change.uphill > 0.0, more);
         const double momentum = (double)world->args.momentum;
         if (!more && !watched) dual_compare_displacements(world);

@@ -1,6 +1,7 @@
 #include "guess.h"
 
 #include <float.h>
+#include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
@@ -284,7 +285,7 @@ static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
         const float r = growth_of(a, g->asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > (getenv("EPS") ? -(float)atof(getenv("EPS")) : 0.0f)) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
 }
@@ -361,7 +362,7 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
         g.step = curvature > 0.0 ? (float)(size / curvature) : 0.0f;
         if (left == 1 || !(curvature > 0.0)) break;
         over_cells(&g, step_and_go_on);
-        const double next = precondition(&g);
+        const double next = precondition(&g); if (getenv("DBG")) { extern int printf(const char*,...); printf(" cg %d size %g step %g curv %g\n", left, next, (double)g.step, curvature); }
         g.keep = (float)(next / size);
         g.step = 0.0f;
         size = next;

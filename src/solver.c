@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <string.h>
+#include <stdlib.h>
 
 #include "clock.h"
 #include "depth.h"
@@ -43,6 +44,8 @@ static void set_volume_control(World *world, float dt)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
+        if (getenv("NOFB") && material->yields == K_SAND) { material->volume_feedback = 0; }
+        if (getenv("NOVS") && material->yields == K_SAND) { material->volume_share = 0; continue; }
         material->volume_share = follows_grid(world, slot) ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
     }
 }
@@ -95,7 +98,7 @@ static void set_moduli(World *world, float dt)
             }
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
-            material->carried = (float)fmin(carried_share(world) * c, 1e30);
+            const char *e = getenv("CS"); material->carried = (float)fmin((e ? atof(e) : 0.5) * c, 1e30);
             material->pascal = (float)fmin(1.0 / c, 1e30);
             plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
         }
