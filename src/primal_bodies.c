@@ -38,10 +38,11 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             }
             sum[4 + c] += mass * free;
             sum[8] += 0.5 * mass * u * u;
+            sum[12] += 0.5 * mass * free * free;
             sum[9 + c] += mass * u;
         }
     }
-    sum[2] = holds_work(p->contacts, p->gradient, block);
+    sum[2] = holds_work(p->contacts, p->gradient, p->best, p->slip_min, block);
     sum[7] = (double)holds_touching(p->contacts, block);
 }
 
@@ -59,7 +60,7 @@ static bool has_liquid(const World *world, int32_t block)
 static bool gained(const BodySum *body)
 {
     const double after = body->with_liquid ? body->elastic - body->fallen : body->after;
-    return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * body->before;
+    return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * (body->before + body->still);
 }
 
 uint32_t primal_check_bodies(Primal *p)
@@ -69,7 +70,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -79,6 +80,7 @@ uint32_t primal_check_bodies(Primal *p)
         b->work += sum[2];
         b->mass += sum[3];
         b->kinetic += sum[8];
+        b->still += sum[12];
         if (!primal_is_multistep(p, block)) b->fallen += sum[8] - sum[0];
         for (int c = 0; c < 3; c++) {
             b->momentum[c] += sum[4 + c];
@@ -107,6 +109,12 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
 {
     const BodySum *body = primal_body_of(p, block);
     (void)sum;
+    if (body->failed && p->turned && primal_rigid_of(p, block)->turns) {
+        primal_write_rigid(p, block, begin, end, p->node);
+        for (size_t i = begin; i < end; i++) p->node[i] = i % W == 3 ? p->base[i] : p->node[i] + p->share * (p->best[i] - p->node[i]);
+        holds_project(p->contacts, p->node, block, block + 1);
+        return;
+    }
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
@@ -128,12 +136,18 @@ void primal_pull_back_to(Primal *p, float share)
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {
+    memcpy(p->node, p->best, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->node); /* bodies were moved since */
+    primal_evaluate(p);
+    primal_accept(p, false);
+    primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
     if (primal_check_bodies(p) == 0) return;
+    p->turned = true;
     primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
     for (int halving = 0; primal_check_bodies(p) > 0; halving++) {
+        p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;
     }
@@ -149,50 +163,23 @@ void primal_keep_energy(Primal *p)
     record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
 }
 
-/* ---- Momentum ---- */
+/* What gravity moves in the substep [cells]. */
+static float fall_of(const World *world)
+{
+    const float *g = world->args.gravity;
+    return sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
 
 void primal_find_leaning(Primal *p)
 {
+    const float fall = fall_of(p->world);
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (holds_any(p->contacts, block)) primal_body_of(p, block)->leans = true;
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
-}
-
-static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    (void)block;
-    for (size_t i = begin; i < end; i += W) {
-        const double mass = (double)p->base[i + 3];
-        sum[0] += mass;
-        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
-    }
-}
-
-static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const BodySum *body = primal_body_of(p, block);
-    (void)sum;
-    if (body->leans || body->mass == 0.0) return;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
-}
-
-/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
- * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
-void primal_keep_momentum(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    BodySum *body = state->body_sums.data;
-    const double *sums = state->sums.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].mass = body[i].momentum[0] = body[i].momentum[1] = body[i].momentum[2] = 0.0;
-    primal_over_blocks(p, sum_momentum_error);
+    primal_widen_gaps(p);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = primal_body_of(p, block);
-        b->mass += sums[(size_t)block * SUMS];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+        BodySum *body = primal_body_of(p, block);
+        body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
     }
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
-    primal_over_blocks(p, move_free_body);
 }

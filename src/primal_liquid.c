@@ -128,6 +128,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
 
 void primal_calm(World *world)
 {
+    primal_turn(world);
     if (!solver_holds_liquid(world)) return;
     spend(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);

@@ -73,6 +73,7 @@ typedef struct PrimalState {
     Array inverse;             /* per node 1 / (m + k) */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
+    Array rigid, rub, moves;   /* per body, see primal_rigid.c, holds.h and primal_momentum.c */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
     Bodies bodies;
