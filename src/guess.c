@@ -1,15 +1,14 @@
 #include "guess.h"
 
 #include <float.h>
-#include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
 #include "depth.h"
 #include "result.h"
 
-/* Arrays of cells: residual, preconditioned residual, direction, response, pressure before, mask, softness. */
-enum { GUESS_ARRAYS = 7 };
+/* Arrays of cells: residual, preconditioned residual, direction, response, mask, softness. */
+enum { GUESS_ARRAYS = 6 };
 
 /* Sums of a loop over cells; blocks that a thread takes at once; sums side by side, which divide the cells of a block. */
 enum { SUMS = 2, GRAIN = 8, LANES = 4 };
@@ -70,7 +69,7 @@ static Asked asked_of(const World *world)
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
-    float *residual, *better, *direction, *response, *before, *mask, *soft;
+    float *residual, *better, *direction, *response, *mask, *soft;
     Asked asked;
     float density;                 /* see guess_density() */
     float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
@@ -86,9 +85,8 @@ static Guess guess_of(World *world, const ContactFrame *contacts)
                    .better = cells + n,
                    .direction = cells + 2 * n,
                    .response = cells + 3 * n,
-                   .before = cells + 4 * n,
-                   .mask = cells + 5 * n,
-                   .soft = cells + 6 * n,
+                   .mask = cells + 4 * n,
+                   .soft = cells + 5 * n,
                    .asked = asked_of(world),
                    .density = (float)guess_density(world),
                    .least = least_softness(world)};
@@ -152,7 +150,7 @@ static void respond(const Guess *g, float *of)
     ContactFrame contacts = *g->contacts;
     float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
     a->cell_pressure = a->cell_pressure_old = of;
-    a->probing = 2;
+    a->probing = 1;
     solver_over_particles(world, world->kernels->cells_push);
     a->probing = 0;
     solver_over_nodes(world, world->kernels->respond_nodes, NULL);
@@ -285,7 +283,7 @@ static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
         const float r = growth_of(a, g->asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > (getenv("EPS") ? -(float)atof(getenv("EPS")) : 0.0f)) ? 1.0f : 0.0f;
+        g->mask[i] = a->cell_mass[i] > 0.0f && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
 }
@@ -296,7 +294,6 @@ static void start_direction(const Guess *g, size_t begin, size_t end, double *su
     for (size_t i = begin; i < end; i++) g->residual[i] -= g->mean * g->mask[i];
     scale_residual(g, begin, end);
     memset(g->direction + begin, 0, (end - begin) * sizeof(float));
-    memcpy(g->before + begin, g->world->args.cell_pressure + begin, (end - begin) * sizeof(float));
 }
 
 static void turn_direction(const Guess *g, size_t begin, size_t end, double *sum)
@@ -336,10 +333,10 @@ static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum
 static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
+    float *pressure = g->world->args.cell_pressure;
     for (size_t i = begin; i < end; i++) {
         const float next = pressure[i] + g->step * g->direction[i];
-        pressure[i] = old[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
+        pressure[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
     }
 }
 
@@ -354,7 +351,6 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
     double size = precondition(&g);
     g.keep = g.step = 0.0f;
     for (int left = iterations; left > 0 && size > 0.0 && !solver_time_is_up(world); left--) {
-        world->record.iterations_used++;
         over_cells(&g, turn_direction);
         respond(&g, g.direction);
         if (left > 1) trace(&g);
@@ -362,7 +358,7 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
         g.step = curvature > 0.0 ? (float)(size / curvature) : 0.0f;
         if (left == 1 || !(curvature > 0.0)) break;
         over_cells(&g, step_and_go_on);
-        const double next = precondition(&g); if (getenv("DBG")) { extern int printf(const char*,...); printf(" cg %d size %g step %g curv %g\n", left, next, (double)g.step, curvature); }
+        const double next = precondition(&g);
         g.keep = (float)(next / size);
         g.step = 0.0f;
         size = next;
@@ -394,8 +390,8 @@ double guess_gain(World *world)
 static void take_back(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
-    for (size_t i = begin; i < end; i++) pressure[i] = old[i] = g->before[i];
+    const KernelArgs *a = &g->world->args;
+    memcpy(a->cell_pressure + begin, a->cell_pressure_old + begin, (end - begin) * sizeof(float));
 }
 
 void guess_take_back(World *world)
