@@ -1,6 +1,7 @@
 #include "dual.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "depth.h"
@@ -32,6 +33,7 @@ static int guess_iterations(const World *world)
     const int iterations = world->settings.iterations;
     if ((!solver_holds_liquid(world) && !solver_holds_sand(world)) || iterations == 1) return 0;
     if (iterations < FEW && gravity_strength(world) == 0.0) return 0;
+    if (getenv("GI")) return atoi(getenv("GI"));
     return iterations < MOST ? iterations : MOST;
 }
 
@@ -48,6 +50,7 @@ static const double CARRIED_SHARE_OF_ONE = 0.45;
 double dual_carried_share(const World *world)
 {
     if (world->settings.iterations == 1) return CARRIED_SHARE_OF_ONE;
+    if (getenv("CS")) return atof(getenv("CS"));
     return guess_iterations(world) > 0 && !in_cells(world) ? 1.0 : CARRIED_SHARE;
 }
 
@@ -56,6 +59,7 @@ double dual_carried_share(const World *world)
 static float fine_carried(const World *world)
 {
     static const double ITERATIONS_KEPT = 25.0;
+    if (getenv("FC")) return (float)atof(getenv("FC"));
     return (float)fmax(0.0, 1.0 - world->settings.iterations / ITERATIONS_KEPT);
 }
 
@@ -124,6 +128,7 @@ static void bind_cells(World *world)
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
     a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
+    { const double e = getenv("SE") ? atof(getenv("SE")) : 0.2; a->settle = solver_holds_sand(world) ? (float)(1.0 - pow(1.0 - e, fmin(1.0, 60.0 * (double)a->dt))) : 1.0f; }
     a->elastic_guesses = shares_world(world);
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
