@@ -161,7 +161,7 @@ struct KernelArgs {
     K_PTR(float) cell_trace;    /* out: mean of tr D */
     K_PTR(float) cell_change2;  /* out, per node block: as change2 and uphill, of the cells */
     K_PTR(float) cell_uphill;
-    int32_t probing;            /* 1: elastic particles are left alone, and nobody remembers; 2: pressures of cells alone, without the deviator of sand */
+    int32_t probing;            /* pressures of cells only: elastic particles are left alone, and liquids do not remember */
     float cell_relaxation;      /* w of the cells: the smallest of the liquids */
     float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
     float momentum;             /* beta of the extrapolation */

@@ -31,10 +31,11 @@ float solver_feedback_share(const pbmpm_material_def *def, float dt)
  * nothing presses gaps shut, and a drop that only goes along would come to breathe: what the control corrects is strain, for which it corrects more. */
 static const double CONTROL_SHARE = 0.2;
 
+/* Whether J of a material follows what the grid holds: of what keeps no shape, and of sand with the dual solver, see ispc/granular.isph. */
 static bool follows_grid(const World *world, uint32_t slot)
 {
-    const KernelMaterial *material = &world->materials.kernel[slot];
-    return material->kind == K_LIQUID || (material->yields == K_SAND && world->record.solver == PBMPM_SOLVER_DUAL);
+    const bool sand = world->materials.kernel[slot].yields == K_SAND;
+    return material_flows(&world->materials.def[slot]) || (sand && world->record.solver == PBMPM_SOLVER_DUAL);
 }
 
 static void set_volume_control(World *world, float dt)
@@ -43,7 +44,8 @@ static void set_volume_control(World *world, float dt)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
-        material->volume_share = follows_grid(world, slot) ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
+        const bool controlled = follows_grid(world, slot) && material->yields != K_VISCO;
+        material->volume_share = controlled ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
     }
 }
 
@@ -60,7 +62,7 @@ static void set_moduli(World *world, float dt)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation;
-        if (material_flows(def) || material->yields == K_SAND) material->volume_feedback = solver_wants_volume(world) || material_flows(def) ? solver_feedback_share(def, dt) : 0.0f;
+        if (material_flows(def) || material->yields == K_SAND) material->volume_feedback = follows_grid(world, slot) ? solver_feedback_share(def, dt) : 0.0f;
         double c = 4.0 * cells * cells / (double)def->density;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
         if (material->kind == K_LIQUID) {
@@ -81,8 +83,7 @@ static void set_moduli(World *world, float dt)
             }
             material->shear = (float)fmin(c * shear, 1e30);
             material->dilation = (float)fmin(c * lambda, 1e30);
-            material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
-            material->pascal = (float)fmin(1.0 / c, 1e30);
+            if (material->yields == K_SAND) dual_set_sand(world, slot, c);
             plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
         }
     }
