@@ -24,7 +24,7 @@ static bool shares_world(const World *world)
     return solids && solver_holds_liquid(world);
 }
 
-/* Steps of the guess before the iterations. It is for liquids: three reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
+/* Steps of the guess before the iterations. It is for liquids and sand: three reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
  * few iterations follow; before a single one always. */
 static int guess_iterations(const World *world)
 {
