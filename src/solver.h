@@ -35,6 +35,10 @@ void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contact
 
 /* Whether the grid was built with a particle of a liquid. */
 bool solver_holds_liquid(const World *world);
+bool solver_holds_sand(const World *world);
+
+/* Whether the solver of this substep asks for the volume on the grid, beside the materials; asked before solver_prepare(). */
+bool solver_wants_volume(const World *world);
 
 /* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
 float solver_feedback_share(const pbmpm_material_def *def, float dt);

@@ -190,7 +190,7 @@ static pbmpm_result substep(World *world, float dt, int part)
     StepRecord *record = &world->record;
     double clock = now_ms();
 
-    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
+    const bool with_volume = materials_want_volume(&world->materials, &world->particles) || solver_wants_volume(world);
     pbmpm_result result = find_places(world, dt, with_volume);
     if (result != PBMPM_OK) return result;
     if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
