@@ -33,7 +33,7 @@ double depth_along_gravity(const World *world, bool asleep_too)
 {
     enum { BINS = 64, ROUNDS = 4 };
     const int32_t blocks = world->grid.particle_blocks + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
-    const double particles = world->particles.count - (asleep_too ? 0 : world->sleep.rows);
+    const double particles = world->grid.end_row - (asleep_too ? 0 : world->grid.first_row);
     const double trim = 0.02 * particles;
     double low = INFINITY, high = -INFINITY;
     for (int32_t block = 0; block < blocks; block++) {

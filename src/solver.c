@@ -266,17 +266,12 @@ bool solver_mirrors(const World *world)
 }
 
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep. */
-static bool holds_sand(const World *world)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && world->materials.kernel[slot].yields == K_SAND) return true;
-    return false;
-}
+pbmpm_solver solver_for(uint32_t matter) { return matter & (KIND_LIQUID | KIND_SAND) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL; }
 
 pbmpm_result solver_prepare(World *world)
 {
     pbmpm_solver solver = world->settings.solver;
-    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_holds_liquid(world) || holds_sand(world) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_for(islands_kinds(world));
     world->record.solver = solver;
     if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
