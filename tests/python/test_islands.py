@@ -1,0 +1,117 @@
+"""Islands of touching matter: with the convergent solver what is elsewhere changes nothing."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbmpm
+
+G = 9.81
+DX = 0.05
+
+
+def hang(dimension: int, threads: int = 1) -> tuple[pbmpm.World, pbmpm.Material, np.ndarray]:
+    """A bar of 1 m whose upper end is held, and its particles."""
+    low, high = [-1.0, -3.0, -1.0][:dimension], [3.0, 2.0, 1.0][:dimension]
+    world = pbmpm.World(
+        dimension, DX, gravity=[0, -G, 0][:dimension], solver=pbmpm.Solver.CONVERGENT, iterations=5, threads=threads, domain=(low, high), capacity=30_000
+    )
+    bar = world.add_material(pbmpm.Elastic(young_modulus=1e5))
+    axes = [np.arange(8) * DX / 2 - 0.1 + DX / 4, np.arange(44) * DX / 2 - 1 + DX / 4, np.arange(8) * DX / 2 - 0.1 + DX / 4][:dimension]
+    ids = world.add_particles(bar, np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, dimension))
+    world.add_collider(pbmpm.Box([0, 0.2, 0][:dimension], [1, 0.2, 1][:dimension]), friction=pbmpm.Friction.STICK)
+    return world, bar, ids
+
+
+def add_elsewhere(world: pbmpm.World, what: str) -> None:
+    dimension = world.dimension
+    if "water" in what:
+        world.fill(pbmpm.Box([2.5, -2.9, 0][:dimension], [0.1] * dimension), world.add_material(pbmpm.Liquid()))
+    if "sand" in what:
+        world.fill(pbmpm.Box([-0.8, -2.7, 0][:dimension], [0.1] * dimension), world.add_material(pbmpm.Sand()))
+
+
+def place(world: pbmpm.World, ids: np.ndarray) -> np.ndarray:
+    return np.array(world.positions)[world.find(ids)]
+
+
+@pytest.mark.parametrize("what", ["water", "sand", "water and sand"])
+def test_a_drop_elsewhere_changes_nothing(dimension: int, what: str) -> None:
+    """Not a bit. When the solver was chosen for all of the world the tip sank by 42 mm."""
+    places = []
+    for drop in ("", what):
+        world, bar, ids = hang(dimension)
+        with world:
+            add_elsewhere(world, drop)
+            assert bar.effective(1 / 60).young_modulus == pytest.approx(1e5)
+            for _ in range(60 if dimension == 2 else 15):
+                world.step(1 / 60)
+            assert world.stats.solver == (pbmpm.Solver.CONVERGENT if drop else pbmpm.Solver.PRIMAL)
+            assert bar.effective(1 / 60).young_modulus == pytest.approx(1e5)
+            places.append(place(world, ids))
+    assert np.array_equal(*places)
+
+
+def test_a_bar_closely_above_water_hangs_by_itself(dimension: int) -> None:
+    """Three cells apart nothing is shared; two apart they are one island, and the bar is as stiff as such an island holds it."""
+    for cells, apart in ((3, True), (1, False)):
+        world, bar, _ = hang(dimension)
+        with world:
+            world.fill(pbmpm.Box([0, -1.2 - cells * DX, 0][:dimension], [0.2] * dimension), world.add_material(pbmpm.Liquid()))
+            assert (bar.effective(1 / 60).young_modulus == pytest.approx(1e5)) == apart
+            world.step(1e-4)
+            assert world.stats.solver == (pbmpm.Solver.CONVERGENT if apart else pbmpm.Solver.DUAL)
+
+
+def busy(threads: int) -> pbmpm.World:
+    """What falls on each other, and parts again: islands come and go."""
+    world, bar, _ = hang(2, threads)
+    water, jelly, sand = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=500)), world.add_material(pbmpm.Sand())
+    world.fill(pbmpm.Box([1.5, -2.7], [0.8, 0.3]), water)
+    world.fill(pbmpm.Box([1.5, -2.0], [0.2, 0.2]), jelly, velocity=[0, -3])
+    world.fill(pbmpm.Box([0, -1.6], [0.2, 0.2]), water, velocity=[0, 5])
+    world.fill(pbmpm.Box([2.0, -1.0], [0.2, 0.2]), sand)
+    return world
+
+
+def test_any_number_of_threads() -> None:
+    hashes, kinds = [], set()
+    for threads in (1, 2, 3):
+        with busy(threads) as world:
+            for _ in range(60):
+                world.step(1 / 60)
+                kinds.add(world.stats.solver)
+            hashes.append(world.hash())
+    assert len(set(hashes)) == 1
+    assert pbmpm.Solver.CONVERGENT in kinds
+
+
+def test_a_restored_world_goes_on() -> None:
+    with busy(1) as world:
+        for _ in range(20):
+            world.step(1 / 60)
+        saved, hashes = world.snapshot(), []
+        for _ in range(20):
+            world.step(1 / 60)
+            hashes.append(world.hash())
+        world.restore(saved)
+        assert world.stats.iterations_used == 0  # of no step
+        for expected in hashes:
+            world.step(1 / 60)
+            assert world.hash() == expected
+
+
+def test_what_is_counted_over_all_islands() -> None:
+    """Statistics, impulses, forces and removals are those of all of the world."""
+    with busy(1) as world:
+        count = len(world)
+        force = world.add_force(pbmpm.ForceKind.UNIFORM, 0.1, direction=(0, 1))
+        world.kill_bounds = ((-1, -2.2), (3, 2))
+        world.step(1 / 60)
+        stats = world.stats
+        assert stats.solver == pbmpm.Solver.CONVERGENT
+        assert 0 < stats.lane_occupancy <= 1
+        assert stats.node_blocks > stats.particle_blocks > len(world) / 64
+        assert force.nodes > 0
+        assert 0 < world.flow.killed == count - len(world)
