@@ -38,6 +38,7 @@ typedef struct Primal {
     double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
     int pairs;
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
+    bool mixed;                             /* of solids and liquid */
     float share;                            /* of the step that is tried */
     double mass, energy, trial_energy, slope_before, slope_after;
     double total[SUMS];                     /* what the last pass added up */
