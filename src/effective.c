@@ -5,6 +5,7 @@
 #include "dual.h"
 #include "islands.h"
 #include "paper.h"
+#include "primal.h"
 #include "solver.h"
 
 /* The laws of the paper's solver: its N rounds remove the share w of a strain error each, which acts like the modulus
@@ -21,11 +22,20 @@ static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *de
                              .kinematic_viscosity = liquid ? (float)viscosity : 0.0f};
 }
 
+/* The primal's liquid is as stiff as the iterations and the depth that it had in the last substep let it be; see solver.c. */
+static float bulk_of_liquid(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
+{
+    const double cells = substep / (double)world->def.cell_size, unit = 4.0 * cells * cells / (double)def->density;
+    const bool bounded = def->bulk_modulus == 0.0f || world->settings.solver == PBMPM_SOLVER_CONVERGENT;
+    if (solver != PBMPM_SOLVER_PRIMAL || !bounded) return def->bulk_modulus;
+    const double most = (double)primal_liquid_dilation(world, (float)substep) / unit;
+    return (float)(def->bulk_modulus == 0.0f ? most : fmin(most, (double)def->bulk_modulus));
+}
+
 /* Solved by `solver`, among the particles that are counted now. */
 static pbmpm_effective of_material(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
 {
-    if (def->kind == PBMPM_LIQUID)
-        return (pbmpm_effective){.bulk_modulus = def->bulk_modulus, .kinematic_viscosity = def->kinematic_viscosity};
+    if (def->kind == PBMPM_LIQUID) return (pbmpm_effective){.bulk_modulus = bulk_of_liquid(world, solver, def, substep), .kinematic_viscosity = def->kinematic_viscosity};
     const double share = solver == PBMPM_SOLVER_DUAL ? dual_stiffness_share(world, def, substep) : 1.0;
     const double young = share * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
     const double shear = 0.5 * young / (1.0 + poisson), lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
@@ -58,13 +68,14 @@ static pbmpm_effective where_it_is(World *world, uint32_t slot, double substep)
 /* Of a material in islands of several kinds: what the softest hold. */
 static pbmpm_effective of_islands(World *world, uint32_t slot, double substep)
 {
-    pbmpm_effective least = {.young_modulus = INFINITY};
+    pbmpm_effective least = {.young_modulus = INFINITY, .bulk_modulus = INFINITY};
     for (int group = 0; group < world->islands.groups; group++) {
         islands_enter(world, group);
         const bool here = world->particles.of_material[slot] > 0;
         const pbmpm_effective found = where_it_is(world, slot, substep);
         islands_leave(world, group);
-        if (here && found.young_modulus < least.young_modulus) least = found;
+        const bool softer = found.bulk_modulus > 0.0f && (least.bulk_modulus == 0.0f || found.bulk_modulus < least.bulk_modulus);
+        if (here && (least.young_modulus == INFINITY || softer)) least = found;
     }
     return least;
 }

@@ -471,7 +471,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
 {
     Primal p = open_solve(world, contacts);
     primal_find_leaning(&p);
-    p.mixed = (islands_kinds(world) & (KIND_SOLID | KIND_LIQUID)) == (KIND_SOLID | KIND_LIQUID);
+    p.mixed = primal_is_mixed(world);
     primal_over_blocks(&p, start);
     solver_over_particles(world, world->kernels->force_first);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
