@@ -411,6 +411,16 @@ static void minimise(Primal *p)
     }
 }
 
+/* What floats or sinks moves a pool: as in the dual's guess three steps come first that are no iterations. At 60 Hz x 5 a block half again as dense as water sank
+ * through 10 cells in 2.0 s without them, in 1.2 with them, in 1.2 where the solution is converged; one step brought 1.7 s, two 1.45. */
+static void lead(Primal *p)
+{
+    enum { STEPS = 3 };
+    uint32_t passes = 0;
+    while (p->mixed && passes < STEPS && !solver_time_is_up(p->world) && primal_find_direction(p) > 0.0)
+        if (!descend(p, &passes, STEPS)) return;
+}
+
 /* Goes on along p->direction, without stop rules, for what the energy check asks for. */
 void primal_descend_further(Primal *p)
 {
@@ -481,6 +491,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_over_blocks(&p, weigh_nodes);
     p.mass = fmax(p.total[0], 1e-30);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
+    lead(&p);
     minimise(&p);
     primal_keep_energy(&p);
     primal_find_kept(&p);
