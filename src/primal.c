@@ -493,6 +493,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     lead(&p);
     minimise(&p);
+    primal_let_fly(&p);
     primal_keep_energy(&p);
     primal_find_kept(&p);
     forget_past(&p);

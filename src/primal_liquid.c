@@ -97,6 +97,35 @@ static void spend(World *world)
     world->primal.credit -= sum * joule(world);
 }
 
+/* What forces do at a node of loose liquid explains its way beside the predictor, m (u - u*) = -f, or most of that way is an error of the search: steps that are good
+ * for all of the matter fling what feels none of its pressure. It goes where its forces alone lead. */
+static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    static const float EXPLAINED = 0.5f, LOOSE_NODE = 0.9f; /* of the way; m / (m + k) */
+    const float *inverse = p->world->primal.inverse.data;
+    (void)sum;
+    if (!primal_body_of(p, block)->with_liquid) return;
+    for (size_t i = begin; i < end; i += W) {
+        const float mass = p->base[i + 3];
+        float force[3], force2 = 0.0f, away2 = 0.0f;
+        if (!(mass * inverse[i / W] > LOOSE_NODE)) continue;
+        for (size_t c = 0; c < 3; c++) {
+            const float away = mass * (p->best[i + c] - p->base[i + c]);
+            force[c] = p->gradient[i + c] - away;
+            force2 += force[c] * force[c];
+            away2 += away * away;
+        }
+        if (force2 > EXPLAINED * EXPLAINED * away2) continue;
+        for (size_t c = 0; c < 3; c++) p->best[i + c] = p->base[i + c] - force[c] / mass;
+    }
+    holds_project(p->contacts, p->best, block, block + 1);
+}
+
+void primal_let_fly(Primal *p)
+{
+    if (solver_holds_liquid(p->world)) primal_over_blocks(p, let_fly);
+}
+
 void primal_find_kept(Primal *p)
 {
     enum { HALVINGS = 3 };

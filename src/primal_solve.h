@@ -88,6 +88,9 @@ void primal_keep_energy(Primal *p);
 
 /* ---- primal_liquid.c ---- */
 
+/* Takes from loose liquid what an unfinished solution moves it by that no force does. */
+void primal_let_fly(Primal *p);
+
 /* Finds how much of their velocities bodies with liquid may keep, and pulls back those for which that is not enough. */
 void primal_find_kept(Primal *p);
 
