@@ -18,22 +18,18 @@
  * the less of the iterations is left to solids in it: a jelly that hangs into water is 2 % too stiff at 60 Hz x 5 with 0.02, 5 with 0.01, 10 with 0.005. */
 static const double WEIGHT_SQUEEZES = 0.02;
 
-/* Cells that sound may travel per iteration in liquid with solids in it, which start at rest, without harm to them: at 240 Hz x 5 a whole one cost no strain, two 10 %. */
-static const double SOUND_PER_ITERATION = 1.0;
-
 bool primal_is_mixed(const World *world)
 {
     const uint32_t both = KIND_SOLID | KIND_LIQUID;
     return (islands_kinds(world) & both) == both;
 }
 
-/* c K = (2 C)^2, C the cells that sound travels per substep. At least K = rho g H / WEIGHT_SQUEEZES, where c = 4 dt^2 / (dx^2 rho). */
+/* c K with K = rho g H / WEIGHT_SQUEEZES and c = 4 dt^2 / (dx^2 rho), or what the iterations hold in any liquid. */
 float primal_liquid_dilation(const World *world, float dt)
 {
-    const double fall = gravity_fall(world, (double)dt), twice = 2.0 * SOUND_PER_ITERATION * world->settings.iterations;
+    const double fall = gravity_fall(world, (double)dt);
     const double weight = fall > 0.0 && solver_holds_liquid(world) ? 4.0 * fall * liquid_depth(world) / WEIGHT_SQUEEZES : 0.0;
-    const double held = primal_is_mixed(world) ? twice * twice : (double)primal_stiffest(world->settings.iterations);
-    return (float)fmin(fmax(held, weight), 1e30);
+    return fmaxf(primal_stiffest(world->settings.iterations), (float)fmin(weight, 1e30));
 }
 
 static const double ROUNDING = 1e-6; /* of the energy before, that no velocity has to pay for */
