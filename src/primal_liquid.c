@@ -8,6 +8,7 @@
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
  * A solution that gained more than its kinetic energy is first moved towards the body's start. */
+#include <float.h>
 #include <math.h>
 
 #include "depth.h"
@@ -111,7 +112,7 @@ static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *
             force2 += force[c] * force[c];
             away2 += away * away;
         }
-        if (force2 > EXPLAINED * EXPLAINED * away2) continue;
+        if (!(force2 <= EXPLAINED * EXPLAINED * away2 && away2 < FLT_MAX)) continue; /* finite, too */
         for (size_t c = 0; c < 3; c++) p->best[i + c] = p->base[i + c] - force[c] / mass;
     }
     holds_project(p->contacts, p->best, block, block + 1);
