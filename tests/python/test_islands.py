@@ -90,6 +90,20 @@ def test_a_jelly_that_hangs_into_water_keeps_its_stiffness() -> None:
         assert 0.85 < stretch.min() < stretch.max() < 1.3
 
 
+def test_what_stands_for_incompressible_water(dimension: int) -> None:
+    """Its own weight compresses it by a fiftieth at the bottom, whatever stands out of it or flies by; and nobody is told that it is incompressible."""
+    with pbmpm.World(
+        dimension, 0.05, gravity=[0, -G, 0][:dimension], solver=pbmpm.Solver.CONVERGENT, threads=1, iterations=5, domain=([0.0] * dimension, [1.0, 3.0, 0.4][:dimension])
+    ) as world:
+        water, tower = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(young_modulus=1e6))
+        world.fill(pbmpm.Box([0.3, 0.3, 0.2][:dimension], [0.3, 0.3, 0.2][:dimension]), water)
+        world.fill(pbmpm.Box([0.8, 1.0, 0.2][:dimension], [0.2, 1.0, 0.2][:dimension]), tower)
+        world.step(1 / 60)
+        assert world.stats.solver == pbmpm.Solver.PRIMAL
+        assert water.effective(1 / 60).bulk_modulus == pytest.approx(1000 * G * 0.6 / 0.02, rel=0.25)  # depth in blocks of 0.2 m
+        assert tower.effective(1 / 60).young_modulus == pytest.approx(1e6)
+
+
 def test_a_heavy_block_sinks_as_fast_as_it_should() -> None:
     """Half again as dense as water, through ten cells: 1.2 s where the solution is converged. Without the three steps that lead it was 2.0 s."""
     h = 1 / 32
