@@ -1,6 +1,7 @@
 #include "effective.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "dual.h"
 #include "islands.h"
@@ -66,13 +67,16 @@ static pbmpm_effective where_it_is(World *world, uint32_t slot, double substep)
 }
 
 /* Of a material in islands of several kinds: what the softest hold. */
-static pbmpm_effective of_islands(World *world, uint32_t slot, double substep)
+static pbmpm_effective of_islands(World *world, uint32_t slot, double substep, bool built)
 {
     pbmpm_effective least = {.young_modulus = INFINITY, .bulk_modulus = INFINITY};
     for (int group = 0; group < world->islands.groups; group++) {
         islands_enter(world, group);
+        const int32_t blocks = world->grid.particle_blocks;
         const bool here = world->particles.of_material[slot] > 0;
+        if (!built) world->grid.particle_blocks = 0; /* another group's */
         const pbmpm_effective found = where_it_is(world, slot, substep);
+        world->grid.particle_blocks = blocks;
         islands_leave(world, group);
         const bool softer = found.bulk_modulus > 0.0f && (least.bulk_modulus == 0.0f || found.bulk_modulus < least.bulk_modulus);
         if (here && (least.young_modulus == INFINITY || softer)) least = found;
@@ -83,8 +87,11 @@ static pbmpm_effective of_islands(World *world, uint32_t slot, double substep)
 static pbmpm_effective of_slot(World *world, uint32_t slot, double substep)
 {
     const int groups = world->islands.groups; /* of the last substep, as its grids are */
+    uint32_t kinds[ISLAND_GROUPS];
+    memcpy(kinds, world->islands.kinds, sizeof kinds);
     const bool apart = world->particles.of_material[slot] > 0 && islands_wanted(world) && islands_foresee(world);
-    const pbmpm_effective effective = apart ? of_islands(world, slot, substep) : where_it_is(world, slot, substep);
+    const bool built = groups == world->islands.groups && memcmp(kinds, world->islands.kinds, (size_t)groups * sizeof *kinds) == 0;
+    const pbmpm_effective effective = apart ? of_islands(world, slot, substep, built) : where_it_is(world, slot, substep);
     world->islands.groups = groups;
     return effective;
 }

@@ -1,11 +1,10 @@
 #include "islands.h"
 
-#include <math.h>
 #include <string.h>
 
-#include "clock.h"
 #include "result.h"
 #include "sets.h"
+#include "solver.h"
 #include "world.h"
 
 /* ---- Kinds ---- */
@@ -195,7 +194,7 @@ static pbmpm_result build_groups(World *world)
     share_out(world);
     for (int g = 0; g < islands->groups && result == PBMPM_OK; g++) {
         islands_enter(world, g);
-        result = grid_arrange_part(&world->grid, &world->memory, p, world->pool, materials_want_volume(&world->materials, p));
+        result = grid_arrange_part(&world->grid, &world->memory, p, world->pool, solver_wants_volume(world));
         islands_leave(world, g);
     }
     if (result != PBMPM_OK) {
@@ -216,7 +215,7 @@ pbmpm_result islands_build(World *world)
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to find islands in %u blocks", grid->found_count);
     }
     if (world->islands.groups > 1) return build_groups(world);
-    return grid_finish(grid, &world->memory, &world->particles, world->pool, materials_want_volume(&world->materials, &world->particles), 0);
+    return grid_finish(grid, &world->memory, &world->particles, world->pool, solver_wants_volume(world), 0);
 }
 
 void islands_free(Islands *islands, Memory *memory)

@@ -261,10 +261,16 @@ pbmpm_solver solver_for(uint32_t matter)
     return by_dual ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
 }
 
+static pbmpm_solver chosen(const World *world)
+{
+    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(islands_kinds(world)) : world->settings.solver;
+}
+
+bool solver_wants_volume(const World *world) { return materials_want_volume(&world->materials, &world->particles); }
+
 pbmpm_result solver_prepare(World *world)
 {
-    pbmpm_solver solver = world->settings.solver;
-    if (solver == PBMPM_SOLVER_CONVERGENT) solver = solver_for(islands_kinds(world));
+    const pbmpm_solver solver = chosen(world);
     world->record.solver = solver;
     if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
     if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;

@@ -135,7 +135,7 @@ static pbmpm_result empty_substep(World *world, int part)
 /* Where the particles are: order, blocks, runs, and which of them touch. */
 static pbmpm_result find_places(World *world, float dt)
 {
-    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
+    const bool with_volume = solver_wants_volume(world);
     world->islands.groups = 1;
     world->islands.contacts = 0;
     if (islands_wanted(world)) return islands_build(world);
@@ -208,7 +208,7 @@ static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *mar
     StepRecord *record = &world->record;
     double clock = now_ms();
 
-    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
+    const bool with_volume = solver_wants_volume(world);
     pbmpm_result result = predict(world, dt, with_volume);
     if (result != PBMPM_OK) return result;
     lap(&record->ms_scatter, &clock);
