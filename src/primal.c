@@ -461,7 +461,7 @@ static void rub_and_write(Primal *p, int32_t block, size_t begin, size_t end, do
 
 /* First displacements: those of the predictor, or for a solid body that leans on something, without what gravity and forces add in the
  * substep, which are most likely balanced: a beam at rest starts at rest. Liquid leans on the floor while it falls over; but where solids float in it, what is at
- * rest is most of it, and started in free fall its pressure would have to be found anew in each substep: bodies sank as in honey, 4 cells too high after 3 s. */
+ * rest is most of it, and started in free fall its pressure would have to be found anew in each substep: bodies sank as in honey, two cells too high after 3 s. */
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
