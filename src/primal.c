@@ -491,6 +491,16 @@ static void minimise(Primal *p)
     }
 }
 
+/* What floats or sinks moves a pool: as in the dual's guess three steps come first that are no iterations. At 60 Hz x 5 a block half again as dense as water sank
+ * through 10 cells in 2.0 s without them, in 1.2 with them, in 1.2 where the solution is converged; one step brought 1.7 s, two 1.45. */
+static void lead(Primal *p)
+{
+    enum { STEPS = 3 };
+    uint32_t passes = 0;
+    while (p->mixed && passes < STEPS && !solver_time_is_up(p->world) && primal_find_direction(p) > 0.0)
+        if (!descend(p, &passes, STEPS)) return;
+}
+
 /* Goes on along p->direction, without stop rules, for what the energy check asks for. */
 void primal_descend_further(Primal *p)
 {
@@ -530,7 +540,8 @@ static void write_motion(Primal *p, int32_t block, size_t begin, size_t end, dou
 }
 
 /* First displacements: those of the predictor, or for a solid body that leans on something, without what gravity and forces add in the
- * substep, which are most likely balanced: a beam at rest starts at rest. Liquid leans on the floor while it falls over. */
+ * substep, which are most likely balanced: a beam at rest starts at rest. Liquid leans on the floor while it falls over; but where solids float in it, what is at
+ * rest is most of it, and started in free fall its pressure would have to be found anew in each substep: bodies sank as in honey, two cells too high after 3 s. */
 static void start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     (void)sum;
@@ -538,8 +549,9 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
         multistep_predict(p->world, block, block + 1);
         memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     }
-    const bool solid = !primal_body_of(p, block)->with_liquid, balanced = primal_body_of(p, block)->leans && solid;
-    if (solid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
+    const BodySum *body = primal_body_of(p, block);
+    const bool balanced = body->leans && (!body->with_liquid || p->mixed);
+    if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
     holds_project(p->contacts, p->node, block, block + 1);
@@ -563,6 +575,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     find_friction(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
+    p.mixed = primal_is_mixed(world);
     primal_over_blocks(&p, start);
     solver_over_particles(world, world->kernels->force_first);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
@@ -574,7 +587,9 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_note_stiffness(&p);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     primal_choose_start(&p);
+    lead(&p);
     minimise(&p);
+    primal_let_fly(&p);
     primal_keep_momentum(&p);
     primal_keep_energy(&p);
     primal_find_kept(&p);

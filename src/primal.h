@@ -28,8 +28,14 @@
 
 #include "solver.h"
 
-/* The dilation of what stands for an incompressible liquid: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
+/* The dilation of what stands for an incompressible liquid by itself: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
 static inline float primal_stiffest(int iterations) { return 0.25f * (float)iterations * (float)iterations; }
+
+/* Whether solids and liquid are solved together. */
+bool primal_is_mixed(const World *world);
+
+/* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
+float primal_liquid_dilation(const World *world, float dt);
 
 /* What crowded liquid may grow by in a substep, of this dilation L = 4 (c dt/dx)^2. Crushed and let go it leaves with its sound's speed c at most: a plane
  * wave turns all of the pressure's energy into it. So nothing that a particle feels, nodes up to 3/2 cells away, parts from it faster:

@@ -75,6 +75,7 @@ typedef struct Primal {
     bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
+    bool mixed;                             /* of solids and liquid */
     float share;                            /* of the step that is tried */
     double mass, energy, trial_energy, slope_before, slope_after;
     double total[SUMS];                     /* what the last pass added up */
@@ -184,6 +185,9 @@ void primal_find_bounces(Primal *p);
 void primal_bounce(World *world);
 
 /* ---- primal_liquid.c ---- */
+
+/* Takes from loose liquid what an unfinished solution moves it by that no force does. */
+void primal_let_fly(Primal *p);
 
 /* Finds how much of their velocities bodies with liquid may keep, and pulls back those for which that is not enough. */
 void primal_find_kept(Primal *p);

@@ -7,6 +7,12 @@
 /* Chooses the solver of this substep and takes the memory that it needs. The grid is built. */
 pbmpm_result solver_prepare(World *world);
 
+/* What PBMPM_SOLVER_CONVERGENT stands for where matter of these kinds, see islands.h, touches. */
+pbmpm_solver solver_for(uint32_t matter);
+
+/* Whether the substep needs the volume on the grid; asked before the grid is built. */
+bool solver_wants_volume(const World *world);
+
 /* Points the kernel arguments at the world's arrays, for substeps of `dt` seconds. */
 void solver_bind(World *world, float dt, bool with_volume);
 

@@ -155,6 +155,7 @@ void world_destroy(World *world)
     walls_free(&world->walls, &world->memory);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);
+    islands_free(&world->islands, &world->memory);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

@@ -117,9 +117,11 @@ typedef struct pbmpm_material_def {
 typedef struct pbmpm_effective {
     uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
     float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-                              of young_modulus. Other solvers: the material's own. */
+                              of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
+                              stands for it at the depth of the last step. */
     float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. */
+                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
+                              solver of the island that the particles are in now, of several the softest. */
     float kinematic_viscosity; /**< liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
                                     N dx^2 / (8 dt); without what the transfers add */
     float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */

@@ -162,7 +162,12 @@ namespace Pbmpm
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>the dual while the world holds a particle of a liquid or of sand, else the primal</summary>
+        /// <summary>per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
+        /// axis): solids alone, and solids with liquid, by the primal; liquid alone, and what sand is in, by the dual. Islands
+        /// that hold the same kinds are solved together, as if nothing else were there. Where the primal solves liquid, it
+        /// is as stiff at most as the weight of the liquid compresses it by 2 % at its depth, or as sound travels N cells per
+        /// substep, whichever is more: see pbmpm_material_effective(). While matter sleeps (settings.sleeping) all
+        /// of the world is one island.</summary>
         Convergent = 4,
     }
 
@@ -533,10 +538,12 @@ namespace Pbmpm
         /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
         public uint Size;
         /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-        /// of young_modulus. Other solvers: the material's own.</summary>
+        /// of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
+        /// stands for it at the depth of the last step.</summary>
         public float BulkModulus;
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own.</summary>
+        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
+        /// solver of the island that the particles are in now, of several the softest.</summary>
         public float YoungModulus;
         /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
         /// N dx^2 / (8 dt); without what the transfers add</summary>
@@ -1177,7 +1184,8 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
-        /// <summary>that the last substep was solved with (never PBMPM_SOLVER_CONVERGENT)</summary>
+        /// <summary>that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: islands of matter with several. Then
+        /// iterations, residual and error are the largest, and checks that failed the sum</summary>
         public Solver Solver;
         /// <summary>what ended its iterations</summary>
         public Stop Stop;

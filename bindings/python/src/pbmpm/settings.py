@@ -23,7 +23,7 @@ class Solver(enum.Enum):
     PRIMAL = ffi.integer_const("PBMPM_SOLVER_PRIMAL")
     #: explicit MLS-MPM, to compare with; liquids need a bulk modulus
     EXPLICIT = ffi.integer_const("PBMPM_SOLVER_EXPLICIT")
-    #: the dual while the world holds a particle of a liquid, else the primal
+    #: per island of touching matter: liquid or sand by itself by the dual, solids, also in liquid, by the primal
     CONVERGENT = ffi.integer_const("PBMPM_SOLVER_CONVERGENT")
 
 
