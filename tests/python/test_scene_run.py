@@ -129,7 +129,7 @@ def test_files(scene_file: Path, tmp_path: Path) -> None:
     assert [entry["time"] for entry in sidecar["frames"]] == pytest.approx([0, 1 / 6, 1 / 3, 0.5])
     assert sidecar["scene"]["name"] == "small" and sidecar["seeds"] == [1, 1]
     assert sidecar["materials"] == ["water", "jelly"]
-    assert sidecar["settings"].items() >= {"rate_hz": 60, "substeps": 1, "iterations": 3, "solver": "paper"}.items()
+    assert sidecar["settings"].items() >= {"rate_hz": 60, "substeps": 1, "iterations": 3, "solver": "convergent"}.items()
 
 
 def test_identities_last_over_a_run(scene_file: Path, tmp_path: Path) -> None:

@@ -162,7 +162,7 @@ namespace Pbmpm
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>the dual while the world holds a particle of a liquid or of sand, else the primal</summary>
+        /// <summary>default: the dual while the world holds a particle of a liquid or of sand, else the primal</summary>
         Convergent = 4,
     }
 
@@ -673,7 +673,7 @@ namespace Pbmpm
         /// <summary>largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
         /// default 32. Faster particles are slowed to it; each time is counted in the events.</summary>
         public float MaxDisplacement;
-        /// <summary>default PBMPM_SOLVER_PAPER</summary>
+        /// <summary>default PBMPM_SOLVER_CONVERGENT</summary>
         public Solver Solver;
         /// <summary>dual solver; default PBMPM_PRESSURE_PARTICLES</summary>
         public Pressure Pressure;

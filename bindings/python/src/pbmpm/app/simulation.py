@@ -27,6 +27,8 @@ DELETIONS = (
     pbmpm.EventKind.DELETED_CONDITION,
 )
 
+_PLAIN = SolverPart()  # the library's defaults
+
 
 @dataclass(frozen=True)
 class RunSettings:
@@ -37,12 +39,12 @@ class RunSettings:
     iterations: int
     threads: int = 0
     """0: one per core."""
-    solver: SolverName = "paper"
-    pressure: PressureName = "particles"
-    integrator: IntegratorName = "euler"
-    flip: float = 0.0
-    target_error: float = 0.0
-    time_budget_ms: float = 0.0
+    solver: SolverName = _PLAIN.solver
+    pressure: PressureName = _PLAIN.pressure
+    integrator: IntegratorName = _PLAIN.integrator
+    flip: float = _PLAIN.flip
+    target_error: float = _PLAIN.target_error
+    time_budget_ms: float = _PLAIN.time_budget_ms
 
     @classmethod
     def of(cls, scene: Scene, threads: int = 0, **changes: Any) -> RunSettings:
