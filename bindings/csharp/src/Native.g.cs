@@ -230,6 +230,71 @@ namespace Pbmpm
         Slip = 2,
     }
 
+    /// <summary>What an advice is about. Cells are counted in cell sizes, and a substep lasts dt / settings.substeps.</summary>
+    public enum AdviceCode : int
+    {
+        /// <summary>settings.gravity is 0, and no uniform force acts</summary>
+        NoGravity = 1,
+        /// <summary>matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter</summary>
+        FallsForever = 2,
+        /// <summary>a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default</summary>
+        Ignored = 3,
+        /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
+        /// the strain at the bottom</summary>
+        PoolTooDeep = 4,
+        /// <summary>a pool does not come to rest. Figure: its depth [cells]</summary>
+        PoolStirs = 5,
+        /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
+        ModulusNotHeld = 6,
+        /// <summary>sand is compressed by its weight. Figure: mean strain; see PBMPM_ADVICE_VOLUME_LOST for what came of it</summary>
+        SandCrushed = 7,
+        /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
+        BodyTooThin = 8,
+        /// <summary>the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
+        BounceDamped = 9,
+        /// <summary>an obstacle passes matter by. Figure: its way in the next substep [cells]</summary>
+        ColliderTooFast = 10,
+        /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
+        ColliderTooThin = 11,
+        /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
+        StepTooLong = 12,
+        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
+        VolumeLost = 13,
+        /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
+        StrainClamped = 14,
+        /// <summary>primal solver: bodies whose unfinished solution was replaced in the last substep, see stats.h. Figure: how many</summary>
+        BodiesBraked = 15,
+        /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells]</summary>
+        NotSolved = 16,
+    }
+
+    /// <summary>What would help.</summary>
+    public enum Change : int
+    {
+        /// <summary>nothing that a number says; see the text</summary>
+        None = 0,
+        /// <summary>settings.substeps, or the rate in the same proportion</summary>
+        Substeps = 1,
+        /// <summary>settings.iterations</summary>
+        Iterations = 2,
+        /// <summary>world_def.cell_size [m]</summary>
+        CellSize = 3,
+        /// <summary>settings.solver; the value is a pbmpm_solver</summary>
+        Solver = 4,
+        /// <summary>settings.gravity; the value is a strength [m/s^2]</summary>
+        Gravity = 5,
+        /// <summary>pbmpm_world_set_kill_bounds(), or something to fall on</summary>
+        KillBounds = 6,
+        /// <summary>the parameter; the value is its default</summary>
+        Parameter = 7,
+        /// <summary>material_def.young_modulus [Pa]: a softer body that looks the same at any rate</summary>
+        YoungModulus = 8,
+        /// <summary>settings.integrator; the value is a pbmpm_integrator</summary>
+        Integrator = 9,
+        /// <summary>the obstacle's thickness [m]</summary>
+        Collider = 10,
+    }
+
     /// <summary>Where an emitter's particles are born.</summary>
     public enum EmitterRegion : int
     {
@@ -1388,6 +1453,34 @@ namespace Pbmpm.Native
         public ulong Generation;
     }
 
+    /// <summary>One thing that the present scene and settings do not hold.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Advice
+    {
+        /// <summary>sizeof(pbmpm_advice); set by the caller in the first element of an array</summary>
+        public uint Size;
+        /// <summary>what</summary>
+        public AdviceCode Code;
+        /// <summary>whose; all zero: of no material</summary>
+        public MaterialId Material;
+        /// <summary>whose; all zero: of no obstacle</summary>
+        public ColliderId Collider;
+        /// <summary>what was found; the code says of what</summary>
+        public float Figure;
+        /// <summary>what it would have to keep to</summary>
+        public float Bound;
+        /// <summary>what would help</summary>
+        public Change Change;
+        /// <summary>to what; where it is out of a setting's range it is the end of that range</summary>
+        public float Value;
+        /// <summary>what that costs, in percent of a step; negative: not known</summary>
+        public float Price;
+        /// <summary>1: measured in the present state; 0: foreseen</summary>
+        public int CameTrue;
+        /// <summary>one sentence, constant, valid as long as the library; never null</summary>
+        public IntPtr Text;
+    }
+
     /// <summary>The functions of the C library, as they are.</summary>
     public static unsafe class Methods
     {
@@ -1621,25 +1714,6 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
 
-        /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
-        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
-        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
-
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
-        /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
-        /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
-
-        /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
-        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_step_end(WorldId world, int wait);
-
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
@@ -1681,6 +1755,40 @@ namespace Pbmpm.Native
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
+
+        /// <summary>What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
+        /// Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
+        ///
+        /// Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
+        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and a sort of the cells that they are in, and only when
+        /// called; what has to be sorted is the only memory, which is given back.
+        /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
+        /// Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_advice(WorldId world, float dt, Advice* array, uint capacity, uint* count);
+
+        /// <summary>A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_advice_name(AdviceCode code);
+
+        /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
+        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
+        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
+
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
+        /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
+        /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
+
+        /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
+        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_end(WorldId world, int wait);
 
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1886,6 +1994,7 @@ namespace Pbmpm.Native
             View(fields);
             ColliderDef(fields);
             Impulse(fields);
+            Advice(fields);
             DrainId(fields);
             DrainDef(fields);
             DrainStatus(fields);
@@ -2164,6 +2273,23 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_impulse", "linear", &it, &it.Linear, &it.Linear + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "angular", &it, &it.Angular, &it.Angular + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "", &it, &it, &it + 1, true));
+        }
+
+        static void Advice(List<MirrorField> fields)
+        {
+            var it = default(Advice);
+            fields.Add(new MirrorField("pbmpm_advice", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "code", &it, &it.Code, &it.Code + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "collider", &it, &it.Collider, &it.Collider + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "figure", &it, &it.Figure, &it.Figure + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "bound", &it, &it.Bound, &it.Bound + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "change", &it, &it.Change, &it.Change + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "value", &it, &it.Value, &it.Value + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "price", &it, &it.Price, &it.Price + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "came_true", &it, &it.CameTrue, &it.CameTrue + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "text", &it, &it.Text, &it.Text + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "", &it, &it, &it + 1, true));
         }
 
         static void DrainId(List<MirrorField> fields)
