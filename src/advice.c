@@ -93,6 +93,11 @@ static pbmpm_solver solver_now(const World *world)
     return any_present(world, PBMPM_LIQUID) || any_present(world, PBMPM_SAND) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
 }
 
+static pbmpm_effective held_of(const Adviser *adviser, uint32_t slot)
+{
+    return effective_modulus(adviser->world, &adviser->world->materials.def[slot], adviser->substep);
+}
+
 static pbmpm_material_id id_of(const World *world, uint32_t slot) { return (pbmpm_material_id){slot, world->materials.generation[slot]}; }
 
 /* ---- Gravity, and what falls ---- */
@@ -274,7 +279,7 @@ static void pool_too_deep(Adviser *adviser)
         double figure = gravity_fall(world, adviser->substep) * depth, bound = DEEPEST;
         advice.text = "the pool is too deep for the rate: it is compressed by its weight";
         if (solver == PBMPM_SOLVER_PAPER) {
-            const double bulk = (double)effective_modulus(world, def, adviser->substep).bulk_modulus;
+            const double bulk = (double)held_of(adviser, slot).bulk_modulus;
             figure = (double)def->density * gravity_strength(world) * depth * (double)world->def.cell_size / bulk;
             bound = STRAIN_UNSEEN;
             advice.text = "the paper's solver is as stiff as rate and iterations make it: the pool is compressed by its weight";
@@ -319,7 +324,7 @@ static void modulus_not_held(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!present(world, slot) || flows(def) || def->kind == PBMPM_SAND) continue;
-        const double held = (double)effective_modulus(world, def, adviser->substep).young_modulus, own = (double)def->young_modulus;
+        const double held = (double)held_of(adviser, slot).young_modulus, own = (double)def->young_modulus;
         if (held >= ENOUGH * own) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_MODULUS_NOT_HELD, .material = id_of(world, slot), .figure = (float)held, .bound = (float)own,
                                .text = "the iterations do not hold the modulus: the body is softer than its material"};
@@ -332,8 +337,8 @@ static void modulus_not_held(Adviser *adviser)
     }
 }
 
-/* Sand bears its weight by its modulus M: a heap of height H is strained by rho g H / (2 M) on average. */
-static void sand_crushed(Adviser *adviser)
+/* Sand bears its weight by its modulus M: a heap of height H is strained by rho g H / (2 M) on average, and friction holds only what is strained so far. */
+static void sand_not_held(Adviser *adviser)
 {
     static const double UNSEEN = 0.05;
     const World *world = adviser->world;
@@ -341,12 +346,14 @@ static void sand_crushed(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double depth = adviser->survey.heap[slot].depth * (double)world->def.cell_size;
         if (depth == 0.0 || def->kind != PBMPM_SAND) continue;
-        const pbmpm_effective held = effective_modulus(world, def, adviser->substep);
+        const pbmpm_effective held = held_of(adviser, slot);
         const double d = world->def.dimension, shear = 0.5 * (double)held.young_modulus / (1.0 + (double)def->poisson_ratio);
         const double strain = 0.5 * (double)def->density * gravity_strength(world) * depth / ((double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear);
         if (strain <= UNSEEN) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_CRUSHED, .material = id_of(world, slot), .figure = (float)strain, .bound = (float)UNSEEN,
-                               .text = "the iterations do not hold the sand's modulus: it is crushed by its weight"};
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = id_of(world, slot), .figure = (float)strain, .bound = (float)UNSEEN,
+                               .text = solver_now(world) == PBMPM_SOLVER_DUAL
+                                           ? "the iterations do not hold the sand's modulus: it creeps, and lies flatter than its friction lets it"
+                                           : "the iterations do not hold the sand's modulus: it is crushed by its weight"};
         by_substeps(adviser, sqrt(strain / UNSEEN), &advice);
         give(adviser, advice);
     }
@@ -383,7 +390,7 @@ static void bounce_damped(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double radius = 0.5 * adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
         if (radius == 0.0 || def->kind != PBMPM_ELASTIC) continue;
-        const double young = (double)effective_modulus(world, def, adviser->substep).young_modulus, poisson = (double)def->poisson_ratio;
+        const double young = (double)held_of(adviser, slot).young_modulus, poisson = (double)def->poisson_ratio;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
         const double mass = 4.0 / 3.0 * 3.14159265358979 * (double)def->density * radius * radius * radius;
         const double contact = 2.94 * pow(15.0 * mass * (1.0 - poisson * poisson) / (16.0 * sqrt(radius) * young), 0.4) * pow(speed, -0.2);
@@ -482,6 +489,17 @@ static void step_too_long(Adviser *adviser)
 
 /* ---- What came true ---- */
 
+/* What a solid's own modulus lets its weight take of its volume. */
+static double lost_to_weight(const Adviser *adviser, uint32_t slot)
+{
+    const World *world = adviser->world;
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    if (flows(def)) return 0.0;
+    const double depth = adviser->survey.heap[slot].depth * (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
+    const double bulk = (double)def->young_modulus / (3.0 * (1.0 - 2.0 * poisson));
+    return 0.5 * (double)def->density * gravity_strength(world) * depth / bulk;
+}
+
 static void volume_lost(Adviser *adviser)
 {
     static const double UNSEEN = 0.04;
@@ -489,7 +507,7 @@ static void volume_lost(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double filling = adviser->survey.heap[slot].filling;
         if (filling == 0.0 || world->step_count == 0) continue;
-        const double lost = 1.0 - 1.0 / filling;
+        const double lost = 1.0 - 1.0 / filling - lost_to_weight(adviser, slot);
         if (lost <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
                                .text = "matter takes less room than it should: its level is too low"};
@@ -510,16 +528,6 @@ static void strain_clamped(Adviser *adviser)
         by_substeps(adviser, 2.0, &advice);
         give(adviser, advice);
     }
-}
-
-static void bodies_braked(Adviser *adviser)
-{
-    const uint32_t failed = adviser->world->record.energy_checks_failed;
-    if (failed == 0) return;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_BODIES_BRAKED, .figure = (float)failed, .came_true = 1,
-                           .text = "bodies whose unfinished solution would have gained energy were held back"};
-    by_iterations(adviser, 2.0, &advice);
-    give(adviser, advice);
 }
 
 /* The error of N iterations falls about as 1 / N^2. */
@@ -545,7 +553,7 @@ static const struct {
     {PBMPM_ADVICE_POOL_TOO_DEEP, "PBMPM_ADVICE_POOL_TOO_DEEP", pool_too_deep},
     {PBMPM_ADVICE_POOL_STIRS, "PBMPM_ADVICE_POOL_STIRS", pool_stirs},
     {PBMPM_ADVICE_MODULUS_NOT_HELD, "PBMPM_ADVICE_MODULUS_NOT_HELD", modulus_not_held},
-    {PBMPM_ADVICE_SAND_CRUSHED, "PBMPM_ADVICE_SAND_CRUSHED", sand_crushed},
+    {PBMPM_ADVICE_SAND_NOT_HELD, "PBMPM_ADVICE_SAND_NOT_HELD", sand_not_held},
     {PBMPM_ADVICE_BODY_TOO_THIN, "PBMPM_ADVICE_BODY_TOO_THIN", body_too_thin},
     {PBMPM_ADVICE_BOUNCE_DAMPED, "PBMPM_ADVICE_BOUNCE_DAMPED", bounce_damped},
     {PBMPM_ADVICE_COLLIDER_TOO_FAST, "PBMPM_ADVICE_COLLIDER_TOO_FAST", collider_too_fast},
@@ -553,7 +561,6 @@ static const struct {
     {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", step_too_long},
     {PBMPM_ADVICE_VOLUME_LOST, "PBMPM_ADVICE_VOLUME_LOST", volume_lost},
     {PBMPM_ADVICE_STRAIN_CLAMPED, "PBMPM_ADVICE_STRAIN_CLAMPED", strain_clamped},
-    {PBMPM_ADVICE_BODIES_BRAKED, "PBMPM_ADVICE_BODIES_BRAKED", bodies_braked},
     {PBMPM_ADVICE_NOT_SOLVED, "PBMPM_ADVICE_NOT_SOLVED", not_solved},
 };
 

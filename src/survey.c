@@ -217,6 +217,9 @@ static int axis_of_gravity(const World *world)
     return axis;
 }
 
+/* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
+static const double THICKEST = 4.0;
+
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
@@ -225,8 +228,9 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
     measure_filling(cells, filling);
     for (uint32_t i = 0; i < cells->count; i++) {
-        thickness[cells->share[i].group] += cells->share[i].filling * cells->share[i].thickness;
-        weight[cells->share[i].group] += cells->share[i].filling;
+        const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
+        thickness[cells->share[i].group] += part * cells->share[i].thickness;
+        weight[cells->share[i].group] += part;
     }
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (survey->heap[slot].particles == 0) continue;

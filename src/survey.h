@@ -9,7 +9,7 @@ typedef struct Heap {
     uint32_t particles;
     double speed;      /* the fastest [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
-    double thickness;  /* the least over the axes */
+    double thickness;  /* the least over the axes, where it is thickest */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;

@@ -20,7 +20,8 @@ typedef enum pbmpm_advice_code {
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Figure: its depth [cells] */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_CRUSHED = 7,     /**< sand is compressed by its weight. Figure: mean strain; see PBMPM_ADVICE_VOLUME_LOST for what came of it */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< the iterations hold so little of the sand's modulus that it lies too flat and creeps, or is crushed. Figure:
+                                            mean strain that bears its weight */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
     PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 10, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
@@ -29,8 +30,7 @@ typedef enum pbmpm_advice_code {
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 13,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
     PBMPM_ADVICE_STRAIN_CLAMPED = 14,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
-    PBMPM_ADVICE_BODIES_BRAKED = 15,   /**< primal solver: bodies whose unfinished solution was replaced in the last substep, see stats.h. Figure: how many */
-    PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
+    PBMPM_ADVICE_NOT_SOLVED = 15,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
     PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
 } pbmpm_advice_code;
 

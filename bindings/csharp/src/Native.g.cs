@@ -246,8 +246,9 @@ namespace Pbmpm
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is compressed by its weight. Figure: mean strain; see PBMPM_ADVICE_VOLUME_LOST for what came of it</summary>
-        SandCrushed = 7,
+        /// <summary>the iterations hold so little of the sand's modulus that it lies too flat and creeps, or is crushed. Figure:
+        /// mean strain that bears its weight</summary>
+        SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
         /// <summary>the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
@@ -262,10 +263,8 @@ namespace Pbmpm
         VolumeLost = 13,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
         StrainClamped = 14,
-        /// <summary>primal solver: bodies whose unfinished solution was replaced in the last substep, see stats.h. Figure: how many</summary>
-        BodiesBraked = 15,
         /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells]</summary>
-        NotSolved = 16,
+        NotSolved = 15,
     }
 
     /// <summary>What would help.</summary>

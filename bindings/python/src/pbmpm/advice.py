@@ -25,7 +25,7 @@ class AdviceCode(enum.Enum):
     POOL_TOO_DEEP = ffi.integer_const("PBMPM_ADVICE_POOL_TOO_DEEP")  #: g dt^2 depth / dx^2; with the paper's solver the strain at the bottom
     POOL_STIRS = ffi.integer_const("PBMPM_ADVICE_POOL_STIRS")  #: depth of a pool that does not come to rest [cells]
     MODULUS_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_MODULUS_NOT_HELD")  #: the Young modulus [Pa] that acts, and the material's own
-    SAND_CRUSHED = ffi.integer_const("PBMPM_ADVICE_SAND_CRUSHED")  #: mean strain of sand under its weight
+    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: mean strain that bears the weight of sand
     BODY_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_BODY_TOO_THIN")  #: thickness of a body [cells]
     BOUNCE_DAMPED = ffi.integer_const("PBMPM_ADVICE_BOUNCE_DAMPED")  #: substeps that a contact lasts
     COLLIDER_TOO_FAST = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_FAST")  #: an obstacle's way in the next substep [cells]
@@ -33,7 +33,6 @@ class AdviceCode(enum.Enum):
     STEP_TOO_LONG = ffi.integer_const("PBMPM_ADVICE_STEP_TOO_LONG")  #: the longest way in a substep [cells]
     VOLUME_LOST = ffi.integer_const("PBMPM_ADVICE_VOLUME_LOST")  #: came true: share of the volume that is lost
     STRAIN_CLAMPED = ffi.integer_const("PBMPM_ADVICE_STRAIN_CLAMPED")  #: came true: share of particles at a bound of their strain
-    BODIES_BRAKED = ffi.integer_const("PBMPM_ADVICE_BODIES_BRAKED")  #: came true: bodies whose solution was replaced
     NOT_SOLVED = ffi.integer_const("PBMPM_ADVICE_NOT_SOLVED")  #: came true: predicted error of the last substep [cells]
 
 
