@@ -390,7 +390,7 @@ static void bounce_damped(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double radius = 0.5 * adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
         if (radius == 0.0 || def->kind != PBMPM_ELASTIC) continue;
-        const double young = (double)held_of(adviser, slot).young_modulus, poisson = (double)def->poisson_ratio;
+        const double young = (double)def->young_modulus, poisson = (double)def->poisson_ratio;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
         const double mass = 4.0 / 3.0 * 3.14159265358979 * (double)def->density * radius * radius * radius;
         const double contact = 2.94 * pow(15.0 * mass * (1.0 - poisson * poisson) / (16.0 * sqrt(radius) * young), 0.4) * pow(speed, -0.2);

@@ -19,13 +19,21 @@ static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *de
                              .kinematic_viscosity = liquid ? (float)viscosity : 0.0f};
 }
 
+/* The convergent solver is the dual where there is liquid or sand, see solver_prepare(). */
+static bool by_dual(const World *world, const pbmpm_material_def *def)
+{
+    if (world->settings.solver != PBMPM_SOLVER_CONVERGENT) return world->settings.solver == PBMPM_SOLVER_DUAL;
+    bool sand = def->kind == PBMPM_SAND;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        sand = sand || (world->particles.of_material[slot] > 0 && world->materials.def[slot].kind == PBMPM_SAND);
+    return sand || solver_holds_liquid(world);
+}
+
 static pbmpm_effective of_material(const World *world, const pbmpm_material_def *def, double substep)
 {
     if (def->kind == PBMPM_LIQUID)
         return (pbmpm_effective){.bulk_modulus = def->bulk_modulus, .kinematic_viscosity = def->kinematic_viscosity};
-    const double share = world->settings.solver == PBMPM_SOLVER_DUAL || world->settings.solver == PBMPM_SOLVER_CONVERGENT
-                             ? dual_stiffness_share(world, def, substep)
-                             : 1.0;
+    const double share = by_dual(world, def) ? dual_stiffness_share(world, def, substep) : 1.0;
     const double young = share * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
     const double shear = 0.5 * young / (1.0 + poisson), lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
     return (pbmpm_effective){.bulk_modulus = (float)(lambda + 2.0 * shear / world->def.dimension), .young_modulus = (float)young};
