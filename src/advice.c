@@ -86,11 +86,21 @@ static bool any_present(const World *world, pbmpm_material_kind kind)
     return false;
 }
 
-/* Which solver a world with this matter takes. */
-static pbmpm_solver solver_now(const World *world)
+/* Which solver matter of this material is solved with. The convergent one is chosen where matter touches: a solid in sand or a liquid that solids touch may
+ * have the other one, and what that holds says held_of(). */
+static pbmpm_solver solver_of(const World *world, uint32_t slot)
 {
     if (world->settings.solver != PBMPM_SOLVER_CONVERGENT) return world->settings.solver;
-    return any_present(world, PBMPM_LIQUID) || any_present(world, PBMPM_SAND) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    const pbmpm_material_kind kind = world->materials.def[slot].kind;
+    return kind == PBMPM_LIQUID || kind == PBMPM_SAND ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+}
+
+/* Whether any matter is. */
+static bool solved_with(const World *world, pbmpm_solver solver)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (present(world, slot) && solver_of(world, slot) == solver) return true;
+    return false;
 }
 
 static pbmpm_effective held_of(const Adviser *adviser, uint32_t slot)
@@ -212,19 +222,20 @@ static void ignored_of_solid(Adviser *adviser, uint32_t slot, pbmpm_solver solve
         ignored(adviser, id, none, (float)def->elastic_model, (float)plain.elastic_model, "elastic_model does nothing with this solver: the paper's has none, the dual's is fixed corotated");
 }
 
-static void ignored_of_settings(Adviser *adviser, pbmpm_solver solver)
+static void ignored_of_settings(Adviser *adviser)
 {
-    const pbmpm_settings *now = &adviser->world->settings, plain = settings_defaults();
+    const World *world = adviser->world;
+    const pbmpm_settings *now = &world->settings, plain = settings_defaults();
     const pbmpm_material_id none = {0, 0};
     const pbmpm_collider_id nowhere = {0, 0};
-    const bool liquid = any_present(adviser->world, PBMPM_LIQUID), iterates = solver == PBMPM_SOLVER_DUAL || solver == PBMPM_SOLVER_PRIMAL;
-    if (solver != PBMPM_SOLVER_DUAL || !liquid)
+    const bool liquid = any_present(world, PBMPM_LIQUID), by_dual = solved_with(world, PBMPM_SOLVER_DUAL), by_primal = solved_with(world, PBMPM_SOLVER_PRIMAL);
+    if (!by_dual || !liquid)
         ignored(adviser, none, nowhere, (float)now->pressure, (float)plain.pressure, "settings.pressure does nothing here: only liquids of the dual solver have it");
-    if (solver != PBMPM_SOLVER_PRIMAL)
+    if (!by_primal)
         ignored(adviser, none, nowhere, (float)now->integrator, (float)plain.integrator, "settings.integrator does nothing here: only the primal solver has a second order");
-    if (solver == PBMPM_SOLVER_PAPER || !liquid)
+    if (now->solver == PBMPM_SOLVER_PAPER || !liquid)
         ignored(adviser, none, nowhere, now->flip, plain.flip, "settings.flip does nothing here: only liquids have it, and not with the paper's solver");
-    if (iterates) return;
+    if (by_dual || by_primal) return;
     ignored(adviser, none, nowhere, now->target_error, plain.target_error, "settings.target_error does nothing here: only the dual and the primal solver predict an error");
     ignored(adviser, none, nowhere, now->time_budget_ms, plain.time_budget_ms, "settings.time_budget_ms does nothing here: only the dual and the primal solver keep one");
 }
@@ -247,14 +258,13 @@ static void ignored_of_walls(Adviser *adviser)
 static void ignored_parameters(Adviser *adviser)
 {
     const World *world = adviser->world;
-    const pbmpm_solver solver = solver_now(world);
-    ignored_of_settings(adviser, solver);
+    ignored_of_settings(adviser);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (!present(world, slot)) continue;
         if (flows(&world->materials.def[slot]))
-            ignored_of_liquid(adviser, slot, solver);
+            ignored_of_liquid(adviser, slot, solver_of(world, slot));
         else
-            ignored_of_solid(adviser, slot, solver);
+            ignored_of_solid(adviser, slot, solver_of(world, slot));
     }
     ignored_of_walls(adviser);
 }
@@ -270,9 +280,9 @@ static const double STRAIN_UNSEEN = 0.1;
 static void pool_too_deep(Adviser *adviser)
 {
     const World *world = adviser->world;
-    const pbmpm_solver solver = solver_now(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
+        const pbmpm_solver solver = solver_of(world, slot);
         const double depth = adviser->survey.heap[slot].depth;
         if (depth == 0.0 || !flows(def) || (solver != PBMPM_SOLVER_PAPER && solver != PBMPM_SOLVER_DUAL)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_TOO_DEEP, .material = id_of(world, slot)};
@@ -301,7 +311,7 @@ static const double CALM_CELLS = 24.0, CALM_FALL = 0.01, CALM_ITERATIONS = 50.0;
 static void pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
-    if (solver_now(world) != PBMPM_SOLVER_DUAL || world->settings.iterations >= CALM_ITERATIONS) return;
+    if (!solved_with(world, PBMPM_SOLVER_DUAL) || world->settings.iterations >= CALM_ITERATIONS) return;
     const double fall = gravity_fall(world, adviser->substep);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double depth = adviser->survey.heap[slot].depth;
@@ -320,7 +330,7 @@ static void modulus_not_held(Adviser *adviser)
 {
     static const double ENOUGH = 0.8, MOST_ITERATIONS = 100.0;
     const World *world = adviser->world;
-    if (solver_now(world) == PBMPM_SOLVER_PAPER) return; /* it has none, which ignored_of_solid() tells */
+    if (world->settings.solver == PBMPM_SOLVER_PAPER) return; /* it has none, which ignored_of_solid() tells */
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!present(world, slot) || flows(def) || def->kind == PBMPM_SAND) continue;
@@ -351,7 +361,7 @@ static void sand_not_held(Adviser *adviser)
         const double strain = 0.5 * (double)def->density * gravity_strength(world) * depth / ((double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear);
         if (strain <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = id_of(world, slot), .figure = (float)strain, .bound = (float)UNSEEN,
-                               .text = solver_now(world) == PBMPM_SOLVER_DUAL
+                               .text = solver_of(world, slot) == PBMPM_SOLVER_DUAL
                                            ? "the iterations do not hold the sand's modulus: it creeps, and lies flatter than its friction lets it"
                                            : "the iterations do not hold the sand's modulus: it is crushed by its weight"};
         by_substeps(adviser, sqrt(strain / UNSEEN), &advice);
@@ -384,12 +394,12 @@ static void bounce_damped(Adviser *adviser)
     static const double KEPT = 0.6;
     const World *world = adviser->world;
     const double bound = 3.14159265358979 * 3.14159265358979 / (2.0 * log(1.0 / KEPT));
-    if (gravity_strength(world) == 0.0 || solver_now(world) == PBMPM_SOLVER_PAPER || solver_now(world) == PBMPM_SOLVER_EXPLICIT) return;
-    if (solver_now(world) == PBMPM_SOLVER_PRIMAL && world->settings.integrator == PBMPM_INTEGRATOR_BDF2) return;
+    if (gravity_strength(world) == 0.0 || world->settings.solver == PBMPM_SOLVER_PAPER || world->settings.solver == PBMPM_SOLVER_EXPLICIT) return;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double radius = 0.5 * adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
-        if (radius == 0.0 || def->kind != PBMPM_ELASTIC) continue;
+        const bool second_order = solver_of(world, slot) == PBMPM_SOLVER_PRIMAL && world->settings.integrator == PBMPM_INTEGRATOR_BDF2;
+        if (radius == 0.0 || def->kind != PBMPM_ELASTIC || second_order) continue;
         const double young = (double)def->young_modulus, poisson = (double)def->poisson_ratio;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
         const double mass = 4.0 / 3.0 * 3.14159265358979 * (double)def->density * radius * radius * radius;

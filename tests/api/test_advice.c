@@ -176,6 +176,7 @@ static void test_parameters_that_do_nothing(void)
     jelly.elastic_model = PBMPM_NEO_HOOKEAN;
     fill_shape(world, add_material(world, &jelly), box_shape(0.5f, 0.75f, 0, 0.2f, 0.2f, 0.2f), at_rest);
     check_ignored(world, "elasticity_ratio");
+    set_solver(world, PBMPM_SOLVER_DUAL);
     check_ignored(world, "elastic_model");
     set_solver(world, PBMPM_SOLVER_PAPER);
     check_ignored(world, "young_modulus");
