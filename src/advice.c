@@ -347,24 +347,34 @@ static void modulus_not_held(Adviser *adviser)
     }
 }
 
-/* Sand bears its weight by its modulus M: a heap of height H is strained by rho g H / (2 M) on average, and friction holds only what is strained so far. */
-static void sand_not_held(Adviser *adviser)
+/* The dual keeps the volume of sand by pressures, as that of liquids. With the others sand bears its weight by its modulus M: a heap of height H is strained by
+ * rho g H / (2 M) on average. */
+static double sand_figure(const Adviser *adviser, uint32_t slot, double *bound)
 {
     static const double UNSEEN = 0.05;
     const World *world = adviser->world;
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    const double cells = adviser->survey.heap[slot].depth, d = world->def.dimension;
+    *bound = DEEPEST;
+    if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, adviser->substep) * cells;
+    const pbmpm_effective held = held_of(adviser, slot);
+    const double shear = 0.5 * (double)held.young_modulus / (1.0 + (double)def->poisson_ratio), wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
+    *bound = UNSEEN;
+    return 0.5 * (double)def->density * gravity_strength(world) * cells * (double)world->def.cell_size / wave;
+}
+
+static void sand_not_held(Adviser *adviser)
+{
+    const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        const pbmpm_material_def *def = &world->materials.def[slot];
-        const double depth = adviser->survey.heap[slot].depth * (double)world->def.cell_size;
-        if (depth == 0.0 || def->kind != PBMPM_SAND) continue;
-        const pbmpm_effective held = held_of(adviser, slot);
-        const double d = world->def.dimension, shear = 0.5 * (double)held.young_modulus / (1.0 + (double)def->poisson_ratio);
-        const double strain = 0.5 * (double)def->density * gravity_strength(world) * depth / ((double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear);
-        if (strain <= UNSEEN) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = id_of(world, slot), .figure = (float)strain, .bound = (float)UNSEEN,
-                               .text = solver_of(world, slot) == PBMPM_SOLVER_DUAL
-                                           ? "the iterations do not hold the sand's modulus: it creeps, and lies flatter than its friction lets it"
-                                           : "the iterations do not hold the sand's modulus: it is crushed by its weight"};
-        by_substeps(adviser, sqrt(strain / UNSEEN), &advice);
+        if (adviser->survey.heap[slot].depth == 0.0 || world->materials.def[slot].kind != PBMPM_SAND) continue;
+        double bound;
+        const double figure = sand_figure(adviser, slot, &bound);
+        if (figure <= bound) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = id_of(world, slot), .figure = (float)figure, .bound = (float)bound};
+        advice.text = bound == DEEPEST ? "the sand is too deep for the rate: it is compressed by its weight, and flows too fast"
+                                       : "the iterations do not hold the sand's modulus: it is crushed by its weight";
+        by_substeps(adviser, sqrt(figure / bound), &advice);
         give(adviser, advice);
     }
 }
@@ -387,28 +397,76 @@ static void body_too_thin(Adviser *adviser)
     }
 }
 
-/* A ball of radius R that meets a wall at the speed v rests on it for 2.94 (15 m / (16 sqrt(R) E'))^(2/5) v^(-1/5), with E' = E / (1 - nu^2). Backward Euler takes
- * from half a swing of n substeps all but the share exp(-pi^2 / (2 n)). */
+static const double PI = 3.14159265358979;
+
+static double radius_of(const Adviser *adviser, uint32_t slot)
+{
+    return 0.5 * adviser->survey.heap[slot].thickness * (double)adviser->world->def.cell_size;
+}
+
+/* E / (1 - nu^2) */
+static double contact_modulus(const pbmpm_material_def *def)
+{
+    return (double)def->young_modulus / (1.0 - (double)def->poisson_ratio * (double)def->poisson_ratio);
+}
+
+/* A ball of radius R that meets a wall at the speed v rests on it for 2.94 (15 m / (16 sqrt(R) E'))^(2/5) v^(-1/5). Backward Euler takes from half a swing of n
+ * substeps all but the share exp(-pi^2 / (2 n)). The primal gives bodies back what a substep took from their bounce. */
 static void bounce_damped(Adviser *adviser)
 {
     static const double KEPT = 0.6;
     const World *world = adviser->world;
-    const double bound = 3.14159265358979 * 3.14159265358979 / (2.0 * log(1.0 / KEPT));
-    if (gravity_strength(world) == 0.0 || world->settings.solver == PBMPM_SOLVER_PAPER || world->settings.solver == PBMPM_SOLVER_EXPLICIT) return;
+    const double bound = PI * PI / (2.0 * log(1.0 / KEPT));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
-        const double radius = 0.5 * adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
-        const bool second_order = solver_of(world, slot) == PBMPM_SOLVER_PRIMAL && world->settings.integrator == PBMPM_INTEGRATOR_BDF2;
-        if (radius == 0.0 || def->kind != PBMPM_ELASTIC || second_order) continue;
-        const double young = (double)def->young_modulus, poisson = (double)def->poisson_ratio;
+        const double radius = radius_of(adviser, slot);
+        if (radius == 0.0 || def->kind != PBMPM_ELASTIC || solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
-        const double mass = 4.0 / 3.0 * 3.14159265358979 * (double)def->density * radius * radius * radius;
-        const double contact = 2.94 * pow(15.0 * mass * (1.0 - poisson * poisson) / (16.0 * sqrt(radius) * young), 0.4) * pow(speed, -0.2);
+        const double mass = 4.0 / 3.0 * PI * (double)def->density * radius * radius * radius;
+        const double contact = 2.94 * pow(15.0 * mass / (16.0 * sqrt(radius) * contact_modulus(def)), 0.4) * pow(fmax(speed, 1e-6), -0.2);
         const double steps = contact / adviser->substep;
         if (steps >= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)bound,
-                               .text = "a contact lasts too few substeps: the body bounces less than its material would"};
-        by_substeps(adviser, bound / steps, &advice);
+                               .text = "a contact lasts too few substeps for the dual solver: the body bounces less than its material would"};
+        by_value(PBMPM_CHANGE_SOLVER, PBMPM_SOLVER_CONVERGENT, (double)UNKNOWN_PRICE, &advice);
+        give(adviser, advice);
+    }
+}
+
+/* Half the width that a round body rests on: of a ball (3 F R / (4 E'))^(1/3), of a disc sqrt(4 F R / (pi E')). */
+static double patch_of(const Adviser *adviser, uint32_t slot)
+{
+    const World *world = adviser->world;
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    const double radius = radius_of(adviser, slot), pull = (double)def->density * gravity_strength(world), modulus = contact_modulus(def);
+    if (world->def.dimension == 2) return sqrt(4.0 * PI * radius * radius * pull * radius / (PI * modulus));
+    return pow(3.0 * 4.0 / 3.0 * PI * radius * radius * radius * pull * radius / (4.0 * modulus), 1.0 / 3.0);
+}
+
+static bool any_rubs(const World *world)
+{
+    bool rubs = world->domain.enabled && world->domain.friction > 0.0f;
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        rubs = rubs || (collider->generation != 0 && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
+    }
+    return rubs;
+}
+
+/* The spline spreads a contact over more than a cell, and what turns over a wider patch than its own is braked. */
+static void rolling_braked(Adviser *adviser)
+{
+    static const double ROUND = 0.92; /* boxes that lie along the axes have 1, but for noise */
+    const World *world = adviser->world;
+    if (gravity_strength(world) == 0.0 || !any_rubs(world)) return;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const Heap *heap = &adviser->survey.heap[slot];
+        if (heap->thickness == 0.0 || heap->evenness > ROUND || world->materials.def[slot].kind != PBMPM_ELASTIC) continue;
+        const double cells = patch_of(adviser, slot) / (double)world->def.cell_size;
+        if (cells >= 1.0) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_ROLLING_BRAKED, .material = id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
+                               .text = "a round body rests on less than the grid resolves: it rolls too slowly"};
+        by_cells(adviser, 1.0 / cells, &advice);
         give(adviser, advice);
     }
 }
@@ -566,6 +624,7 @@ static const struct {
     {PBMPM_ADVICE_SAND_NOT_HELD, "PBMPM_ADVICE_SAND_NOT_HELD", sand_not_held},
     {PBMPM_ADVICE_BODY_TOO_THIN, "PBMPM_ADVICE_BODY_TOO_THIN", body_too_thin},
     {PBMPM_ADVICE_BOUNCE_DAMPED, "PBMPM_ADVICE_BOUNCE_DAMPED", bounce_damped},
+    {PBMPM_ADVICE_ROLLING_BRAKED, "PBMPM_ADVICE_ROLLING_BRAKED", rolling_braked},
     {PBMPM_ADVICE_COLLIDER_TOO_FAST, "PBMPM_ADVICE_COLLIDER_TOO_FAST", collider_too_fast},
     {PBMPM_ADVICE_COLLIDER_TOO_THIN, "PBMPM_ADVICE_COLLIDER_TOO_THIN", collider_too_thin},
     {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", step_too_long},

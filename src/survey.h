@@ -10,6 +10,7 @@ typedef struct Heap {
     double speed;      /* the fastest [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double thickness;  /* the least over the axes, where it is thickest */
+    double evenness;   /* the mean thickness over that; 1: a box along the axes */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;

@@ -23,18 +23,16 @@ CODES = {
     "volume": {"POOL_TOO_DEEP", "VOLUME_LOST", "COLLIDER_TOO_THIN", "STRAIN_CLAMPED"},
     "leak": {"COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST", "STEP_TOO_LONG", "VOLUME_LOST", "POOL_TOO_DEEP"},
     "calm": {"POOL_STIRS", "POOL_TOO_DEEP", "COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST"},
-    "grains": {"SAND_NOT_HELD", "STRAIN_CLAMPED"},
-    "heap": {"VOLUME_LOST", "STRAIN_CLAMPED"},
-    "contact": {"MODULUS_NOT_HELD", "BODY_TOO_THIN", "NOT_SOLVED", "STRAIN_CLAMPED"},
-    "bounce": {"BOUNCE_DAMPED", "MODULUS_NOT_HELD", "NOT_SOLVED"},
+    "grains": {"SAND_NOT_HELD", "STRAIN_CLAMPED", "VOLUME_LOST"},
+    "contact": {"MODULUS_NOT_HELD", "BODY_TOO_THIN", "ROLLING_BRAKED", "STRAIN_CLAMPED"},
+    "bounce": {"BOUNCE_DAMPED", "MODULUS_NOT_HELD"},
     "modulus": {"MODULUS_NOT_HELD", "NOT_SOLVED"},
     "afloat": {"BODY_TOO_THIN", "VOLUME_LOST", "POOL_TOO_DEEP"},
 }
 """Codes that speak of a subject."""
 
 SUBJECTS = (
-    (r"angle of repose|run-out|sand.*rms|silo.*flow (over|at)", "grains"),
-    (r"silo|sand|heap", "heap"),
+    (r"silo|sand|heap", "grains"),
     (r"restitution|contact time", "bounce"),
     (r"tip|modulus", "modulus"),
     (r"share of the jelly", "afloat"),

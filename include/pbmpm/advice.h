@@ -20,17 +20,18 @@ typedef enum pbmpm_advice_code {
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Figure: its depth [cells] */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< the iterations hold so little of the sand's modulus that it lies too flat and creeps, or is crushed. Figure:
-                                            mean strain that bears its weight */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
+                                            strain that bears it */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
-    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body */
-    PBMPM_ADVICE_COLLIDER_TOO_FAST = 10, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
-    PBMPM_ADVICE_COLLIDER_TOO_THIN = 11, /**< matter passes or reaches through. Figure: its thickness [cells] */
-    PBMPM_ADVICE_STEP_TOO_LONG = 12,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body */
+    PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
+    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
     /* Came true: measured in the present state. */
-    PBMPM_ADVICE_VOLUME_LOST = 13,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
-    PBMPM_ADVICE_STRAIN_CLAMPED = 14,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
-    PBMPM_ADVICE_NOT_SOLVED = 15,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
+    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
+    PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
+    PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
     PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
 } pbmpm_advice_code;
 

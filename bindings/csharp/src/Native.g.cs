@@ -246,25 +246,27 @@ namespace Pbmpm
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>the iterations hold so little of the sand's modulus that it lies too flat and creeps, or is crushed. Figure:
-        /// mean strain that bears its weight</summary>
+        /// <summary>sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
+        /// strain that bears it</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
+        /// <summary>dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
         BounceDamped = 9,
+        /// <summary>a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells]</summary>
+        RollingBraked = 10,
         /// <summary>an obstacle passes matter by. Figure: its way in the next substep [cells]</summary>
-        ColliderTooFast = 10,
+        ColliderTooFast = 11,
         /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
-        ColliderTooThin = 11,
+        ColliderTooThin = 12,
         /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
-        StepTooLong = 12,
+        StepTooLong = 13,
         /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
-        VolumeLost = 13,
+        VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
-        StrainClamped = 14,
+        StrainClamped = 15,
         /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells]</summary>
-        NotSolved = 15,
+        NotSolved = 16,
     }
 
     /// <summary>What would help.</summary>

@@ -25,9 +25,10 @@ class AdviceCode(enum.Enum):
     POOL_TOO_DEEP = ffi.integer_const("PBMPM_ADVICE_POOL_TOO_DEEP")  #: g dt^2 depth / dx^2; with the paper's solver the strain at the bottom
     POOL_STIRS = ffi.integer_const("PBMPM_ADVICE_POOL_STIRS")  #: depth of a pool that does not come to rest [cells]
     MODULUS_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_MODULUS_NOT_HELD")  #: the Young modulus [Pa] that acts, and the material's own
-    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: mean strain that bears the weight of sand
+    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: dual solver: g dt^2 depth / dx^2 of sand; else its mean strain
     BODY_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_BODY_TOO_THIN")  #: thickness of a body [cells]
     BOUNCE_DAMPED = ffi.integer_const("PBMPM_ADVICE_BOUNCE_DAMPED")  #: substeps that a contact lasts
+    ROLLING_BRAKED = ffi.integer_const("PBMPM_ADVICE_ROLLING_BRAKED")  #: half the width that a round body rests on [cells]
     COLLIDER_TOO_FAST = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_FAST")  #: an obstacle's way in the next substep [cells]
     COLLIDER_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_THIN")  #: thickness of an obstacle [cells]
     STEP_TOO_LONG = ffi.integer_const("PBMPM_ADVICE_STEP_TOO_LONG")  #: the longest way in a substep [cells]
