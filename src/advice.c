@@ -570,7 +570,7 @@ static double lost_to_weight(const Adviser *adviser, uint32_t slot)
 
 static void volume_lost(Adviser *adviser)
 {
-    static const double UNSEEN = 0.04;
+    static const double UNSEEN = 0.05;
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double filling = adviser->survey.heap[slot].filling;

@@ -123,6 +123,25 @@ static void test_it_writes_what_there_is_room_for_and_changes_nothing(void)
     TEST_ASSERT_EQUAL_UINT64(before.memory_bytes, world_stats(world).memory_bytes);
 }
 
+static void watched(pbmpm_world_def *def, void *user)
+{
+    def->allocator = ledger_allocator(user);
+}
+
+static void test_without_memory_it_says_so(void)
+{
+    static ledger book;
+    uint32_t count = 77;
+    book = (ledger){0};
+    const pbmpm_world_id world = tank_2d(watched, &book);
+    book.fail_at = book.calls + 1;
+    EXPECT(PBMPM_ERROR_OUT_OF_MEMORY, pbmpm_world_advice(world, DT, NULL, 0, &count));
+    TEST_ASSERT_EQUAL_UINT32(77, count);
+    OK(pbmpm_world_advice(world, DT, NULL, 0, &count));
+    OK(pbmpm_world_destroy(world));
+    ledger_expect_clean(&book, "after advice");
+}
+
 /* ---- what is foreseen ---- */
 
 static void test_no_gravity(void)
@@ -310,6 +329,7 @@ int main(void)
     RUN_TEST(test_arguments_are_checked);
     RUN_TEST(test_every_code_has_a_name);
     RUN_TEST(test_it_writes_what_there_is_room_for_and_changes_nothing);
+    RUN_TEST(test_without_memory_it_says_so);
     RUN_TEST(test_no_gravity);
     RUN_TEST(test_matter_that_falls_for_ever);
     RUN_TEST(test_parameters_that_do_nothing);
