@@ -18,7 +18,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
                                             the strain at the bottom */
-    PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Figure: its depth [cells] */
+    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
     PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
                                             strain that bears it */

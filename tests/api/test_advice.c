@@ -69,7 +69,11 @@ static pbmpm_material_id add_material(pbmpm_world_id world, const pbmpm_material
 
 static void test_a_tank_of_water_at_defaults_needs_no_advice(void)
 {
-    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    set_gravity(world, 0, -9.81f, 0);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.15f, 0, 0.5f, 0.15f, 0.5f), at_rest);
     for (int step = 0; step < 120; step++) OK(pbmpm_world_step(world, DT));
     ask(world);
     TEST_ASSERT_EQUAL_UINT32_MESSAGE(0, told_count, told_count ? told[0].text : "");

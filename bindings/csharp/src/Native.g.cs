@@ -242,7 +242,7 @@ namespace Pbmpm
         /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
-        /// <summary>a pool does not come to rest. Figure: its depth [cells]</summary>
+        /// <summary>dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep</summary>
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
