@@ -1761,8 +1761,8 @@ namespace Pbmpm.Native
         /// Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
-        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and a sort of the cells that they are in, and only when
-        /// called; what has to be sorted is the only memory, which is given back.
+        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
+        /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
         /// Any thread, one at a time per world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -53,6 +53,8 @@ class Change(enum.Enum):
     COLLIDER = ffi.integer_const("PBMPM_CHANGE_COLLIDER")  #: thickness of the obstacle [m]
 
 
+_FEW = 64  # records that are asked for at first; there are seldom more
+
 _UNITS = {Change.CELL_SIZE: " m", Change.GRAVITY: " m/s^2", Change.YOUNG_MODULUS: " Pa", Change.COLLIDER: " m thick"}
 
 
@@ -131,9 +133,12 @@ class WorldAdvice(WorldPart):
     def advice(self: World, dt: float) -> list[Advice]:  # type: ignore[misc]
         """What the scene and settings of now will not hold when the world is stepped by `dt` [s], and what came true in the steps
         so far. Changes nothing; costs a few passes over the particles. An empty list is no promise."""
-        count = ffi.new("uint32_t *")
-        self._call(lib.pbmpm_world_advice, dt, ffi.NULL, 0, count)
-        room = ffi.new("pbmpm_advice[]", max(1, count[0]))
-        room[0].size = ffi.sizeof("pbmpm_advice")
-        self._call(lib.pbmpm_world_advice, dt, room, count[0], count)
+        count, size = ffi.new("uint32_t *"), _FEW
+        while True:
+            room = ffi.new("pbmpm_advice[]", size)
+            room[0].size = ffi.sizeof("pbmpm_advice")
+            self._call(lib.pbmpm_world_advice, dt, room, size, count)
+            if count[0] <= size:
+                break
+            size = count[0]
         return [_advice_from_c(room[i]) for i in range(count[0])]
