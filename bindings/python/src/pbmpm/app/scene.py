@@ -11,11 +11,12 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ..materials import Elastic, Liquid, Sand, Visco
+from ..settings import DEFAULTS
 from .errors import InputError
 from .names import EffectName, IntegratorName, PressureName, SolverName
 
@@ -353,12 +354,12 @@ class CameraPart(_Part):
 class SolverPart(_Part):
     """How the equations are solved. Fields and defaults are those of ``pbmpm_settings``."""
 
-    solver: SolverName = "paper"
-    pressure: PressureName = "particles"
-    integrator: IntegratorName = "euler"
-    flip: Share = 0.0
-    target_error: Share = 0.0
-    time_budget_ms: Milliseconds = 0.0
+    solver: SolverName = cast(SolverName, DEFAULTS.solver.name.lower())
+    pressure: PressureName = cast(PressureName, DEFAULTS.pressure.name.lower())
+    integrator: IntegratorName = cast(IntegratorName, DEFAULTS.integrator.name.lower())
+    flip: Share = DEFAULTS.flip
+    target_error: Share = DEFAULTS.target_error
+    time_budget_ms: Milliseconds = DEFAULTS.time_budget_ms
 
 
 class SleepingPart(_Part):
@@ -393,10 +394,10 @@ class Scene(_Part):
     domain: DomainPart | None = None
     seconds: Positive
     rate_hz: Rate = 60.0
-    substeps: Substeps = 1
-    iterations: Iterations = 5
+    substeps: Substeps = DEFAULTS.substeps
+    iterations: Iterations = DEFAULTS.iterations
     solver: SolverPart = SolverPart()
-    max_displacement: Annotated[float, Field(ge=0.1, le=64)] = 32.0
+    max_displacement: Annotated[float, Field(ge=0.1, le=64)] = DEFAULTS.max_displacement
     materials: Annotated[dict[str, MaterialPart], Field(min_length=1)]
     fills: list[FillPart] = []
     colliders: list[ColliderPart] = []
