@@ -78,7 +78,7 @@ def rests_on_slope(run: Run, floor: str, dimension: int = 2, modulus: float = 1e
     """A block on 20 degrees with friction 0.5 (27 degrees) stays where it is."""
     world, frame = _block(run, dimension, 20, floor, modulus, 0.5)
     with world:
-        run.steps(world, 1)
+        run.steps(world, 2)
         start = frame.positions(world).mean(0)
         run.steps(world, 2)
         creep = np.linalg.norm(frame.positions(world).mean(0) - start) / 2
@@ -263,11 +263,12 @@ def clay(run: Run, yield_strain: float, stands: bool) -> None:
     side, modulus = 0.4, 1e6
     with run.world(2, 0.025) as world:
         world.add_collider(Plane((0, 0), (0, 1)), friction_coefficient=1.0)
-        world.fill(Box((0, side / 2), (side / 2, side / 2)), world.add_material(Visco(young_modulus=modulus, yield_strain=yield_strain)))
+        world.fill(Box((0, side / 2), (side / 2, side / 2)), world.add_material(Visco(young_modulus=modulus, yield_strain=yield_strain, flow_rate=1e4)))
         run.steps(world, 3)
         high = world.positions.array()[:, 1].mean() / (side / 2)
         # Shear at the foot: rho g h / 2 = 2 kPa; yield stress sqrt(2) mu yield_strain = 27 and 0.27 kPa.
         if stands:
             run.check("mean height over that of the start", high, 0.96, 1.01, why="yield stress of 27 kPa against 2 kPa")
         else:
-            run.check("mean height over that of the start", high, 0.05, 0.7, why="yield stress of 0.27 kPa: a slump of most of its height")
+            # Bingham's heap at rest is sqrt(2 tau (L - x) / (rho g)) high: of this area its mean height is 0.35 of the block's.
+            run.check("mean height over that of the start", high, 0.25, 0.6, why="lubrication theory: 0.35; a block keeps a steeper middle")
