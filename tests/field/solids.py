@@ -185,11 +185,11 @@ def bouncing_ball(run: Run, modulus: float, fall: float) -> None:
         run.check("contact time over Hertz's", (end - on[0]) / run.rate / hertz, 0.75, 1.3, why="Hertz; a step is a tenth to a quarter of it")
 
 
-@case(soft=dict(modulus=1e5), stiff=dict(modulus=1e6), three_d=dict(modulus=1e5, dimension=3), sideways=dict(modulus=1e5, angle=90.0))
-def hanging_bar(run: Run, modulus: float, dimension: int = 2, angle: float = 0.0) -> None:
+@case(soft=dict(modulus=1e5), stiff=dict(modulus=1e6), three_d=dict(modulus=1e5, dimension=3), sideways=dict(modulus=1e5, angle=90.0), turned_20=dict(modulus=1e5, angle=20.0), face_above_nodes=dict(modulus=1e5, shift=0.02))
+def hanging_bar(run: Run, modulus: float, dimension: int = 2, angle: float = 0.0, shift: float = 0.0) -> None:
     """A bar of 1 m that hangs from a ceiling stretches by rho g L^2 / (2 E)."""
     cell, poisson, length, half = 0.05, 0.3, 1.0, 0.1
-    frame = Frame(dimension, angle)
+    frame = Frame(dimension, angle, [0.0, shift * cell] + [0.0] * (dimension - 2))
     with run.world(dimension, cell, frame.gravity) as world:
         p = lattice([-half, -length] + [-half] * (dimension - 2), [half, 0.1] + [half] * (dimension - 2), cell / 2)
         world.add_particles(world.add_material(Elastic(young_modulus=modulus, poisson_ratio=poisson)), frame.out(p))
