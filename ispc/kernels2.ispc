@@ -47,6 +47,12 @@ export void solids_mean2(uniform struct KernelArgs *uniform args, uniform int be
 export void cells_push2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_push_blocks(*args, begin, end);
 }
+export void cells_carry2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_carry_blocks(*args, begin, end);
+}
+export void cells_add2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    cells_add_blocks(*args, begin, end);
+}
 export void cells_trace2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     cells_trace_blocks(*args, begin, end);
 }

@@ -24,25 +24,46 @@ static bool shares_world(const World *world)
     return solids && solver_holds_liquid(world);
 }
 
-/* How many of the iterations go into the guess, which is for liquids: enough to reach through a pool, and at least half are left. A single one is worth much in a pool
- * and does harm in free flight. */
+/* Steps of the guess before the iterations. It is for liquids: three reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
+ * few iterations follow; before a single one always. */
 static int guess_iterations(const World *world)
 {
-    enum { MOST = 4 };
-    if (!solver_holds_liquid(world)) return 0;
-    const int half = world->settings.iterations / 2;
-    if (half == 1 && gravity_strength(world) == 0.0) return 0;
-    return half < MOST ? half : MOST;
+    enum { MOST = 3, FEW = 4 };
+    const int iterations = world->settings.iterations;
+    if (!solver_holds_liquid(world) || iterations == 1) return 0;
+    if (iterations < FEW && gravity_strength(world) == 0.0) return 0;
+    return iterations < MOST ? iterations : MOST;
 }
 
-/* How many iterations a substep has that are no guess. */
-static int own_iterations(const World *world) { return world->settings.iterations - guess_iterations(world); }
+/* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of
+ * iterations that was tried, and worth twice as many. */
+static const double CARRIED_SHARE = 0.5;
+
+/* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
+ * carried lags by CARRIED / (1 - CARRIED) substeps behind that, which is one ahead: the force answers to the strain (1 - 2 CARRIED) / (1 - CARRIED)
+ * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. */
+static const double CARRIED_SHARE_OF_ONE = 0.45;
+
+/* The guess finds the pressures of cells anew, as a correction: all is kept, but see fine_carried(). */
+double dual_carried_share(const World *world)
+{
+    if (world->settings.iterations == 1) return CARRIED_SHARE_OF_ONE;
+    return guess_iterations(world) > 0 && !in_cells(world) ? 1.0 : CARRIED_SHARE;
+}
+
+/* What particles ask for beside their cells cannot be had in part, see carry_run() in ispc/cells.isph; it grows with each iteration. Kept by the share g, what n
+ * iterations per substep add comes to n / (1 - g) of them. Pools of 12 cells rest best with about 25, at 30, 60 and 240 Hz, 2 to 20 iterations. */
+static float fine_carried(const World *world)
+{
+    static const double ITERATIONS_KEPT = 25.0;
+    return (float)fmax(0.0, 1.0 - world->settings.iterations / ITERATIONS_KEPT);
+}
 
 /* What solids are asked to hold follows them, slowly where they were raised; see solver.c. */
 static double trusted_iterations(const World *world)
 {
     const double share = world->slow_iterations > 0.0 ? fmin(1.0, world->slow_iterations / (double)world->settings.iterations) : 1.0;
-    return share * own_iterations(world);
+    return share * world->settings.iterations;
 }
 
 static bool takes_rounds(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
@@ -128,6 +149,7 @@ static void bind(World *world)
     a->uphill = world->dual.uphill.data;
     a->momentum = 0.0f;
     a->growth_max = growth_max(world);
+    a->fine_carried = fine_carried(world);
     const int d = p->dimension, parts = d * (d + 1) / 2;
     for (int i = 0; i < 2 * parts && p->deformation[0]; i++) {
         float *array = i < d * d ? particles_spare(p, CLASS_MATRIX, i) : particles_spare(p, CLASS_VECTOR, i - d * d);
@@ -159,20 +181,36 @@ static void push(World *world, const ContactFrame *contacts, bool cells)
     world->args.momentum = momentum;
 }
 
+/* Displacements from the pressures that the guess starts from or has found. */
+static void push_guess(World *world, const ContactFrame *contacts, Kernel *kernel)
+{
+    if (in_cells(world)) {
+        push(world, contacts, true);
+        return;
+    }
+    solver_over_particles(world, kernel);
+    solver_over_nodes(world, world->kernels->push_nodes, contacts);
+}
+
 /* Pressures that balance what is wrong over the depth of a pool. Where that fails they are taken back. Meanwhile elastic particles have no
- * stress, and what liquids remember is not asked for. */
+ * stress, and with pressures in cells what liquids remember is not asked for. */
 static void guess(World *world, const ContactFrame *contacts, int iterations)
 {
+    const Kernels *kernels = world->kernels;
+    KernelArgs *a = &world->args;
     guess_begin(world, contacts);
-    world->args.probing = 1;
-    push(world, contacts, true);
-    world->args.probing = 0;
+    a->probing = in_cells(world);
+    push_guess(world, contacts, kernels->cells_carry);
+    a->probing = 0;
     const double before = guess_gain(world);
     guess_solve(world, contacts, iterations);
-    push(world, contacts, true);
-    if (guess_gain(world) >= before) return;
-    guess_take_back(world);
-    push(world, contacts, true);
+    push_guess(world, contacts, kernels->cells_add);
+    if (!(guess_gain(world) >= before)) {
+        guess_take_back(world);
+        push_guess(world, contacts, kernels->cells_add);
+    }
+    const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
 }
 
 /* First multipliers, and the displacements that they make. Returns the mass of the particles. */
@@ -292,7 +330,7 @@ void dual_solve(World *world, const ContactFrame *contacts)
     bind(world);
     bind_cells(world);
     const double mass = fmax(start(world, contacts), 1e-300);
-    const int rounds = takes_rounds(world) ? rounds_wanted(stiffest(world), own_iterations(world)) : 0;
+    const int rounds = takes_rounds(world) ? rounds_wanted(stiffest(world), world->settings.iterations) : 0;
     if (rounds > 0) rounds_begin(world);
     rounds_run(world, contacts, (rounds + 1) / 2);
     iterate_all(world, contacts, mass);
@@ -313,7 +351,7 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
-    const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, own_iterations(world)) : 0.0;
+    const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
 }

@@ -34,6 +34,9 @@ double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, dou
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
 double dual_stiffened(const World *world, double substep, double iterations);
 
+/* The share of its last pressure that a liquid starts a substep from. */
+double dual_carried_share(const World *world);
+
 /* The longest relaxation that solids stay calm with in so many iterations. */
 float dual_longest_relaxation(int iterations);
 

@@ -7,8 +7,8 @@
 #include "depth.h"
 #include "result.h"
 
-/* Arrays of cells: residual, preconditioned residual, direction, response, pressure before, mask, softness. */
-enum { GUESS_ARRAYS = 7 };
+/* Arrays of cells: residual, preconditioned residual, direction, response, mask, softness. */
+enum { GUESS_ARRAYS = 6 };
 
 /* Sums of a loop over cells; blocks that a thread takes at once; sums side by side, which divide the cells of a block. */
 enum { SUMS = 2, GRAIN = 8, LANES = 4 };
@@ -69,7 +69,7 @@ static Asked asked_of(const World *world)
 typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
-    float *residual, *better, *direction, *response, *before, *mask, *soft;
+    float *residual, *better, *direction, *response, *mask, *soft;
     Asked asked;
     float density;                 /* see guess_density() */
     float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
@@ -85,9 +85,8 @@ static Guess guess_of(World *world, const ContactFrame *contacts)
                    .better = cells + n,
                    .direction = cells + 2 * n,
                    .response = cells + 3 * n,
-                   .before = cells + 4 * n,
-                   .mask = cells + 5 * n,
-                   .soft = cells + 6 * n,
+                   .mask = cells + 4 * n,
+                   .soft = cells + 5 * n,
                    .asked = asked_of(world),
                    .density = (float)guess_density(world),
                    .least = least_softness(world)};
@@ -295,7 +294,6 @@ static void start_direction(const Guess *g, size_t begin, size_t end, double *su
     for (size_t i = begin; i < end; i++) g->residual[i] -= g->mean * g->mask[i];
     scale_residual(g, begin, end);
     memset(g->direction + begin, 0, (end - begin) * sizeof(float));
-    memcpy(g->before + begin, g->world->args.cell_pressure + begin, (end - begin) * sizeof(float));
 }
 
 static void turn_direction(const Guess *g, size_t begin, size_t end, double *sum)
@@ -335,10 +333,10 @@ static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum
 static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
+    float *pressure = g->world->args.cell_pressure;
     for (size_t i = begin; i < end; i++) {
         const float next = pressure[i] + g->step * g->direction[i];
-        pressure[i] = old[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
+        pressure[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
     }
 }
 
@@ -353,7 +351,6 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
     double size = precondition(&g);
     g.keep = g.step = 0.0f;
     for (int left = iterations; left > 0 && size > 0.0 && !solver_time_is_up(world); left--) {
-        world->record.iterations_used++;
         over_cells(&g, turn_direction);
         respond(&g, g.direction);
         if (left > 1) trace(&g);
@@ -393,8 +390,8 @@ double guess_gain(World *world)
 static void take_back(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure, *old = g->world->args.cell_pressure_old;
-    for (size_t i = begin; i < end; i++) pressure[i] = old[i] = g->before[i];
+    const KernelArgs *a = &g->world->args;
+    memcpy(a->cell_pressure + begin, a->cell_pressure_old + begin, (end - begin) * sizeof(float));
 }
 
 void guess_take_back(World *world)

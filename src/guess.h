@@ -20,7 +20,8 @@ double guess_density(const World *world);
 /* Prepares the preconditioner. The nodes are used and left in disorder. */
 void guess_begin(World *world, const ContactFrame *contacts);
 
-/* Improves args.cell_pressure, whose displacements the nodes hold, by up to `iterations` steps. The nodes are left in disorder. */
+/* Improves args.cell_pressure, whose displacements the nodes hold, by up to `iterations` steps; args.cell_pressure_old keeps it as it was. The nodes are left
+ * in disorder. */
 void guess_solve(World *world, const ContactFrame *contacts, int iterations);
 
 /* How good args.cell_pressure is, whose displacements the nodes hold: greater is better. */

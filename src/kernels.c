@@ -13,6 +13,8 @@
     DO(solids_begin, suffix)                                                                                            \
     DO(solids_mean, suffix)                                                                                             \
     DO(cells_push, suffix)                                                                                              \
+    DO(cells_carry, suffix)                                                                                             \
+    DO(cells_add, suffix)                                                                                               \
     DO(cells_trace, suffix)                                                                                             \
     DO(cells_update, suffix)                                                                                            \
     DO(respond_nodes, suffix)                                                                                           \

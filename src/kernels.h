@@ -23,6 +23,8 @@ typedef struct Kernels {
     Kernel *solids_begin;  /* particle blocks: what the cells hold of solids, for the guess */
     Kernel *solids_mean;   /* node blocks: adds it to the means */
     Kernel *cells_push;    /* particle blocks: pressures to nodes */
+    Kernel *cells_carry;   /* particle blocks: pressures that particles start the guess from, to nodes */
+    Kernel *cells_add;     /* particle blocks: adds what the guess found; pressures to nodes */
     Kernel *cells_trace;   /* particle blocks: G2P, traces of D to cells */
     Kernel *cells_update;  /* node blocks: proximal step of the cells */
     Kernel *respond_nodes; /* node blocks: displacement from pressures alone */

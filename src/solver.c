@@ -45,20 +45,6 @@ static void set_volume_control(World *world, float dt)
  * 5 % of noise are 0.3 cells/s. */
 static const double CALM_SPEED = 2.4;
 
-/* Pressure carried over in full is integral control: unstable where the solution is truncated. Half of it was stable at any number of
- * iterations that was tried, and worth twice as many. */
-static const double CARRIED_SHARE = 0.5;
-
-/* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
- * carried lags by CARRIED / (1 - CARRIED) substeps behind that, which is one ahead: the force answers to the strain (1 - 2 CARRIED) / (1 - CARRIED)
- * substeps from now and damps if that is positive. With a half nothing damps, and pools bounce for ever; this leads by a fifth of a substep. */
-static const double CARRIED_SHARE_OF_ONE = 0.45;
-
-static double carried_share(const World *world)
-{
-    return world->settings.iterations == 1 ? CARRIED_SHARE_OF_ONE : CARRIED_SHARE;
-}
-
 /* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
 static void set_moduli(World *world, float dt)
 {
@@ -77,7 +63,7 @@ static void set_moduli(World *world, float dt)
             material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
             material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
             material->rebound_max = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_growth(material->dilation) : FLT_MAX;
-            material->carried = (float)fmin(carried_share(world) * c, 1e30);
+            material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
             material->pascal = (float)fmin(1.0 / c, 1e30);
             material->viscous_share = (float)viscosity_share(world, def, (double)dt);
         } else {
