@@ -31,7 +31,11 @@ def trace_obstacles(
 
 
 def _trace(shape, eye, rays, window, camera: Camera, turn, light, size: float) -> tuple[np.ndarray, np.ndarray]:
-    depth, hit, normal = _cut_box(shape, eye, rays) if shape.kind == "box" else _march(shape, eye, rays, size)
+    if shape.kind == "box":
+        half = np.array(shape.half_extents)
+        depth, hit, normal = _cut_box(-half, half, eye, rays)
+    else:
+        depth, hit, normal = _march(shape, eye, rays, size)
     bright = 0.5 + 0.5 * np.clip(normal @ turn.T @ light, 0.0, 1.0)
     depth_map = np.full((camera.height, camera.width), np.inf, dtype=np.float32)
     colour = np.zeros((camera.height, camera.width, 3), dtype=np.float32)
@@ -42,10 +46,10 @@ def _trace(shape, eye, rays, window, camera: Camera, turn, light, size: float) -
     return depth_map, colour
 
 
-def _cut_box(shape, eye, rays) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def _cut_box(low, high, eye, rays) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Depth, hit and normal in the box's frame: a ray is inside between its last entry into and its first exit from a pair of faces."""
     slow = np.where(np.abs(rays) < 1e-12, 1e-12, rays)
-    first, second = (-np.array(shape.half_extents) - eye) / slow, (np.array(shape.half_extents) - eye) / slow
+    first, second = (low - eye) / slow, (high - eye) / slow
     entry = np.minimum(first, second)
     axis = entry.argmax(axis=1)
     depth, leaves = entry.max(axis=1), np.maximum(first, second).min(axis=1)
@@ -58,16 +62,22 @@ def _march(shape, eye, rays, size: float) -> tuple[np.ndarray, np.ndarray, np.nd
     length = np.linalg.norm(rays, axis=1)
     depth = np.zeros(len(rays))
     going = np.arange(len(rays))
+    if shape.kind in ("mesh", "heights"):  # all of it is inside its grid
+        info = baked_solid(shape, 3).info
+        depth, meets, _ = _cut_box(np.array(info.minimum), np.array(info.maximum), eye, rays)
+        depth, going = np.where(meets, depth, 100 * size), np.flatnonzero(meets)
     for _ in range(_STEPS):
         gap = distance(eye + depth[going, None] * rays[going])
         depth[going] = np.minimum(depth[going] + np.maximum(gap, 0.0) / length[going], 100 * size)
         going = going[(gap > 0.1 * _TOUCH * size) & (depth[going] < 100 * size)]
         if len(going) == 0:
             break
-    points = eye + depth[:, None] * rays
-    hit = distance(points) < _TOUCH * size
-    normal = np.zeros_like(points)
-    normal[hit] = _gradient(distance, points[hit], 1e-3 * size)
+    near = np.flatnonzero(depth < 100 * size)
+    points = eye + depth[near, None] * rays[near]
+    touches = distance(points) < _TOUCH * size
+    hit, normal = np.zeros(len(rays), bool), np.zeros_like(rays)
+    hit[near] = touches
+    normal[near[touches]] = _gradient(distance, points[touches], 1e-3 * size)
     return depth, hit, normal
 
 
