@@ -206,4 +206,3 @@ def rows_of(world: World, material: Any) -> np.ndarray:
 def settings(text: str) -> list[tuple[float, int]]:
     """From "60x5,240x5" to rates and iterations."""
     return [(float(rate), int(count)) for rate, count in (part.split("x") for part in text.split(","))]
-

@@ -25,8 +25,15 @@ def _level(world: Any, frame: Frame, width: float, centre: float, reach: float) 
 
 
 @case(
-    light=dict(density=300), half=dict(density=500), heavy=dict(density=800), stiff=dict(density=500, modulus=1e6), small=dict(density=500, cells=6), disc=dict(density=500, round=True),
-    boxes=dict(density=500, walls="boxes"), light_3d=dict(density=300, dimension=3), heavy_3d=dict(density=800, dimension=3),
+    light=dict(density=300),
+    half=dict(density=500),
+    heavy=dict(density=800),
+    stiff=dict(density=500, modulus=1e6),
+    small=dict(density=500, cells=6),
+    disc=dict(density=500, round=True),
+    boxes=dict(density=500, walls="boxes"),
+    light_3d=dict(density=300, dimension=3),
+    heavy_3d=dict(density=800, dimension=3),
 )
 def floats(run: Run, density: float, modulus: float = 5e4, cells: int = 10, round: bool = False, walls: str = "domain", dimension: int = 2) -> None:  # noqa: A002
     """A jelly floats as deep as its density says."""
@@ -92,8 +99,12 @@ def dropped_jelly(run: Run) -> None:
             strain.append(math.sqrt(((np.linalg.svd(f, compute_uv=False) - 1) ** 2).sum(1).mean()))
 
         run.steps(world, 5, after=watch)
-        run.check("largest rms strain", max(strain), 0.0, 0.15, why="Bernoulli: rho v^2 / 2 over the plane modulus is 0.09, and waves at most double a half of it")
-        run.check("rms strain in the end", strain[-1], 0.0, 0.05, why="the weight above and water below: rho g side / E' is 0.06 at the foot, half of it in the mean")
+        run.check(
+            "largest rms strain", max(strain), 0.0, 0.15, why="Bernoulli: rho v^2 / 2 over the plane modulus is 0.09, and waves at most double a half of it"
+        )
+        run.check(
+            "rms strain in the end", strain[-1], 0.0, 0.05, why="the weight above and water below: rho g side / E' is 0.06 at the foot, half of it in the mean"
+        )
 
 
 @case(half=dict(density=500), light=dict(density=250), turned=dict(density=500, angle=0.4))
@@ -134,7 +145,14 @@ def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
         run.steps(world, 8, before=before, after=after)
         slack = 0.4 * cell / side
         run.check("share below the level", np.mean(under), density / 1000 - slack, density / 1000 + slack, why=FLOATS)
-        run.check("mean spin", np.mean(turns), 0, 0.5, "rad/s", why="a box that floats does not go on turning; half a radian per second is what is left of its rocking")
+        run.check(
+            "mean spin",
+            np.mean(turns),
+            0,
+            0.5,
+            "rad/s",
+            why="a box that floats does not go on turning; half a radian per second is what is left of its rocking",
+        )
         run.near("level", np.mean(levels), depth + side**2 * density / 1000 / width, SURFACE, cell, why="water keeps its volume")
 
 
@@ -171,7 +189,14 @@ def two_liquids(run: Run, above: float, below: float) -> None:
         run.steps(world, 6, after=lambda t: speed.append(rms(world)) if t > 5 else None)
         y = world.positions.array()[:, 1]
         run.check("rms speed", np.mean(speed), 0, 0.01, "m/s", why="0; a quarter of a cell per second")
-        run.near("mean height of the heavy one", y[rows_of(world, water)].mean(), depth / 2, SURFACE, cell, why="layers keep their order and volume; the border is known to a particle")
+        run.near(
+            "mean height of the heavy one",
+            y[rows_of(world, water)].mean(),
+            depth / 2,
+            SURFACE,
+            cell,
+            why="layers keep their order and volume; the border is known to a particle",
+        )
         run.near("mean height of the light one", y[rows_of(world, oil)].mean(), 1.5 * depth, SURFACE, cell, why="layers keep their order and volume")
 
 
@@ -184,7 +209,13 @@ def turns_over(run: Run) -> None:
         water = pool(world, Frame(), (0, depth), (width, 2 * depth), Liquid(density=1500), seed=2)
         run.steps(world, 8)
         y = world.positions.array()[:, 1]
-        run.check("height of the light one over that of the heavy one", y[rows_of(world, oil)].mean() / y[rows_of(world, water)].mean(), 1.4, 3.2, why="parted they are at 1 to 3; half mixed still above 1.4")
+        run.check(
+            "height of the light one over that of the heavy one",
+            y[rows_of(world, oil)].mean() / y[rows_of(world, water)].mean(),
+            1.4,
+            3.2,
+            why="parted they are at 1 to 3; half mixed still above 1.4",
+        )
         run.near("mean height of all", y.mean(), depth, SURFACE, cell, why="both keep their volume")
 
 
@@ -203,7 +234,13 @@ def sand_in_water(run: Run) -> None:
         level = Frame().levels(world, [[x * width, 0] for x in np.linspace(0.1, 0.9, 15)]).mean()
         y = world.positions.array()[rows_of(world, grains), 1]
         run.near("level", level, depth + volume / width, SURFACE, cell, why="both keep their volume")
-        run.check("mean height of the sand", y.mean() / math.sqrt(volume * math.tan(math.radians(30))), 0.1, 0.45, why="at the bottom: a heap of 30 degrees is sqrt(V tan 30) high, its mean a third")
+        run.check(
+            "mean height of the sand",
+            y.mean() / math.sqrt(volume * math.tan(math.radians(30))),
+            0.1,
+            0.45,
+            why="at the bottom: a heap of 30 degrees is sqrt(V tan 30) high, its mean a third",
+        )
         run.check("rms speed of the sand", 1e3 * rms(world, rows_of(world, grains)), 0, 10, "mm/s", why="it has come to rest")
 
 
@@ -233,7 +270,11 @@ def all_in_a_tank(run: Run, walls: str) -> None:
         if walls != "domain":
             tank(world, frame, width, 1.5, walls)
         pool(world, frame, (0, 0), (width, depth), Liquid())
-        bodies = [(0.3, Elastic(density=500, young_modulus=5e4)), (0.8, Sand(density=1800, young_modulus=1e6)), (1.3, Visco(density=1800, young_modulus=5e5, yield_strain=0.05))]
+        bodies = [
+            (0.3, Elastic(density=500, young_modulus=5e4)),
+            (0.8, Sand(density=1800, young_modulus=1e6)),
+            (1.3, Visco(density=1800, young_modulus=5e5, yield_strain=0.05)),
+        ]
         for x, parameters in bodies:
             pool(world, frame, (x - side / 2, depth + cell), (x + side / 2, depth + cell + side), parameters)
         count, speed, levels = len(world), [], []

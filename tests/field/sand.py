@@ -25,7 +25,14 @@ def _creep(run: Run, world: Any, frame: Frame, seconds: float) -> float:
     return 1e3 * float(np.linalg.norm(frame.positions(world).mean(0) - start)) / seconds
 
 
-@case(phi_20=dict(phi=20), phi_40=dict(phi=40), turned_20=dict(phi=30, angle=20.0), off_grid=dict(phi=30, shift=0.4), light=dict(phi=30, density=500.0), three_d=dict(phi=30, dimension=3))
+@case(
+    phi_20=dict(phi=20),
+    phi_40=dict(phi=40),
+    turned_20=dict(phi=30, angle=20.0),
+    off_grid=dict(phi=30, shift=0.4),
+    light=dict(phi=30, density=500.0),
+    three_d=dict(phi=30, dimension=3),
+)
 def bin(run: Run, phi: float, angle: float = 0.0, shift: float = 0.0, density: float = 1600.0, dimension: int = 2) -> None:  # noqa: A001
     """Sand that fills a bin of 20 x 15 cells (3D: 8 x 8 x 8) stays as high as it is."""
     cell = CELL if dimension == 2 else 0.04
@@ -56,7 +63,13 @@ def pile_stays(run: Run, slope: float, phi: float, shift: float = 0.0) -> None:
         # Volume and moments of a triangle: the slope is that of the isosceles one with the same spread and height.
         ratio = q[:, 1].mean() / np.abs(q[:, 0]).mean() / (p[:, 1].mean() / np.abs(p[:, 0]).mean())
         run.check("steepness over that of the start", ratio, 0.95, 1.05, why="a pile below its angle of repose keeps its form; a degree is 5 per cent")
-        run.check("volume by its mean height and spread", q[:, 1].mean() * np.abs(q[:, 0]).mean() / (p[:, 1].mean() * np.abs(p[:, 0]).mean()), 0.95, 1.05, why="grains keep their volume")
+        run.check(
+            "volume by its mean height and spread",
+            q[:, 1].mean() * np.abs(q[:, 0]).mean() / (p[:, 1].mean() * np.abs(p[:, 0]).mean()),
+            0.95,
+            1.05,
+            why="grains keep their volume",
+        )
         run.check("creep", _creep(run, world, frame, 1), 0, 1, "mm/s", why=CREEP)
 
 
@@ -71,7 +84,14 @@ def pile_slumps(run: Run, phi: float) -> None:
         world.add_particles(world.add_material(_sand(phi)), p)
         run.steps(world, 3)
         found = _slope(world)
-        run.check("slope of its sides", found, phi - 12, phi + 3, "degrees", why="at most the angle of repose; what has slid arrives with speed and lies up to a third flatter")
+        run.check(
+            "slope of its sides",
+            found,
+            phi - 12,
+            phi + 3,
+            "degrees",
+            why="at most the angle of repose; what has slid arrives with speed and lies up to a third flatter",
+        )
         run.check("creep", _creep(run, world, Frame(), 1), 0, 1, "mm/s", why=CREEP)
 
 
@@ -97,7 +117,13 @@ def layer(run: Run, angle: float, phi: float, box: bool = False) -> None:
         if angle > phi:
             moved = frame.positions(world)[:, 0].mean() - w / 2
             # Between a surface at the angle of friction (15 degrees to the tray: w^2 tan 15 / (12 h)) and a level one (a wedge of 40 degrees).
-            run.check("way of its centre down the tray [widths]", moved / w, 0.09, 0.29, why="a surface between 25 degrees and level: 0.11 to 0.27, and half a cell of 40")
+            run.check(
+                "way of its centre down the tray [widths]",
+                moved / w,
+                0.09,
+                0.29,
+                why="a surface between 25 degrees and level: 0.11 to 0.27, and half a cell of 40",
+            )
             return
         run.near("mean height", frame.positions(world)[:, 1].mean(), h / 2, MEAN, CELL, why="grains keep their volume")
         run.check("creep", _creep(run, world, frame, 2), 0, 1, "mm/s", why=CREEP)
@@ -114,8 +140,13 @@ def column(run: Run, aspect: float) -> None:
         run.steps(world, 3)
         p = world.positions.array()
         front = np.sort(p[:, 0])[int(0.99 * len(p))]
-        run.check("run-out over its width", (front - w) / w, 1.2 * aspect - 0.21, 1.8 * aspect + 0.04,
-                  why="1.2 a to 1.8 a, less a toe of 20 degrees that is thinner than half a cell (0.11), less the hundredth of grains at the front (0.1)")
+        run.check(
+            "run-out over its width",
+            (front - w) / w,
+            1.2 * aspect - 0.21,
+            1.8 * aspect + 0.04,
+            why="1.2 a to 1.8 a, less a toe of 20 degrees that is thinner than half a cell (0.11), less the hundredth of grains at the front (0.1)",
+        )
         x = np.linspace(CELL / 2, 1.5 * front, 200)
         area = np.trapezoid(np.clip(world.query_heights([[v, 0] for v in x]), 0, 9), x)
         run.check("volume over that of the start", area / (aspect * w * w), 0.95, 1.1, why="grains keep their volume; loose sand takes up to a tenth more")
@@ -135,9 +166,21 @@ def column_3d(run: Run) -> None:
         q = world.positions.array()
         r = np.hypot(q[:, 0], q[:, 2])
         front = np.sort(r)[int(0.99 * len(r))]
-        run.check("run-out over its radius", (front - radius) / radius, 0.9, 2.1, why="1.24 a to 2.0 sqrt a, and half a cell of 8 less, and a hundredth of the grains at the front")
+        run.check(
+            "run-out over its radius",
+            (front - radius) / radius,
+            0.9,
+            2.1,
+            why="1.24 a to 2.0 sqrt a, and half a cell of 8 less, and a hundredth of the grains at the front",
+        )
         around = [np.sort(r[np.abs(np.arctan2(q[:, 2], q[:, 0]) - t) < 0.2])[-20:].mean() for t in (0.0, math.pi / 4, math.pi / 2)]
-        run.check("front along the grid over that along its diagonal", (around[0] + around[2]) / 2 / around[1], 0.93, 1.07, why="the floor has no direction; half a cell of 8")
+        run.check(
+            "front along the grid over that along its diagonal",
+            (around[0] + around[2]) / 2 / around[1],
+            0.93,
+            1.07,
+            why="the floor has no direction; half a cell of 8",
+        )
         run.check("rms speed", 1e3 * rms(world), 0, 20, "mm/s", why="it has come to rest")
 
 
@@ -154,7 +197,13 @@ def poured(run: Run, half: float, boxes: bool = False) -> None:
         run.steps(world, 2)
         x = np.linspace(0.01, 2 * half - 0.01, 120)
         area = np.trapezoid(np.clip(frame.levels(world, [[v, 0] for v in x]), 0, 9), x) * 2 * half / (x[-1] - x[0])
-        run.check("volume of the heap over that of its grains", area / (emitter.status.emitted_mass / 1600), 0.95, 1.15, why="grains keep their volume; poured sand takes up to a tenth more, the surface is known to half a cell")
+        run.check(
+            "volume of the heap over that of its grains",
+            area / (emitter.status.emitted_mass / 1600),
+            0.95,
+            1.15,
+            why="grains keep their volume; poured sand takes up to a tenth more, the surface is known to half a cell",
+        )
         run.check("rms speed", 1e3 * rms(world), 0, 5, "mm/s", why="it has come to rest")
 
 
@@ -179,7 +228,9 @@ def silo(run: Run, w: float, slot: float, sloped: bool = False) -> None:
         world.add_particles(world.add_material(_sand()), p)
         world.kill_bounds = ((-3, -0.8), (3, 5))
         run.steps(world, 0.5)
-        run.near("mean height before it flows", world.positions.array()[:, 1].mean(), p[:, 1].mean(), 2 * MEAN, cell, why="sand is not crushed by its own weight")
+        run.near(
+            "mean height before it flows", world.positions.array()[:, 1].mean(), p[:, 1].mean(), 2 * MEAN, cell, why="sand is not crushed by its own weight"
+        )
         plug.teleport((0, -5))
         log = []
 
@@ -220,5 +271,7 @@ def weight_of_sand(run: Run) -> None:
         run.check("force on all over the weight", np.mean(both), 0.98, 1.02, why="momentum: the sand rests")
         # The most that walls can bear is with K = 1: (1 - exp(-2 mu h / w)) / (2 mu h / w) stays on the floor.
         x = 2 * mu * h / w
-        run.check("force on the floor over the weight", np.mean(down), (1 - math.exp(-x)) / x, 0.95, why="Janssen with K = 1, and walls that bear at least something")
+        run.check(
+            "force on the floor over the weight", np.mean(down), (1 - math.exp(-x)) / x, 0.95, why="Janssen with K = 1, and walls that bear at least something"
+        )
         run.near("level", 2 * world.positions.array()[:, 1].mean(), h, SURFACE, CELL, why="grains keep their volume")

@@ -47,9 +47,17 @@ def _speed(world: Any, frame: Frame) -> float:
 
 
 @case(
-    plane_10=dict(angle=10, floor="plane"), plane_45=dict(angle=45, floor="plane"), plane_10_stiff=dict(angle=10, floor="plane", modulus=1e7),
-    box_10=dict(angle=10, floor="box"), box_45=dict(angle=45, floor="box"), box_30_soft=dict(angle=30, floor="box", modulus=1e5), box_30_steel=dict(angle=30, floor="box", modulus=1e8),
-    plane_10_3d=dict(dimension=3, angle=10, floor="plane"), plane_45_3d=dict(dimension=3, angle=45, floor="plane"), box_10_3d=dict(dimension=3, angle=10, floor="box"), box_45_3d=dict(dimension=3, angle=45, floor="box"),
+    plane_10=dict(angle=10, floor="plane"),
+    plane_45=dict(angle=45, floor="plane"),
+    plane_10_stiff=dict(angle=10, floor="plane", modulus=1e7),
+    box_10=dict(angle=10, floor="box"),
+    box_45=dict(angle=45, floor="box"),
+    box_30_soft=dict(angle=30, floor="box", modulus=1e5),
+    box_30_steel=dict(angle=30, floor="box", modulus=1e8),
+    plane_10_3d=dict(dimension=3, angle=10, floor="plane"),
+    plane_45_3d=dict(dimension=3, angle=45, floor="plane"),
+    box_10_3d=dict(dimension=3, angle=10, floor="box"),
+    box_45_3d=dict(dimension=3, angle=45, floor="box"),
 )
 def frictionless_slope(run: Run, angle: float, floor: str, dimension: int = 2, modulus: float = 1e6) -> None:
     """A block slides down with g sin, however stiff it is."""
@@ -60,9 +68,15 @@ def frictionless_slope(run: Run, angle: float, floor: str, dimension: int = 2, m
 
 
 @case(
-    mu_1_30=dict(mu=0.1, angle=30, floor="plane"), mu_5_45=dict(mu=0.5, angle=45, floor="plane"), mu_1_30_box=dict(mu=0.1, angle=30, floor="box"), mu_5_45_box=dict(mu=0.5, angle=45, floor="box"),
-    mu_1_30_3d=dict(dimension=3, mu=0.1, angle=30, floor="plane"), mu_5_45_3d=dict(dimension=3, mu=0.5, angle=45, floor="plane"), mu_5_45_box_3d=dict(dimension=3, mu=0.5, angle=45, floor="box"),
-    mu_3_30_soft=dict(mu=0.3, angle=30, floor="plane", modulus=1e5), mu_3_30_stiff=dict(mu=0.3, angle=30, floor="plane", modulus=1e7),
+    mu_1_30=dict(mu=0.1, angle=30, floor="plane"),
+    mu_5_45=dict(mu=0.5, angle=45, floor="plane"),
+    mu_1_30_box=dict(mu=0.1, angle=30, floor="box"),
+    mu_5_45_box=dict(mu=0.5, angle=45, floor="box"),
+    mu_1_30_3d=dict(dimension=3, mu=0.1, angle=30, floor="plane"),
+    mu_5_45_3d=dict(dimension=3, mu=0.5, angle=45, floor="plane"),
+    mu_5_45_box_3d=dict(dimension=3, mu=0.5, angle=45, floor="box"),
+    mu_3_30_soft=dict(mu=0.3, angle=30, floor="plane", modulus=1e5),
+    mu_3_30_stiff=dict(mu=0.3, angle=30, floor="plane", modulus=1e7),
 )
 def rough_slope(run: Run, mu: float, angle: float, floor: str, dimension: int = 2, modulus: float = 1e6) -> None:
     """A block slides down with g (sin - mu cos)."""
@@ -73,7 +87,13 @@ def rough_slope(run: Run, mu: float, angle: float, floor: str, dimension: int = 
         run.check("speed over true one", _speed(world, frame) / (G * (math.sin(a) - mu * math.cos(a)) * 0.8), 0.93, 1.07, why="Coulomb; " + SLOPE)
 
 
-@case(plane_2d=dict(floor="plane"), box_2d=dict(floor="box"), plane_3d=dict(dimension=3, floor="plane"), box_3d=dict(dimension=3, floor="box"), stiff=dict(floor="plane", modulus=1e7))
+@case(
+    plane_2d=dict(floor="plane"),
+    box_2d=dict(floor="box"),
+    plane_3d=dict(dimension=3, floor="plane"),
+    box_3d=dict(dimension=3, floor="box"),
+    stiff=dict(floor="plane", modulus=1e7),
+)
 def rests_on_slope(run: Run, floor: str, dimension: int = 2, modulus: float = 1e6) -> None:
     """A block on 20 degrees with friction 0.5 (27 degrees) stays where it is."""
     world, frame = _block(run, dimension, 20, floor, modulus, 0.5)
@@ -127,13 +147,22 @@ def lies_on_floor(run: Run, dimension: int, shift: float = 0.0) -> None:
     frame = Frame(dimension, 0, [0.0, shift * cell] + [0.0] * (dimension - 2))
     with run.world(dimension, cell) as world:
         world.add_collider(frame.plane([0] * dimension, np.eye(dimension)[1]), friction_coefficient=0.5)
-        world.fill(frame.box([-side / 2] + [0.1] + [-side / 2] * (dimension - 2), [side / 2, 0.1 + side] + [side / 2] * (dimension - 2)), world.add_material(Elastic(young_modulus=1e6)))
+        world.fill(
+            frame.box([-side / 2] + [0.1] + [-side / 2] * (dimension - 2), [side / 2, 0.1 + side] + [side / 2] * (dimension - 2)),
+            world.add_material(Elastic(young_modulus=1e6)),
+        )
         run.steps(world, 4)
         run.near("mean height", frame.positions(world)[:, 1].mean(), side / 2, MEAN, cell, why="contact without a gap")
         run.check("rms speed", 1e3 * rms(world), 0, 2, "mm/s", why="0")
 
 
-@case(disc_10=dict(angle=10, floor="plane"), disc_20_box=dict(angle=20, floor="box"), disc_soft=dict(angle=20, floor="plane", modulus=3e4), ball_20=dict(angle=20, floor="plane", dimension=3), ball_20_box=dict(angle=20, floor="box", dimension=3))
+@case(
+    disc_10=dict(angle=10, floor="plane"),
+    disc_20_box=dict(angle=20, floor="box"),
+    disc_soft=dict(angle=20, floor="plane", modulus=3e4),
+    ball_20=dict(angle=20, floor="plane", dimension=3),
+    ball_20_box=dict(angle=20, floor="box", dimension=3),
+)
 def rolling(run: Run, angle: float, floor: str, dimension: int = 2, modulus: float = 1e5) -> None:
     """A disc rolls down with 2/3 g sin, a ball with 5/7 g sin."""
     a, radius = math.radians(angle), 0.2
@@ -144,7 +173,9 @@ def rolling(run: Run, angle: float, floor: str, dimension: int = 2, modulus: flo
         world.fill(Sphere(frame.out([0.0, radius] + [0.0] * (dimension - 2)).tolist(), radius), world.add_material(Elastic(young_modulus=modulus)))
         run.steps(world, 1)
         true = (2 / 3 if dimension == 2 else 5 / 7) * G * math.sin(a)
-        run.check("speed over true one", _speed(world, frame) / true, 0.8, 1.1, why="rolling without slipping; a soft ball that is 6 to 8 cells thick loses some")
+        run.check(
+            "speed over true one", _speed(world, frame) / true, 0.8, 1.1, why="rolling without slipping; a soft ball that is 6 to 8 cells thick loses some"
+        )
 
 
 @case(flat=dict())
@@ -181,11 +212,24 @@ def bouncing_ball(run: Run, modulus: float, fall: float) -> None:
         end = next((k for k in range(on[0], len(force)) if force[k] <= 0.02 * max(force)), len(force) - 1)
         speed, mass = math.sqrt(2 * G * fall), 1000 * 4 / 3 * math.pi * radius**3
         hertz = 2.94 * (15 * mass * speed**2 / (16 * math.sqrt(radius) * modulus / (1 - poisson**2))) ** 0.4 / speed
-        run.check("coefficient of restitution", math.sqrt(max(0.0, max(height[end:]) - radius) / fall), 0.6, 1.0, why="an elastic ball: 0.8 to 1, the rest goes to waves")
+        run.check(
+            "coefficient of restitution",
+            math.sqrt(max(0.0, max(height[end:]) - radius) / fall),
+            0.6,
+            1.0,
+            why="an elastic ball: 0.8 to 1, the rest goes to waves",
+        )
         run.check("contact time over Hertz's", (end - on[0]) / run.rate / hertz, 0.75, 1.3, why="Hertz; a step is a tenth to a quarter of it")
 
 
-@case(soft=dict(modulus=1e5), stiff=dict(modulus=2e5), three_d=dict(modulus=1e5, dimension=3), sideways=dict(modulus=1e5, angle=90.0), turned_20=dict(modulus=1e5, angle=20.0), face_above_nodes=dict(modulus=1e5, shift=0.02))
+@case(
+    soft=dict(modulus=1e5),
+    stiff=dict(modulus=2e5),
+    three_d=dict(modulus=1e5, dimension=3),
+    sideways=dict(modulus=1e5, angle=90.0),
+    turned_20=dict(modulus=1e5, angle=20.0),
+    face_above_nodes=dict(modulus=1e5, shift=0.02),
+)
 def hanging_bar(run: Run, modulus: float, dimension: int = 2, angle: float = 0.0, shift: float = 0.0) -> None:
     """A bar of 1 m that hangs from a ceiling stretches by rho g L^2 / (2 E)."""
     cell, poisson, length, half = 0.05, 0.3, 1.0, 0.1
@@ -202,7 +246,13 @@ def hanging_bar(run: Run, modulus: float, dimension: int = 2, angle: float = 0.0
         true = 1000 * G * length**2 / 2 * plane / modulus
         found = -(np.mean(tip) + length - cell / 4)
         slack = max(0.1 * true, 0.1 * cell)
-        run.check("stretch over true one", found / true, 1 - slack / true, 1 + slack / true, why="Hooke, plane strain in 2D; a tenth, and a tenth of a cell, for the grip of the ceiling")
+        run.check(
+            "stretch over true one",
+            found / true,
+            1 - slack / true,
+            1 + slack / true,
+            why="Hooke, plane strain in 2D; a tenth, and a tenth of a cell, for the grip of the ceiling",
+        )
 
 
 @case(slow=dict(speed=2.0, mu=0.3), fast=dict(speed=4.0, mu=0.5), three_d=dict(speed=2.0, mu=0.3, dimension=3))
@@ -212,7 +262,11 @@ def skid(run: Run, speed: float, mu: float, dimension: int = 2) -> None:
     frame = Frame(dimension)
     with run.world(dimension, cell) as world:
         _slope(run, world, frame, "plane", mu)
-        world.fill(frame.box([-0.2, 0] + [-0.1] * (dimension - 2), [0.2, 0.2] + [0.1] * (dimension - 2)), world.add_material(Elastic(young_modulus=1e6)), velocity=[speed] + [0.0] * (dimension - 1))
+        world.fill(
+            frame.box([-0.2, 0] + [-0.1] * (dimension - 2), [0.2, 0.2] + [0.1] * (dimension - 2)),
+            world.add_material(Elastic(young_modulus=1e6)),
+            velocity=[speed] + [0.0] * (dimension - 1),
+        )
         start = world.positions.array()[:, 0].mean()
         run.steps(world, speed / (mu * G) + 1)
         way = world.positions.array()[:, 0].mean() - start

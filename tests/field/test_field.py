@@ -51,11 +51,7 @@ def test_what_holds_goes_on_holding(name: str) -> None:
 
 @pytest.mark.parametrize(
     ("name", "what"),
-    [
-        pytest.param(name, what, marks=pytest.mark.xfail(strict=False, reason=REASONS[QUICK[name].room]))
-        for name in QUICK
-        for what in MISSES.get(name, [])
-    ],
+    [pytest.param(name, what, marks=pytest.mark.xfail(strict=False, reason=REASONS[QUICK[name].room])) for name in QUICK for what in MISSES.get(name, [])],
 )
 def test_what_does_not_hold_yet(name: str, what: str) -> None:
     found = next((row for row in rows(name) if row["what"] == what), None)

@@ -123,7 +123,12 @@ def terrain(run: Run) -> None:
         _rest(run, world, Frame(), p[:, 1].mean(), 0.01)
 
 
-@case(wide_off=dict(cells=16, depth=6, kind="boxes"), narrow_off=dict(cells=6, depth=12, kind="boxes"), turned_20=dict(cells=10, depth=8, kind="boxes", angle=20.0), planes_off=dict(cells=10, depth=8, kind="planes"))
+@case(
+    wide_off=dict(cells=16, depth=6, kind="boxes"),
+    narrow_off=dict(cells=6, depth=12, kind="boxes"),
+    turned_20=dict(cells=10, depth=8, kind="boxes", angle=20.0),
+    planes_off=dict(cells=10, depth=8, kind="planes"),
+)
 def glass(run: Run, cells: int, depth: int, kind: str, angle: float = 0.0) -> None:
     """Glasses of other sizes in 3D, 0.3 cells off the grid or turned."""
     cell = 0.025
@@ -230,7 +235,9 @@ def block_wall(run: Run, offset: float) -> None:
         run.check("share of water behind the wall", (x > 0.8 + size / 2).mean(), 0, 0.001, why="stacked boxes do not leak")
 
 
-@case(two_cells=dict(cells=2.0, shift=0.0), two_cells_off=dict(cells=2.0, shift=0.5), one_cell=dict(cells=1.0, shift=0.0), one_cell_off=dict(cells=1.0, shift=0.4))
+@case(
+    two_cells=dict(cells=2.0, shift=0.0), two_cells_off=dict(cells=2.0, shift=0.5), one_cell=dict(cells=1.0, shift=0.0), one_cell_off=dict(cells=1.0, shift=0.4)
+)
 def two_pools(run: Run, cells: float, shift: float) -> None:
     """A thin wall between pools of 12 and 6 cells."""
     half, thick = 0.8, cells * CELL
@@ -289,8 +296,13 @@ def standing_wave(run: Run, kind: str) -> None:
     # The centre of mass swings by the first moment of the surface: 2 a w / (pi^2 h).
     true = 2 * high * WIDTH / (math.pi**2 * DEPTH)
     last = t > 8.5 * period
-    run.check("amplitude in the ninth period over the first one's true one", np.ptp(c[last]) / 2 / true, 0.85, 1.03,
-              why="Airy: 1; water loses less than a per cent, what is seen as the same wave is 0.85")
+    run.check(
+        "amplitude in the ninth period over the first one's true one",
+        np.ptp(c[last]) / 2 / true,
+        0.85,
+        1.03,
+        why="Airy: 1; water loses less than a per cent, what is seen as the same wave is 0.85",
+    )
     zero = np.flatnonzero((c[:-1] < 0) & (c[1:] >= 0))
     cross = t[zero] - c[zero] * (t[zero + 1] - t[zero]) / (c[zero + 1] - c[zero])
     found = 2 * math.pi * (len(cross) - 1) / (cross[-1] - cross[0]) if len(cross) > 1 else math.nan
@@ -314,7 +326,9 @@ def wall_forces(run: Run, angle: float) -> None:
 
         run.steps(world, 6, after=watch)
         run.check("force on the floor over the weight", np.mean(down) / weight, 0.98, 1.02, why="walls without friction bear no weight")
-        run.check("force on a side wall over rho g h^2 / 2", np.mean(side) / (1000 * G * DEPTH**2 / 2), 0.92, 1.08, why="hydrostatics; half a cell of level is 8 %")
+        run.check(
+            "force on a side wall over rho g h^2 / 2", np.mean(side) / (1000 * G * DEPTH**2 / 2), 0.92, 1.08, why="hydrostatics; half a cell of level is 8 %"
+        )
 
 
 @case(box=dict(shape="box"), turned_box=dict(shape="turned"), ball=dict(shape="ball"))
@@ -366,13 +380,22 @@ def pour(run: Run, width: float, depth: float, angle: float) -> None:
     with run.world(2, cell, frame.gravity) as world:
         tank(world, frame, width, 0.5, "boxes", thick=0.06, friction=Friction.COULOMB, friction_coefficient=0.1)
         mouth = Sphere(frame.out((width / 2, 0.6)).tolist(), nozzle / 2)
-        emitter = world.add_emitter(mouth, world.add_material(Liquid()), nozzle * speed, region=Region.DISC, speed=speed, direction=(-frame.up).tolist(),
-                                    budget=int(width * depth / (cell / 2) ** 2))
+        emitter = world.add_emitter(
+            mouth,
+            world.add_material(Liquid()),
+            nozzle * speed,
+            region=Region.DISC,
+            speed=speed,
+            direction=(-frame.up).tolist(),
+            budget=int(width * depth / (cell / 2) ** 2),
+        )
         run.steps(world, width * depth / (nozzle * speed) + 3)
         level = frame.levels(world, [[x, 0] for x in np.linspace(0.15 * width, 0.85 * width, 9)]).mean()
         inside = (np.abs(frame.positions(world)[:, 0] - width / 2) < width / 2).sum()
         run.near("level", level, inside * (cell / 2) ** 2 / width, SURFACE, cell, why="water keeps its volume")
-        run.check("share of the budget that is in the glass", inside * (cell / 2) ** 2 / (width * depth), 0.97, 1.0, why="a jet narrower than the glass hits it")
+        run.check(
+            "share of the budget that is in the glass", inside * (cell / 2) ** 2 / (width * depth), 0.97, 1.0, why="a jet narrower than the glass hits it"
+        )
         assert emitter
 
 
@@ -420,4 +443,10 @@ def slot(run: Run, slot: float) -> None:
         t, volume, level = np.array(log).T
         flow = -np.polyfit(t, volume, 1)[0] / (slot * np.sqrt(2 * G * level).mean())
         spread = 2 * 0.25 * cell / slot  # a quarter of a cell at each edge
-        run.check("discharge over the true one", flow / true, 1 - max(spread, 0.08), 1 + max(spread, 0.08), why="Torricelli, von Mises' contraction; a quarter of a cell at each edge")
+        run.check(
+            "discharge over the true one",
+            flow / true,
+            1 - max(spread, 0.08),
+            1 + max(spread, 0.08),
+            why="Torricelli, von Mises' contraction; a quarter of a cell at each edge",
+        )
