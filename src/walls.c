@@ -169,9 +169,6 @@ static int64_t node_beside(const Grid *grid, int32_t block, const int local[3], 
 
 static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
 
-/* The same scene elsewhere has other roundings; they do not get past this. */
-static double rounded(double value) { return round(value * 4194304.0) / 4194304.0; }
-
 /* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
 static float wetness(const Site *site, const Face *face)
 {
@@ -235,7 +232,7 @@ static int profiles_of(const Site *site, const Face *face, int count, Profile pr
     for (int i = 0; i < count; i++) {
         Profile *p = &profile[used];
         bool upright = i == 0 || face[i].distance < 1.0;
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = rounded(face[i].normal[a]);
+        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(face[i].normal[a]);
         for (int k = 0; k < used; k++) upright = upright && fabs(dot(p->normal, profile[k].normal)) <= UPRIGHT;
         if (!upright) continue;
         for (int k = 0; k < used; k++) {
@@ -244,7 +241,7 @@ static int profiles_of(const Site *site, const Face *face, int count, Profile pr
         }
         const double length = sqrt(dot(p->axis, p->axis));
         for (int a = 0; a < 3; a++) p->axis[a] /= length;
-        p->distance = rounded(face[i].distance);
+        p->distance = field_rounded(face[i].distance);
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
         obstacle_motion(face[i].obstacle, face[i].foot, site->frame->cell_size, site->frame->max_displacement, p->surface);
         owner[used++] = face[i].obstacle;
