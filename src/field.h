@@ -54,7 +54,8 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
  * node's spline. */
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other);
 
-/* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. */
-double field_open_share(const Near *near, const double point[3], double deepest);
+/* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. `known`: the planes around it, if the
+ * caller has them, `count` of them; else null. */
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count);
 
 #endif

@@ -114,17 +114,20 @@ static bool nearest_surface(const Near *near, const double point[3], Face *face)
 }
 
 /* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
-static bool push_particle(const ContactFrame *frame, const Near *near, Particles *p, int32_t block, uint32_t row, float dt, const Book *book)
+static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, Particles *p, int32_t block, uint32_t row, float dt,
+                          const Book *book)
 {
+    Near near;
     double point[3] = {0};
     Face face[FIELD_FACES];
     ImpulseSum *sum[FIELD_FACES] = {NULL};
     for (int a = 0; a < p->dimension; a++) point[a] = ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size;
-    if (field_distance(near, point) >= 0.0) return true;
-    int count = field_faces(near, point, NODE_REACH, face);
+    if (field_distance(close, point) >= 0.0) return true;
+    field_near(&near, frame, centre, reach + 2.0 * NODE_REACH, true);
+    int count = field_faces(&near, point, NODE_REACH, face);
     if (count == 0) {
         const bool stays = frame->stays && frame->stays[p->material[row]].kind == K_LIQUID;
-        count = nearest_surface(near, point, face);
+        count = nearest_surface(&near, point, face);
         if (count == 0 || (stays && !face[0].obstacle->wall)) return true;
     }
     for (int i = 0; i < count; i++)
@@ -282,10 +285,10 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
         hold_block(frame, o, particles, dt, block, sum);
     }
     contacts_block_centre(frame, block, centre);
-    const double way = (double)((const float *)frame->grid->travel.data)[block] + 2.0; /* held back, or beside its way */
-    field_near(&near, frame, centre, 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + way + 2.0 * NODE_REACH, true);
+    const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
+    field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
     for (; row < begin[block + 1] && near.count > 0; row++) {
-        if (particles->status[row] != K_ALIVE || push_particle(frame, &near, particles, block, row, dt, book)) continue;
+        if (particles->status[row] != K_ALIVE || push_particle(frame, &near, centre, reach, particles, block, row, dt, book)) continue;
         book->notes->resume = colliders->obstacle_count;
         book->notes->row = row;
         return;
