@@ -8,7 +8,7 @@
 /* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not
  * matter. */
 static const double DEEPEST = 1.0;
-static const float LEAST_SHARE = 1.0f / 48.0f; /* there */
+static const float LEAST_SHARE = 1.0f / (48.0f * 48.0f * 48.0f); /* there, in a corner */
 
 double open_share_at(const ContactFrame *frame, const double node[3])
 {
