@@ -153,6 +153,8 @@ struct KernelArgs {
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */
+    float settle;               /* share of what sand is compressed by beyond its pressure that a substep gives back */
+    int32_t elastic_guesses;    /* whether those are elastic bodies too, or sand alone */
     K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */
     K_PTR(float) cell_pressure;
     K_PTR(float) cell_pressure_old;

@@ -1,6 +1,6 @@
 #!/bin/sh
-# demo.sh - from a fresh clone to pictures: sets up, builds, runs a dam break in 2D and one with elastic blocks in 3D,
-# and compares the first with the experiment of Martin and Moyce. Pictures: build/demo/*.png
+# demo.sh - from a fresh clone to pictures: sets up, builds, runs a dam break in 2D, one with elastic blocks in 3D and some
+# scenes at the pace of a game, and compares the first with the experiment of Martin and Moyce. Pictures: build/demo/*.png
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
@@ -17,6 +17,11 @@ $pbmpm run samples/scenes/dam_break_2d.json --output build/demo
 
 stage "Dam break with elastic blocks in 3D"
 $pbmpm run samples/scenes/dam_break_blocks_3d.json --output build/demo
+
+for scene in glass_jelly_3d water_wheel_2d hourglass_2d boat_2d jelly_tower_2d tiled_level_2d; do
+    stage "At the pace of a game: $scene"
+    $pbmpm run samples/scenes/$scene.json --output build/demo
+done
 
 stage "Dam break against the experiment of Martin and Moyce (1952)"
 status=0

@@ -13,13 +13,15 @@ int main(void)
     pbmpm_world_def_init(&tank, sizeof tank); /* 3D, cells of 0.1 m */
     pbmpm_settings_init(&settings, sizeof settings);
     pbmpm_material_def_init(&water, sizeof water);
-    pbmpm_fill_def_init(&fill, sizeof fill); /* a box of 1 m around a corner of the tank */
-    tank.domain_enabled = 1;                 /* closed, 1 m wide */
+    pbmpm_fill_def_init(&fill, sizeof fill); /* a box of 1 m around the origin */
+    tank.domain_enabled = 1;                 /* closed, from 0 to 1 m */
+    fill.shape.position[0] = fill.shape.position[2] = 0.5f; /* its lower half is full: what is outside is left out */
     settings.gravity[1] = -9.81f;
     int failed = pbmpm_world_create(&tank, &world) || pbmpm_world_set_settings(world, &settings) ||
                  pbmpm_material_create(world, &water, &fill.material) || pbmpm_particles_fill(world, &fill, NULL);
     for (int frame = 0; frame < 60 && !failed; frame++) failed = pbmpm_world_step(world, 1.0f / 60);
     if (failed || pbmpm_world_get_stats(world, &stats)) return fprintf(stderr, "%s\n", pbmpm_last_error()), 1;
-    printf("%u particles, at most %.2f m/s, %.2f ms per step\n", stats.particle_count, stats.max_speed, stats.ms_total);
+    printf("%u particles, at most %.2f m/s, %.2f ms per step, ", stats.particle_count, stats.max_speed, stats.ms_total);
+    printf("level %.3f m\n", 2.0 * stats.potential_energy / (9.81 * stats.mass)); /* twice the height of the middle: 0.5 */
     return pbmpm_world_destroy(world);
 }

@@ -244,7 +244,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
-    *effective = effective_modulus(w, &w->materials.def[material.index], (double)dt / w->settings.substeps);
+    *effective = effective_modulus(w, material.index, (double)dt / w->settings.substeps);
     LET_GO(PBMPM_OK);
 }
 

@@ -1,6 +1,7 @@
-/* Exported functions of snapshot.h, async.h and query.h: check the arguments, hold the world, forward, let go. */
+/* Exported functions of snapshot.h, async.h, query.h and advice.h: check the arguments, hold the world, forward, let go. */
 #include "pbmpm/pbmpm.h"
 
+#include "advice.h"
 #include "api_call.h"
 #include "background.h"
 #include "query.h"
@@ -136,3 +137,18 @@ pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_r
     if (problem) LET_GO(api_invalid(problem));
     LET_GO(query_ray(w, ray, hit));
 }
+
+/* ---- advice.h ---- */
+
+pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE(count);
+    if (capacity) {
+        REQUIRE_SIZE(array);
+    }
+    HOLD(world);
+    if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
+    LET_GO(advice_give(w, (double)dt, array, capacity, count));
+}
+
+const char *pbmpm_advice_name(pbmpm_advice_code code) { return advice_name(code); }

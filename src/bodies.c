@@ -1,29 +1,12 @@
 #include "bodies.h"
 
-/* The lowest block of the set that a block is in; paths are halved on the way. */
-static int32_t root_of(int32_t *up, int32_t block)
-{
-    while (up[block] != block) {
-        up[block] = up[up[block]];
-        block = up[block];
-    }
-    return block;
-}
-
-static void join(int32_t *up, int32_t a, int32_t b)
-{
-    const int32_t root_a = root_of(up, a), root_b = root_of(up, b);
-    if (root_a < root_b)
-        up[root_b] = root_a;
-    else
-        up[root_a] = root_b;
-}
+#include "sets.h"
 
 /* A root is the lowest of its set, so it has its number before the others ask for it. */
 static int32_t number_sets(int32_t *up, int32_t blocks)
 {
     int32_t count = 0;
-    for (int32_t b = 0; b < blocks; b++) up[b] = root_of(up, b);
+    for (int32_t b = 0; b < blocks; b++) up[b] = sets_root(up, b);
     for (int32_t b = 0; b < blocks; b++) up[b] = up[b] == b ? -1 - count++ : up[b];
     for (int32_t b = 0; b < blocks; b++)
         if (up[b] >= 0) up[b] = up[up[b]]; /* a root's number, as -1 - number */
@@ -39,7 +22,7 @@ bool bodies_find(Bodies *bodies, Memory *memory, const Grid *grid)
     for (int32_t b = 0; b < grid->particle_blocks; b++) {
         const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)b * (size_t)grid->neighbours;
         for (int n = 0; n < grid->neighbours; n++)
-            if (neighbour[n] >= 0) join(up, b, neighbour[n]);
+            if (neighbour[n] >= 0) sets_join(up, b, neighbour[n]);
     }
     bodies->count = number_sets(up, grid->node_blocks);
     return true;

@@ -35,6 +35,8 @@ typedef struct Contact {
     pbmpm_friction friction;
     float coefficient;
     bool active; /* while the primal solver works: see holds_find() */
+    uint8_t group; /* of the body's contacts with about this normal, and */
+    float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see holds_rub() */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];

@@ -9,8 +9,18 @@ typedef struct Layer {
     uint32_t particles;
 } Layer;
 
+static uint32_t liquid_in(const World *world, int32_t block)
+{
+    const Grid *grid = &world->grid;
+    const uint32_t *block_run = grid->block_run.data;
+    uint32_t particles = 0;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+        if (world->materials.kernel[grid->run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) particles += grid->run_begin[run + 1] - grid->run_begin[run];
+    return particles;
+}
+
 /* Blocks that are asleep follow those of the grid. */
-static Layer layer_of(const World *world, int32_t i)
+static Layer layer_of(const World *world, int32_t i, bool liquid)
 {
     const Grid *grid = &world->grid;
     int32_t corner[3], place[3];
@@ -18,7 +28,7 @@ static Layer layer_of(const World *world, int32_t i)
     if (i < grid->particle_blocks) {
         const uint32_t *begin = grid->block_begin.data;
         memcpy(place, (const int32_t *)grid->coordinate.data + 3 * i, sizeof place);
-        layer.particles = begin[i + 1] - begin[i];
+        layer.particles = liquid ? liquid_in(world, i) : begin[i + 1] - begin[i];
     } else {
         const SleepBlock *block = sleep_list_block(&world->sleep.asleep, (uint32_t)(i - grid->particle_blocks));
         sleep_place(&world->sleep, grid->anchor, grid->dimension, corner);
@@ -29,22 +39,23 @@ static Layer layer_of(const World *world, int32_t i)
     return layer;
 }
 
-double depth_along_gravity(const World *world, bool asleep_too)
+/* Of so many particles in the first `blocks`; liquid: in those of liquids alone. */
+static double depth_of(const World *world, int32_t blocks, double particles, bool liquid)
 {
     enum { BINS = 64, ROUNDS = 4 };
-    const int32_t blocks = world->grid.particle_blocks + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
-    const double particles = world->particles.count - (asleep_too ? 0 : world->sleep.rows);
     const double trim = 0.02 * particles;
     double low = INFINITY, high = -INFINITY;
     for (int32_t block = 0; block < blocks; block++) {
-        low = fmin(low, layer_of(world, block).depth);
-        high = fmax(high, layer_of(world, block).depth);
+        const Layer layer = layer_of(world, block, liquid);
+        if (layer.particles == 0) continue;
+        low = fmin(low, layer.depth);
+        high = fmax(high, layer.depth);
     }
     for (int round = 0; round < ROUNDS && high > low; round++) {
         double count[BINS] = {0}, below = 0.0;
         const double width = (high - low) / BINS;
         for (int32_t block = 0; block < blocks; block++) {
-            const Layer layer = layer_of(world, block);
+            const Layer layer = layer_of(world, block, liquid);
             const double bin = (layer.depth - low) / width;
             if (bin < 0.0) below += layer.particles;
             if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += layer.particles;
@@ -58,6 +69,12 @@ double depth_along_gravity(const World *world, bool asleep_too)
         low = low + first * width;
     }
     return (high - low) * K_BLOCK_AXIS;
+}
+
+double depth_along_gravity(const World *world, bool asleep_too)
+{
+    const int32_t blocks = world->grid.particle_blocks + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
+    return depth_of(world, blocks, world->grid.end_row - (asleep_too ? 0 : world->grid.first_row), false);
 }
 
 double gravity_strength(const World *world)
@@ -77,6 +94,14 @@ double matter_depth(const World *world)
     const double strength = gravity_strength(world);
     if (strength > 0.0) return fmax(1.0, depth_along_gravity(world, false) / strength);
     return pow((double)world->grid.particle_blocks * world->grid.block_cells, 1.0 / world->def.dimension);
+}
+
+double liquid_depth(const World *world)
+{
+    const double strength = gravity_strength(world);
+    uint32_t particles = 0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) particles += liquid_in(world, block);
+    return strength > 0.0 && particles > 0 ? fmax(1.0, depth_of(world, world->grid.particle_blocks, particles, true) / strength) : 1.0;
 }
 
 double slowest_pressure(const World *world) { return 3.14159265358979 / (4.0 * matter_depth(world)); }

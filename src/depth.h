@@ -11,6 +11,9 @@ double depth_along_gravity(const World *world, bool asleep_too);
 /* The same of those in the grid in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
 double matter_depth(const World *world);
 
+/* The same of the liquid alone. 1 without gravity. */
+double liquid_depth(const World *world);
+
 /* sqrt(a) of the slowest mode of the pressure in matter that rests on something: a wave with the wave number k per cell has the eigenvalue
  * a = (k / 2)^2 of "scatter stresses, gather gradients", and the slowest is a quarter wave over the n cells of the depth, a = (pi / 4n)^2. */
 double slowest_pressure(const World *world);

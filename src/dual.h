@@ -31,6 +31,9 @@ void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);
 
+/* What the dual solver keeps of sand, where 1 Pa is the multiplier c. */
+void dual_set_sand(World *world, uint32_t slot, double c);
+
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
 double dual_stiffened(const World *world, double substep, double iterations);
 

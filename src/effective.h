@@ -4,7 +4,7 @@
 
 #include "world.h"
 
-/* `substep`: its length [s]. */
-pbmpm_effective effective_modulus(const World *world, const pbmpm_material_def *def, double substep);
+/* Of a live material; `substep`: its length [s]. With PBMPM_SOLVER_CONVERGENT it looks where the particles are. */
+pbmpm_effective effective_modulus(World *world, uint32_t slot, double substep);
 
 #endif

@@ -361,7 +361,7 @@ void forces_account(Forces *forces, int32_t node_blocks)
             nodes += share->nodes;
             for (int a = 0; a < 3; a++) force->impulse[a] += share->impulse[a];
         }
-        force->nodes = (uint32_t)nodes;
+        force->nodes += (uint32_t)nodes;
         place++;
     }
 }

@@ -6,6 +6,9 @@
 
 enum { BLOCK_GRAIN = 4, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
 
+/* Per particle, and the end of the runs of each part. */
+static size_t scratch_bytes(uint32_t capacity) { return ((size_t)capacity + GRID_PARTS) * 4; }
+
 pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capacity)
 {
     const bool deep = dimension == 3;
@@ -14,7 +17,7 @@ pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capac
                    .block_cells = deep ? K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS : K_BLOCK_AXIS * K_BLOCK_AXIS,
                    .tile_nodes = deep ? K_TILE_AXIS * K_TILE_AXIS * K_TILE_AXIS : K_TILE_AXIS * K_TILE_AXIS,
                    .capacity = capacity};
-    const size_t bytes = ((size_t)capacity + 1) * 4;
+    const size_t bytes = scratch_bytes(capacity);
     const bool ok = (grid->run_begin = memory_take(memory, bytes)) && (grid->run_key = memory_take(memory, bytes)) &&
                     (grid->block_of = memory_take(memory, bytes)) && (grid->order = memory_take(memory, bytes)) &&
                     (grid->order_scratch = memory_take(memory, bytes));
@@ -25,9 +28,14 @@ pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capac
 
 void grid_free(Grid *grid, Memory *memory)
 {
-    const size_t bytes = ((size_t)grid->capacity + 1) * 4;
+    const size_t bytes = scratch_bytes(grid->capacity);
     void *whole[] = {grid->run_begin, grid->run_key, grid->block_of, grid->order, grid->order_scratch};
     for (size_t i = 0; i < sizeof whole / sizeof *whole; i++) memory_give(memory, whole[i], bytes);
+    grid_free_part(grid, memory);
+}
+
+void grid_free_part(Grid *grid, Memory *memory)
+{
     Array *arrays[] = {&grid->coordinate,  &grid->neighbour,    &grid->block_begin, &grid->block_run, &grid->tile,  &grid->tile_volume,
                        &grid->node,        &grid->node_base,    &grid->node_volume, &grid->node_density,
                        &grid->node_reach,  &grid->edged,        &grid->clamped,      &grid->moved,     &grid->lost,  &grid->travel,
@@ -101,7 +109,7 @@ typedef struct Seen {
     int32_t block;
 } Seen;
 
-static void drop_anchor(const Particles *p, int32_t anchor[3])
+void grid_drop_anchor(const Particles *p, int32_t anchor[3])
 {
     for (int a = 0; a < p->dimension; a++) {
         int32_t lowest = INT32_MAX;
@@ -119,27 +127,37 @@ bool grid_begin(Grid *grid, Memory *memory, const int32_t anchor[3])
     return true;
 }
 
+static void see_none(Seen seen[8])
+{
+    for (int k = 0; k < 8; k++) seen[k] = (Seen){.coordinate = {-1, -1, -1}}; /* no particle's block */
+}
+
+static inline bool add_row(Grid *grid, Memory *memory, const Particles *p, uint32_t i, Seen seen[8])
+{
+    int32_t cell[3] = {0}, c[3] = {0};
+    for (int a = 0; a < p->dimension; a++) {
+        cell[a] = p->cell[a][i] - grid->anchor[a];
+        c[a] = cell[a] / K_BLOCK_AXIS;
+    }
+    Seen *near = &seen[(c[0] & 1) | (c[1] & 1) << 1 | (c[2] & 1) << 2];
+    if (c[0] != near->coordinate[0] || c[1] != near->coordinate[1] || c[2] != near->coordinate[2]) {
+        *near = (Seen){{c[0], c[1], c[2]}, find_or_add(grid, memory, c)};
+        if (near->block < 0) return false;
+    }
+    FoundBlock *found = (FoundBlock *)grid->found.data + near->block;
+    found->particles++;
+    found->sides |= sides_of(cell, p->dimension);
+    grid->block_of[i] = near->block;
+    return true;
+}
+
 bool grid_add_rows(Grid *grid, Memory *memory, const Particles *p, uint32_t begin, uint32_t end)
 {
     Seen seen[8];
-    for (int k = 0; k < 8; k++) seen[k] = (Seen){.coordinate = {-1, -1, -1}}; /* no particle's block */
-    for (uint32_t i = begin; i < end; i++) {
-        int32_t cell[3] = {0}, c[3] = {0};
-        for (int a = 0; a < p->dimension; a++) {
-            cell[a] = p->cell[a][i] - grid->anchor[a];
-            c[a] = cell[a] / K_BLOCK_AXIS;
-        }
-        Seen *near = &seen[(c[0] & 1) | (c[1] & 1) << 1 | (c[2] & 1) << 2];
-        if (c[0] != near->coordinate[0] || c[1] != near->coordinate[1] || c[2] != near->coordinate[2]) {
-            *near = (Seen){{c[0], c[1], c[2]}, find_or_add(grid, memory, c)};
-            if (near->block < 0) return false;
-        }
-        FoundBlock *found = (FoundBlock *)grid->found.data + near->block;
-        found->particles++;
-        found->sides |= sides_of(cell, p->dimension);
-        grid->block_of[i] = near->block;
-    }
-    return true;
+    bool added = true;
+    see_none(seen);
+    for (uint32_t i = begin; i < end && added; i++) added = add_row(grid, memory, p, i, seen);
+    return added;
 }
 
 FoundBlock *grid_found(const Grid *grid, const int32_t place[3])
@@ -292,13 +310,14 @@ static void link_neighbours(void *context, int32_t begin, int32_t end)
 
 /* ---- Order of particles: stable counting sorts, by block, then inside each block by material and cell. ---- */
 
-static void order_by_block(Grid *grid, uint32_t count)
+static void order_by_block(Grid *grid, bool listed)
 {
     const FoundBlock *found = grid->found.data;
     uint32_t *begin = grid->block_begin.data;
-    for (uint32_t i = grid->first_row; i < count; i++) {
-        const int32_t block = found[grid->block_of[i]].index;
-        grid->order[begin[block]++] = i;
+    for (uint32_t i = grid->first_row; i < grid->end_row; i++) {
+        const uint32_t row = listed ? grid->order_scratch[i] : i;
+        const int32_t block = found[grid->block_of[row]].index;
+        grid->order[begin[block]++] = row;
     }
     for (int32_t b = grid->particle_blocks; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
     begin[0] = grid->first_row;
@@ -392,30 +411,80 @@ static void build_runs(Grid *grid, Particles *p, Pool *pool)
     for (int32_t b = 0; b < grid->particle_blocks; b++) block_run[b + 1] += block_run[b];
     pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, write_runs, &job);
     grid->runs = block_run[grid->particle_blocks];
-    grid->run_begin[grid->runs] = p->count;
+    grid->run_begin[grid->runs] = grid->end_row;
 }
 
-pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, uint32_t first)
+static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, bool listed)
 {
     if (!find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
         grid_clear(grid);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
     }
     SortJob job = {grid, p};
-    grid->first_row = first;
     place_blocks(grid);
-    order_by_block(grid, p->count);
+    order_by_block(grid, listed);
     pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, sort_inside_blocks, &job);
-    particles_reorder(p, grid->order, first, pool);
-    build_runs(grid, p, pool);
-    pool_for(pool, grid->node_blocks, BLOCK_GRAIN, link_neighbours, grid);
     return PBMPM_OK;
 }
+
+static void link_all(Grid *grid, Particles *p, Pool *pool)
+{
+    build_runs(grid, p, pool);
+    pool_for(pool, grid->node_blocks, BLOCK_GRAIN, link_neighbours, grid);
+}
+
+pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, uint32_t first)
+{
+    grid->first_row = first;
+    grid->end_row = p->count;
+    const pbmpm_result result = arrange(grid, memory, p, pool, with_volume, false);
+    if (result != PBMPM_OK) return result;
+    particles_reorder(p, grid->order, first, pool);
+    link_all(grid, p, pool);
+    return PBMPM_OK;
+}
+
+/* ---- Parts: grids of some of the particles each ---- */
+
+void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32_t end)
+{
+    part->dimension = whole->dimension;
+    part->neighbours = whole->neighbours;
+    part->block_cells = whole->block_cells;
+    part->tile_nodes = whole->tile_nodes;
+    part->first_row = first;
+    part->end_row = end;
+    part->block_of = whole->block_of;
+    part->order = whole->order;
+    part->order_scratch = whole->order_scratch;
+    if (place == 0) return; /* the whole grid itself */
+    part->run_begin = whole->run_begin + first + place;
+    part->run_key = whole->run_key + first + place;
+}
+
+pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *p, Pool *pool, bool with_volume)
+{
+    int32_t anchor[3];
+    const uint32_t *row = part->order_scratch;
+    Seen seen[8];
+    see_none(seen);
+    for (int a = 0; a < p->dimension; a++) {
+        anchor[a] = INT32_MAX;
+        for (uint32_t i = part->first_row; i < part->end_row; i++) anchor[a] = p->cell[a][row[i]] < anchor[a] ? p->cell[a][row[i]] : anchor[a];
+    }
+    bool added = grid_begin(part, memory, anchor);
+    for (uint32_t i = part->first_row; i < part->end_row && added; i++) added = add_row(part, memory, p, row[i], seen);
+    if (added) return arrange(part, memory, p, pool, with_volume, true);
+    grid_clear(part);
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", part->found_count);
+}
+
+void grid_link_part(Grid *part, Particles *p, Pool *pool) { link_all(part, p, pool); }
 
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
 {
     int32_t anchor[3];
-    drop_anchor(p, anchor);
+    grid_drop_anchor(p, anchor);
     if (grid_begin(grid, memory, anchor) && grid_add_rows(grid, memory, p, 0, p->count))
         return grid_finish(grid, memory, p, pool, with_volume, 0);
     grid_clear(grid);

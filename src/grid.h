@@ -10,6 +10,9 @@
 /* [cells] per axis: where the quadratic spline of a node ends, and what a particle touches. */
 #define NODE_REACH 1.5
 
+/* Into how many parts the particles may be divided that have a grid each; see islands.h. */
+enum { GRID_PARTS = 7 };
+
 /* How the blocks with particles are ordered: first those that sleep, see sleep.h. Without sleeping all move. */
 typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } GridRank;
 
@@ -38,15 +41,15 @@ typedef struct Grid {
     int32_t particle_blocks;
     int32_t node_blocks;
     int32_t still_blocks; /* of the particle blocks the first ones, which take part, but whose particles sleep */
-    uint32_t first_row;   /* particles before this one are not in the grid: they sleep */
+    uint32_t first_row, end_row; /* particles before and from there on are not in the grid: they sleep, or are in another part */
     Array coordinate;    /* int32_t[3] per node block: its position in blocks from the anchor */
     Array neighbour;     /* int32_t per node block and neighbour: block index or -1 */
     Array block_begin;   /* uint32_t per particle block, and the end: first particle */
     Array block_run;     /* uint32_t per particle block, and the end: first run */
 
     /* Runs: sorted particles of one cell and material. */
-    uint32_t *run_begin; /* capacity + 1 */
-    uint32_t *run_key;   /* capacity */
+    uint32_t *run_begin; /* one more than runs */
+    uint32_t *run_key;
     uint32_t runs;
 
     /* What the kernels work on; see KernelArgs. */
@@ -76,6 +79,9 @@ static inline void grid_clear(Grid *grid)
  * volumes. On failure (no memory) the particles are as before and the grid is empty. */
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
 
+/* The lowest cell of the particles, per axis. */
+void grid_drop_anchor(const Particles *particles, int32_t anchor[3]);
+
 /* ---- The same in parts, for who decides between them which particles belong in the grid, and how blocks rank ---- */
 
 /* Forgets all blocks; those to come are counted from `anchor`. False: no memory. */
@@ -89,6 +95,20 @@ FoundBlock *grid_found(const Grid *grid, const int32_t place[3]);
 
 /* The rest: sorts the rows from `first` on, all of which were added. */
 pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *particles, Pool *pool, bool with_volume, uint32_t first);
+
+/* ---- Grids of some of the particles each, which share the scratch per particle of `whole` ---- */
+
+/* Makes `part` the one at `place` among them, for particles that will stand in the rows [first, end). At place 0 it is `whole` itself. */
+void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32_t end);
+
+/* Builds it of the particles that order_scratch lists from `first` to `end`: their new order stands in `order` then. On failure it is empty. */
+pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
+
+/* After the particles were brought into the order of all parts. */
+void grid_link_part(Grid *part, Particles *particles, Pool *pool);
+
+/* Frees what a part does not share. */
+void grid_free_part(Grid *part, Memory *memory);
 
 /* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
 void grid_neighbour_offset(int n, int dimension, int32_t offset[3]);

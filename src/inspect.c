@@ -117,18 +117,28 @@ static void add_particle(const World *world, uint32_t row, Sums *sums)
     if (!(volume_error <= sums->volume_error_max)) sums->volume_error_max = volume_error;
 }
 
-/* Sum over runs of the lanes that their gangs take. */
-static float lane_occupancy(const World *world)
+/* Adds the lanes that the gangs of the runs take. */
+static void add_lanes(const World *world, const Grid *grid, uint64_t *lanes, uint64_t *particles)
 {
-    const Grid *grid = &world->grid;
-    uint64_t lanes = 0, particles = 0;
     for (uint32_t run = 0; run < grid->runs; run++) {
         const uint32_t count = grid->run_begin[run + 1] - grid->run_begin[run];
         const uint32_t gang = (uint32_t)world->kernels->lanes;
-        lanes += (count + gang - 1) / gang * gang;
-        particles += count;
+        *lanes += (count + gang - 1) / gang * gang;
+        *particles += count;
     }
-    return lanes ? (float)((double)particles / (double)lanes) : 0.0f;
+}
+
+static void fill_grids(const World *world, pbmpm_stats *stats)
+{
+    uint64_t lanes = 0, particles = 0;
+    for (int group = 0; group == 0 || group < world->islands.groups; group++) {
+        const Grid *grid = islands_grid(world, group);
+        stats->particle_blocks += (uint32_t)grid->particle_blocks;
+        stats->node_blocks += (uint32_t)grid->node_blocks;
+        add_lanes(world, grid, &lanes, &particles);
+    }
+    stats->contacts = world->islands.contacts + colliders_contacts(&world->colliders);
+    stats->lane_occupancy = lanes ? (float)((double)particles / (double)lanes) : 0.0f;
 }
 
 static void fill_record(const World *world, pbmpm_stats *stats)
@@ -137,9 +147,7 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->step_count = world->step_count;
     stats->simulated_seconds = world->simulated_seconds;
     stats->memory_bytes = world->memory.used;
-    stats->particle_blocks = (uint32_t)world->grid.particle_blocks;
-    stats->node_blocks = (uint32_t)world->grid.node_blocks;
-    stats->contacts = colliders_contacts(&world->colliders);
+    fill_grids(world, stats);
     stats->substeps = record->substeps;
     stats->iterations = record->iterations;
     stats->thread_count = (uint32_t)pool_thread_count(world->pool);
@@ -153,7 +161,6 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->cell_changes = record->moved;
     stats->deleted_total = world->deleted_total;
     stats->clamped_total = world->clamped_total;
-    stats->lane_occupancy = lane_occupancy(world);
     stats->solver = record->solver;
     stats->stop = record->stop;
     stats->iterations_used = record->iterations_used;

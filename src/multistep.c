@@ -15,8 +15,8 @@ static bool is_on(const World *world)
 void multistep_expire(World *world)
 {
     Particles *p = &world->particles;
-    const uint32_t first = world->sleep.rows; /* what sleeps has no past, see sleep.c */
-    if (p->past_dt) memset(p->past_dt + first, 0, (p->count - first) * sizeof *p->past_dt);
+    const uint32_t first = world->grid.first_row, end = world->grid.end_row; /* what sleeps has no past, see sleep.c */
+    if (p->past_dt) memset(p->past_dt + first, 0, (end - first) * sizeof *p->past_dt);
 }
 
 pbmpm_result multistep_prepare(World *world)

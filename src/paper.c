@@ -132,6 +132,7 @@ void paper_set_materials(World *world, float dt)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation * soft;
+        if (material->yields == K_SAND) material->volume_feedback = 0.0f;
         if (def->kind == PBMPM_VISCO) material->volume_feedback = solver_feedback_share(def, dt);
         /* It answers a volume strain in full and a deviator by the share beta: 2 mu = beta (2 mu + d lambda), which needs no Poisson effect. */
         if (material->kind != K_LIQUID) plastic_set(world, slot, (double)dt, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));

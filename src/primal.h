@@ -9,12 +9,16 @@
  * preconditioner. Steps are accepted by Armijo's rule, or by the slope where the difference of two energies is rounding (W. Hager,
  * H. Zhang, "A new conjugate gradient method with guaranteed descent", SIAM J. Optim. 16(1), 2005).
  *
+ * Contacts: nodes may sink as far as the particles they carry have room (primal_gaps.c); friction is a part of the energy (holds.h). Rigid motions, which
+ * a stiff body does nearly alone, have solvers of their own: the start (primal_start.c), the preconditioner (primal_rigid.c), what is missing at the end
+ * (primal_momentum.c). What backward Euler takes from rotations and bounces is given back (primal_spin.c, primal_bounce.c).
+ *
  * A solution that is cut short may have more energy than there was. For each body with the displacement g of gravity,
  *
  *     sum m/2 |u|^2 - m g.u + Psi(u)  <=  sum m/2 |u* - g|^2 + Psi(0) + work of moving surfaces
  *
- * holds for the exact solution of a convex energy. Where it does not hold, the search goes on, then starts again from the
- * body's mean motion, as far as obstacles allow it; what still gains energy is moved towards that start.
+ * holds for the exact solution of a convex energy. Where it does not hold, the search goes on; a body that gained little then
+ * pays with its velocities, others start again from their rigid motion, as far as obstacles allow it, and are moved towards it, in the end their mean motion.
  *
  * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. */
 #ifndef PBMPM_SRC_PRIMAL_H
@@ -24,8 +28,14 @@
 
 #include "solver.h"
 
-/* The dilation of what stands for an incompressible liquid: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
+/* The dilation of what stands for an incompressible liquid by itself: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
 static inline float primal_stiffest(int iterations) { return 0.25f * (float)iterations * (float)iterations; }
+
+/* Whether solids and liquid are solved together. */
+bool primal_is_mixed(const World *world);
+
+/* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
+float primal_liquid_dilation(const World *world, float dt);
 
 /* What crowded liquid may grow by in a substep, of this dilation L = 4 (c dt/dx)^2. Crushed and let go it leaves with its sound's speed c at most: a plane
  * wave turns all of the pressure's energy into it. So nothing that a particle feels, nodes up to 3/2 cells away, parts from it faster:
@@ -37,6 +47,9 @@ pbmpm_result primal_prepare(World *world);
 void primal_free(World *world);
 
 void primal_solve(World *world, const ContactFrame *contacts);
+
+/* Before particles move: keeps what primal_calm() needs of them. */
+void primal_before_going(World *world);
 
 /* After particles have moved: takes from the velocities of liquids what they have gained. */
 void primal_calm(World *world);

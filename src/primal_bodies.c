@@ -38,10 +38,11 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             }
             sum[4 + c] += mass * free;
             sum[8] += 0.5 * mass * u * u;
+            sum[12] += 0.5 * mass * free * free;
             sum[9 + c] += mass * u;
         }
     }
-    sum[2] = holds_work(p->contacts, p->gradient, block);
+    sum[2] = holds_work(p->contacts, p->gradient, p->best, p->slip_min, block);
     sum[7] = (double)holds_touching(p->contacts, block);
 }
 
@@ -53,13 +54,26 @@ static bool has_liquid(const World *world, int32_t block)
     return false;
 }
 
+/* What rounding F, whose distance from the identity is the strain, may do to the energy of a strain: stress times 2^-24, with the body's stiffness k
+ * about sqrt(k Psi) 2^-24. */
+static double rounding_of(const BodySum *body)
+{
+    return PRIMAL_ENERGY_ROUNDING * (body->before + body->still) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
+}
+
 /* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
  * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that:
  * of a body that starts at rest and without strain nothing else could. */
 static bool gained(const BodySum *body)
 {
     const double after = body->with_liquid ? body->elastic - body->fallen : body->after;
-    return after > body->before + body->work + PRIMAL_ENERGY_ROUNDING * body->before;
+    return after > body->before + body->work + rounding_of(body);
+}
+
+void primal_note_stiffness(Primal *p)
+{
+    const double *sums = p->world->primal.sums.data;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->stiff += sums[(size_t)block * SUMS + 1];
 }
 
 uint32_t primal_check_bodies(Primal *p)
@@ -69,7 +83,7 @@ uint32_t primal_check_bodies(Primal *p)
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
     BodySum *body = state->body_sums.data;
     uint32_t failed = 0;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .with_liquid = body[i].with_liquid};
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
     primal_over_blocks(p, sum_motion);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *b = primal_body_of(p, block);
@@ -79,6 +93,7 @@ uint32_t primal_check_bodies(Primal *p)
         b->work += sum[2];
         b->mass += sum[3];
         b->kinetic += sum[8];
+        b->still += sum[12];
         if (!primal_is_multistep(p, block)) b->fallen += sum[8] - sum[0];
         for (int c = 0; c < 3; c++) {
             b->momentum[c] += sum[4 + c];
@@ -99,6 +114,11 @@ uint32_t primal_check_bodies(Primal *p)
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
         holds_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++) {
+        BodySum *b = primal_body_of(p, block);
+        const double share = holds_free_share(p->contacts, block, b->start);
+        for (int c = 0; c < 3; c++) b->start[c] *= share;
+    }
     return failed;
 }
 
@@ -107,6 +127,12 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
 {
     const BodySum *body = primal_body_of(p, block);
     (void)sum;
+    if (body->failed && p->turned && primal_rigid_of(p, block)->turns) {
+        primal_write_rigid(p, block, begin, end, p->node);
+        for (size_t i = begin; i < end; i++) p->node[i] = i % W == 3 ? p->base[i] : p->node[i] + p->share * (p->best[i] - p->node[i]);
+        holds_project(p->contacts, p->node, block, block + 1);
+        return;
+    }
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
@@ -125,15 +151,47 @@ void primal_pull_back_to(Primal *p, float share)
     primal_accept(p, false);
 }
 
+/* A body that gained little goes where the solution leads, and pays with its velocities: they keep the share s of what they differ from its mean, with
+ * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
+static uint32_t let_pay(Primal *p)
+{
+    static const double MOST = 0.5; /* of that kinetic energy */
+    const PrimalState *state = &p->world->primal;
+    RigidBody *rigid = state->rigid.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        const BodySum *b = &body[i];
+        if (!b->failed) continue;
+        const double gain = b->after - b->before - b->work;
+        double own = b->kinetic;
+        for (int c = 0; c < 3; c++) own -= 0.5 * b->moved[c] * b->moved[c] / b->mass;
+        const bool pays = rigid[i].turns && gain <= MOST * own;
+        if (pays) {
+            rigid[i].kept = sqrt(1.0 - gain / own);
+            for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;
+        }
+        body[i].failed = !pays;
+        failed += !pays;
+    }
+    return failed;
+}
+
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {
+    memcpy(p->node, p->best, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->node); /* bodies were moved since */
+    primal_evaluate(p);
+    primal_accept(p, false);
+    primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
-    if (primal_check_bodies(p) == 0) return;
+    if (primal_check_bodies(p) == 0 || let_pay(p) == 0) return;
+    p->turned = true;
     primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
-    for (int halving = 0; primal_check_bodies(p) > 0; halving++) {
+    for (int halving = 0; primal_check_bodies(p) > 0 && let_pay(p) > 0; halving++) {
+        p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;
     }
@@ -149,50 +207,24 @@ void primal_keep_energy(Primal *p)
     record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
 }
 
-/* ---- Momentum ---- */
+/* What gravity moves in the substep [cells]. */
+static float fall_of(const World *world)
+{
+    const float *g = world->args.gravity;
+    return sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
 
 void primal_find_leaning(Primal *p)
 {
+    const float fall = fall_of(p->world);
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        if (holds_any(p->contacts, block)) primal_body_of(p, block)->leans = true;
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
-}
-
-static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    (void)block;
-    for (size_t i = begin; i < end; i += W) {
-        const double mass = (double)p->base[i + 3];
-        sum[0] += mass;
-        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
-    }
-}
-
-static void move_free_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
-{
-    const BodySum *body = primal_body_of(p, block);
-    (void)sum;
-    if (body->leans || body->mass == 0.0) return;
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)(body->momentum[c] / body->mass);
-}
-
-/* An unfinished solution leaves a body some momentum too little or too much. Its energy does not change under a translation of all nodes but
- * for sum m/2 |u + t - u*|^2, whose minimum is t = sum m (u* - u) / sum m: a body that leans on nothing is moved by it. */
-void primal_keep_momentum(Primal *p)
-{
-    const PrimalState *state = &p->world->primal;
-    BodySum *body = state->body_sums.data;
-    const double *sums = state->sums.data;
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].mass = body[i].momentum[0] = body[i].momentum[1] = body[i].momentum[2] = 0.0;
-    primal_over_blocks(p, sum_momentum_error);
+    primal_widen_gaps(p);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        BodySum *b = primal_body_of(p, block);
-        b->mass += sums[(size_t)block * SUMS];
-        for (int c = 0; c < 3; c++) b->momentum[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+        BodySum *body = primal_body_of(p, block);
+        body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->held = body->held || holds_held(p->contacts, block);
+        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
     }
-    for (int32_t i = 0; i < state->bodies.count; i++) body[i].leans = body[i].leans || !(body[i].mass > 0.0);
-    primal_over_blocks(p, move_free_body);
 }

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 16, BLOCK_GRAIN = 2 };
+enum { BLOCK_GRAIN = 2 };
 
 int rounds_wanted(double stiffness, int iterations)
 {
     const double wanted = ceil(DUAL_ITERATIONS_PER_ROOT * sqrt(stiffness)) - iterations;
-    return (int)fmax(0.0, fmin(wanted, MOST_ROUNDS));
+    return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
 }
 
 bool rounds_reserve(World *world)

@@ -9,6 +9,8 @@
 
 #include "dual.h"
 
+enum { ROUNDS_MOST = 16 };
+
 /* How many rounds bodies take whose stiffness without unit, c (2 mu + lambda), is `stiffness`, given the iterations over all blocks. */
 int rounds_wanted(double stiffness, int iterations);
 

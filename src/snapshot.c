@@ -402,6 +402,7 @@ pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes
     world->record = (StepRecord){0};
     events_clear(&world->events);
     grid_clear(&world->grid);
+    world->islands.groups = 0;
     world_touch(world);
     return PBMPM_OK;
 }

@@ -7,6 +7,12 @@
 /* Chooses the solver of this substep and takes the memory that it needs. The grid is built. */
 pbmpm_result solver_prepare(World *world);
 
+/* What PBMPM_SOLVER_CONVERGENT stands for where matter of these kinds, see islands.h, touches. */
+pbmpm_solver solver_for(uint32_t matter);
+
+/* Whether the substep needs the volume on the grid; asked before the grid is built. */
+bool solver_wants_volume(const World *world);
+
 /* Points the kernel arguments at the world's arrays, for substeps of `dt` seconds. */
 void solver_bind(World *world, float dt, bool with_volume);
 
@@ -35,6 +41,10 @@ void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contact
 
 /* Whether the grid was built with a particle of a liquid. */
 bool solver_holds_liquid(const World *world);
+bool solver_holds_sand(const World *world);
+
+/* Whether the solver of this substep asks for the volume on the grid, beside the materials; asked before solver_prepare(). */
+bool solver_wants_volume(const World *world);
 
 /* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
 float solver_feedback_share(const pbmpm_material_def *def, float dt);

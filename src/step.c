@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "clock.h"
+#include "islands.h"
 #include "open_volume.h"
 #include "result.h"
 #include "solver.h"
@@ -61,8 +62,8 @@ static uint32_t fastest_row(const World *world, int32_t block)
     return fastest;
 }
 
-/* Reports what the kernels counted and removes the particles that have to go, with the `drained` ones that are marked. */
-static void collect_events(World *world, uint32_t substep, uint32_t drained)
+/* Reports what the kernels counted. Returns how many particles have to go. */
+static uint32_t collect_events(World *world, uint32_t substep)
 {
     const uint32_t *lost = world->grid.lost.data, *clamped = world->grid.clamped.data, *moved = world->grid.moved.data;
     const float *travel = world->grid.travel.data;
@@ -86,13 +87,16 @@ static void collect_events(World *world, uint32_t substep, uint32_t drained)
     }
     world->clamped_total += total_clamped;
     world->deleted_total += total_lost;
-    if (total_lost + drained) {
-        if (world->sleep.on) sleep_settle(world);
-        particles_compact(&world->particles, world->sleep.rows);
-        world_touch(world);
-    }
     if (total_lost)
         result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
+    return total_lost;
+}
+
+static void remove_marked(World *world)
+{
+    if (world->sleep.on) sleep_settle(world);
+    particles_compact(&world->particles, world->sleep.rows);
+    world_touch(world);
 }
 
 /* ---- Phases ---- */
@@ -128,9 +132,13 @@ static pbmpm_result empty_substep(World *world, int part)
     return PBMPM_OK;
 }
 
-/* Where the particles are: order, blocks, runs. */
-static pbmpm_result find_places(World *world, float dt, bool with_volume)
+/* Where the particles are: order, blocks, runs, and which of them touch. */
+static pbmpm_result find_places(World *world, float dt)
 {
+    const bool with_volume = solver_wants_volume(world);
+    world->islands.groups = 1;
+    world->islands.contacts = 0;
+    if (islands_wanted(world)) return islands_build(world);
     return world->sleep.on ? sleep_build(world, dt, with_volume)
                            : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
 }
@@ -171,8 +179,8 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     return result;
 }
 
-/* They go, and what happened on the way is booked. */
-static void go(World *world, float dt, int part, const ContactFrame *contacts)
+/* They go, and what happened on the way is booked. Returns how many have to be removed. */
+static uint32_t go(World *world, float dt, int part, const ContactFrame *contacts)
 {
     contacts_book(contacts, (double)dt);
     walls_book(&world->walls, contacts, (double)dt);
@@ -182,21 +190,18 @@ static void go(World *world, float dt, int part, const ContactFrame *contacts)
     pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
     contacts_book_push(contacts, &world->particles, dt);
     forces_account(&world->forces, world->grid.node_blocks);
-    collect_events(world, (uint32_t)part, sinks_mark(world, (uint32_t)part));
+    const uint32_t drained = sinks_mark(world, (uint32_t)part);
+    return drained + collect_events(world, (uint32_t)part);
 }
 
-static pbmpm_result substep(World *world, float dt, int part)
+/* All that is in world->grid takes the substep. Adds to *marked how many particles have to be removed. */
+static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *marked)
 {
     StepRecord *record = &world->record;
     double clock = now_ms();
 
-    const bool with_volume = materials_want_volume(&world->materials, &world->particles);
-    pbmpm_result result = find_places(world, dt, with_volume);
-    if (result != PBMPM_OK) return result;
-    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
-    lap(&record->ms_sort, &clock);
-
-    result = predict(world, dt, with_volume);
+    const bool with_volume = solver_wants_volume(world);
+    pbmpm_result result = predict(world, dt, with_volume);
     if (result != PBMPM_OK) return result;
     lap(&record->ms_scatter, &clock);
 
@@ -210,9 +215,66 @@ static pbmpm_result substep(World *world, float dt, int part)
     if (world->sleep.on) sleep_judge(world, dt);
     lap(&record->ms_iterate, &clock);
 
-    go(world, dt, part, &contacts);
+    *marked += go(world, dt, part, &contacts);
     lap(&record->ms_integrate, &clock);
     return PBMPM_OK;
+}
+
+/* ---- Groups of islands ---- */
+
+/* Several groups are reported as the worst of them. */
+static void report_with(StepRecord *record, const StepRecord *others)
+{
+    if (others->solver != record->solver) record->solver = PBMPM_SOLVER_CONVERGENT;
+    if (others->stop == PBMPM_STOP_TIME || record->stop == PBMPM_STOP_ERROR) record->stop = others->stop;
+    record->iterations_used = others->iterations_used > record->iterations_used ? others->iterations_used : record->iterations_used;
+    record->energy_checks_failed += others->energy_checks_failed;
+    record->residual = fmax(record->residual, others->residual);
+    record->predicted_error = fmax(record->predicted_error, others->predicted_error);
+    record->moved += others->moved;
+    record->travel = fmaxf(record->travel, others->travel);
+}
+
+/* Until when a group may take, of which the first of `left` groups that are left is: each gets the share that its particles have. */
+static double deadline_of(const World *world, int group, double deadline)
+{
+    const double begin = now_ms(), first = islands_grid(world, group)->first_row, rows = islands_grid(world, group)->end_row - first;
+    return begin + (deadline - begin) * rows / (world->particles.count - first);
+}
+
+/* Each group as if it were all there is; see islands.h. */
+static pbmpm_result take_by_groups(World *world, float dt, int part, uint32_t *marked)
+{
+    StepRecord *record = &world->record;
+    const double deadline = record->deadline_ms, iterations = world->slow_iterations;
+    const bool unchecked = world->strain_unchecked;
+    pbmpm_result result = PBMPM_OK;
+    for (int group = 0; group < world->islands.groups && result == PBMPM_OK; group++) {
+        const StepRecord others = *record;
+        record->deadline_ms = deadline_of(world, group, deadline);
+        world->slow_iterations = iterations;
+        world->strain_unchecked = unchecked;
+        islands_enter(world, group);
+        result = take_substep(world, dt, part, marked);
+        islands_leave(world, group);
+        if (group > 0) report_with(record, &others);
+        if (group + 1 < world->islands.groups) world->islands.contacts += colliders_contacts(&world->colliders);
+    }
+    record->deadline_ms = deadline;
+    return result;
+}
+
+static pbmpm_result substep(World *world, float dt, int part)
+{
+    double clock = now_ms();
+    uint32_t marked = 0;
+    pbmpm_result result = find_places(world, dt);
+    if (result != PBMPM_OK) return result;
+    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
+    lap(&world->record.ms_sort, &clock);
+    result = world->islands.groups > 1 ? take_by_groups(world, dt, part, &marked) : take_substep(world, dt, part, &marked);
+    if (result == PBMPM_OK && marked > 0) remove_marked(world);
+    return result;
 }
 
 pbmpm_result world_step(World *world, float dt)

@@ -24,7 +24,7 @@ pbmpm_world_def world_def_defaults(void)
 pbmpm_settings settings_defaults(void)
 {
     return (pbmpm_settings){.size = sizeof(pbmpm_settings), .substeps = 1, .iterations = 5, .max_displacement = 32.0f,
-                            .sleep_speed = 0.05f, .sleep_time = 0.5f};
+                            .solver = PBMPM_SOLVER_CONVERGENT, .sleep_speed = 0.05f, .sleep_time = 0.5f};
 }
 
 static const char *domain_problem(const pbmpm_world_def *def)
@@ -155,6 +155,7 @@ void world_destroy(World *world)
     walls_free(&world->walls, &world->memory);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);
+    islands_free(&world->islands, &world->memory);
     grid_free(&world->grid, &world->memory);
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;

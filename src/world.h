@@ -10,6 +10,7 @@
 #include "events.h"
 #include "forces.h"
 #include "grid.h"
+#include "islands.h"
 #include "kernels.h"
 #include "lookup.h"
 #include "materials.h"
@@ -26,7 +27,7 @@
 typedef struct StepRecord {
     double ms_total, ms_sort, ms_scatter, ms_contacts, ms_iterate, ms_integrate;
     uint32_t substeps, iterations;
-    /* Of the last substep. */
+    /* Of the last substep; of several groups of islands see step.c. */
     pbmpm_solver solver;
     pbmpm_stop stop;
     uint32_t iterations_used, energy_checks_failed;
@@ -73,6 +74,8 @@ typedef struct PrimalState {
     Array inverse;             /* per node 1 / (m + k) */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
+    Array rigid, rub, moves;   /* per body, see primal_rigid.c, holds.h and primal_momentum.c */
+    bool bounces;              /* a body of this substep, see primal_bounce.c */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
     Bodies bodies;
@@ -97,6 +100,7 @@ typedef struct World {
     Forces forces;
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
+    Islands islands;
     KernelArgs args;
     DualState dual;
     GuessState guess;

@@ -51,6 +51,9 @@ typedef enum pbmpm_elastic_model {
  *  from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
  *  hold the modulus: see pbmpm_material_effective().
  *
+ *  With the dual solver sand carries its stress on from substep to substep: its pressure keeps the volume ratio, with the bulk modulus, J follows the grid as a
+ *  liquid's does (by volume_feedback), and what was compressed comes back by a tenth per 1/60 s. Where it lies deep it takes up to 16 more iterations.
+ *
  *  Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
  *  artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
  *
@@ -69,7 +72,7 @@ typedef struct pbmpm_material_def {
                                      iteration lone elastic particles tremble above 4/3. */
     float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
-    float volume_feedback;      /**< liquid, visco: share per substep by which J follows the volume measured on the grid where
+    float volume_feedback;      /**< liquid, visco, with the dual solver sand: share per substep by which J follows the volume measured on the grid where
                                      that shows compression, or J is below 0.8 of it (up to 0.9 if three times its weight and its motion cannot press it that far), in [0, 1];
                                      default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
                                      Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
@@ -102,7 +105,7 @@ typedef struct pbmpm_material_def {
     float friction_angle;       /**< sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
                                      3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure. */
     float cohesion;             /**< sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry */
-    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart, up to three times its volume, closes up again before it bears
+    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart, up to three times its volume (1.15 times with the dual solver), closes up again before it bears
                                      pressure; 0: it does not, and a heap grows with each fall */
     float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
@@ -114,9 +117,11 @@ typedef struct pbmpm_material_def {
 typedef struct pbmpm_effective {
     uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
     float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-                              of young_modulus. Other solvers: the material's own. */
+                              of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
+                              stands for it at the depth of the last step. */
     float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. */
+                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
+                              solver of the island that the particles are in now, of several the softest. */
     float kinematic_viscosity; /**< liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
                                     N dx^2 / (8 dt); without what the transfers add */
     float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */

@@ -10,6 +10,7 @@
 #ifndef PBMPM_H
 #define PBMPM_H
 
+#include "advice.h"
 #include "async.h"
 #include "base.h"
 #include "collider.h"

@@ -52,7 +52,12 @@ typedef enum pbmpm_solver {
                                       stiffer than the iterations hold hardly moves: leave its bulk modulus at 0. */
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
-    PBMPM_SOLVER_CONVERGENT = 4, /**< the dual while the world holds a particle of a liquid or of sand, else the primal */
+    PBMPM_SOLVER_CONVERGENT = 4, /**< default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
+                                      axis): solids alone, and solids with liquid, by the primal; liquid alone, and what sand is in, by the dual. Islands
+                                      that hold the same kinds are solved together, as if nothing else were there. Where the primal solves liquid, it
+                                      is as stiff at most as the weight of the liquid compresses it by 2 % at its depth, or as sound travels N cells per
+                                      substep, whichever is more: see pbmpm_material_effective(). While matter sleeps (settings.sleeping) all
+                                      of the world is one island. */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 
@@ -87,7 +92,7 @@ typedef struct pbmpm_settings {
     float gravity[3];       /**< acceleration [m/s^2]; default 0 */
     float max_displacement; /**< largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
                                  default 32. Faster particles are slowed to it; each time is counted in the events. */
-    pbmpm_solver solver;    /**< default PBMPM_SOLVER_PAPER */
+    pbmpm_solver solver;    /**< default PBMPM_SOLVER_CONVERGENT */
     pbmpm_pressure pressure;     /**< dual solver; default PBMPM_PRESSURE_PARTICLES */
     pbmpm_integrator integrator; /**< default PBMPM_INTEGRATOR_EULER */
     float flip;             /**< share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP;

@@ -388,6 +388,12 @@ static pbmpm_result call_get_flow(const target *ids)
     return pbmpm_world_get_flow(ids->world, &flow);
 }
 
+static pbmpm_result call_advice(const target *ids)
+{
+    uint32_t count;
+    return pbmpm_world_advice(ids->world, 0.01f, NULL, 0, &count);
+}
+
 static pbmpm_result call_force_create(const target *ids)
 {
     pbmpm_force_def def;
@@ -484,6 +490,7 @@ const world_call world_calls[] = {
     {"pbmpm_world_set_kill_bounds", call_set_kill_bounds, 0},
     {"pbmpm_world_get_kill_bounds", call_get_kill_bounds, 0},
     {"pbmpm_world_get_flow", call_get_flow, 0},
+    {"pbmpm_world_advice", call_advice, 0},
     {"pbmpm_force_create", call_force_create, 0},
     {"pbmpm_force_get", call_force_get, USES_FORCE},
     {"pbmpm_force_set", call_force_set, USES_FORCE},

@@ -156,6 +156,21 @@ void set_rate(pbmpm_world_id world, int32_t substeps, int32_t iterations)
     OK(pbmpm_world_set_settings(world, &settings));
 }
 
+void set_solver(pbmpm_world_id world, pbmpm_solver solver)
+{
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.solver = solver;
+    OK(pbmpm_world_set_settings(world, &settings));
+}
+
+pbmpm_world_id papers_world(const pbmpm_world_def *def)
+{
+    const pbmpm_world_id world = create_world(def);
+    set_solver(world, PBMPM_SOLVER_PAPER);
+    return world;
+}
+
 /* A world in a closed box from the origin to (size, size, size), with gravity down the second axis. */
 static pbmpm_world_id boxed_world(int32_t dimension, float cell_size, float size, scene_tweak *tweak, void *user)
 {

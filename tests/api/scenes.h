@@ -38,6 +38,7 @@ pbmpm_shape sphere_shape(float x, float y, float z, float radius);
 pbmpm_shape plane_shape(float x, float y, float z, float nx, float ny, float nz);
 
 pbmpm_world_id create_world(const pbmpm_world_def *def);
+pbmpm_world_id papers_world(const pbmpm_world_def *def); /**< solved as the paper does */
 pbmpm_material_id create_material(pbmpm_world_id world, pbmpm_material_kind kind);
 pbmpm_collider_id create_collider(pbmpm_world_id world, pbmpm_shape shape, bool kinematic);
 pbmpm_emitter_id create_emitter(pbmpm_world_id world, pbmpm_material_id material); /**< with the default rate, 0 */
@@ -46,6 +47,7 @@ pbmpm_force_id create_force(pbmpm_world_id world); /**< switched off */
 uint32_t fill_shape(pbmpm_world_id world, pbmpm_material_id material, pbmpm_shape shape, const float velocity[3]);
 void set_gravity(pbmpm_world_id world, float x, float y, float z);
 void set_rate(pbmpm_world_id world, int32_t substeps, int32_t iterations);
+void set_solver(pbmpm_world_id world, pbmpm_solver solver);
 
 /** A 2D tank, 1 m by 1 m, dx 0.05, with a pool of liquid in it and gravity; about 800 particles. */
 pbmpm_world_id tank_2d(scene_tweak *tweak, void *user);

@@ -243,6 +243,7 @@ static void test_an_obstacle_on_top_of_matter_pushes_it_out(void)
 static double speed_after_sliding(pbmpm_friction friction, float coefficient)
 {
     const pbmpm_world_id world = open_world(2);
+    set_solver(world, PBMPM_SOLVER_PAPER); /* its body is stiff at this rate; one of 1e5 Pa goes on swinging on the ground that it sticks to */
     pbmpm_collider_def ground = default_collider(plane_shape(0, 0, 0, 0, 1, 0));
     pbmpm_collider_id collider;
     ground.friction = friction;

@@ -140,7 +140,7 @@ static void check_momentum(int32_t dimension)
     const double cell_size = dimension == 3 ? 0.0625 : 0.025, dt = cell_size / 10;
     const double drift[3] = {0.3, -0.2, dimension == 3 ? 0.1 : 0}, spin[3] = {dimension == 3 ? 1.0 : 0, dimension == 3 ? -0.5 : 0, 2.0};
     const pbmpm_world_def def = default_world(dimension, (float)cell_size, 24576);
-    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_world_id world = papers_world(&def);
     const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
     fill_shape(world, jelly, box_shape(0, 0, 0, 0.5f, 0.3f, 0.4f), (const float[3]){0, 0, 0});
     set_rigid_motion(world, drift, spin);
@@ -171,7 +171,7 @@ static void test_mass_is_density_times_rest_volume(void)
 {
     const float positions[6] = {0, 0, 0.1f, 0, 0.2f, 0.1f}, volumes[3] = {0.25f, 0.5f, 0.125f};
     const pbmpm_world_def def = default_world(2, 0.125f, 8); /* powers of two: no rounding */
-    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_world_id world = papers_world(&def);
     pbmpm_material_def material = default_material(PBMPM_LIQUID);
     pbmpm_particles_def particles;
     material.density = 512;
@@ -206,7 +206,7 @@ static void remove_some(int32_t dimension, pbmpm_material_kind kind, float place
 {
     enum { MOST = 64 };
     const pbmpm_world_def def = default_world(dimension, 0.125f, 8192);
-    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_world_id world = papers_world(&def);
     pbmpm_particle_id ids[MOST];
     uint32_t found = 0;
     char label[96];
@@ -243,7 +243,7 @@ static void check_free_fall(int32_t dimension, pbmpm_material_kind kind)
 {
     const double g = 9.81, dt = 1.0 / 128, t = 1;
     const pbmpm_world_def def = default_world(dimension, 0.1f, 8192);
-    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_world_id world = papers_world(&def);
     const pbmpm_material_id matter = create_material(world, kind);
     fill_shape(world, matter, box_shape(0.3f, 0.2f, 0.1f, 0.4f, 0.4f, 0.4f), (const float[3]){0, 0, 0});
     set_gravity(world, 0, (float)-g, 0);
@@ -289,7 +289,7 @@ static moved_world build_moved(int32_t dimension, const int32_t cells[3])
     const float cell_size = 0.125f;
     const uint32_t d = (uint32_t)dimension;
     const pbmpm_world_def def = default_world(dimension, cell_size, MOVED_COUNT);
-    moved_world made = {.world = create_world(&def)};
+    moved_world made = {.world = papers_world(&def)};
     float shift[3];
     uint32_t seed = 17;
     for (int a = 0; a < 3; a++)

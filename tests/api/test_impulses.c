@@ -171,7 +171,7 @@ static void test_many_plates_share_the_weight(void)
 {
     enum { PLATES = 16 };
     pbmpm_world_def def = default_world(2, 0.1f, 4000);
-    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_world_id world = papers_world(&def);
     pbmpm_collider_id plate[PLATES];
     set_gravity(world, 0, -10, 0);
     set_rate(world, 2, 10);

@@ -142,6 +142,10 @@ static const pbmpm_layout_entry expected[] = {
     FIELD(pbmpm_force_def, velocity), FIELD(pbmpm_force_def, spin),
     WHOLE(pbmpm_force_status),
     FIELD(pbmpm_force_status, size), FIELD(pbmpm_force_status, nodes), FIELD(pbmpm_force_status, impulse),
+    WHOLE(pbmpm_advice),
+    FIELD(pbmpm_advice, size), FIELD(pbmpm_advice, code), FIELD(pbmpm_advice, material), FIELD(pbmpm_advice, collider),
+    FIELD(pbmpm_advice, figure), FIELD(pbmpm_advice, bound), FIELD(pbmpm_advice, change), FIELD(pbmpm_advice, value),
+    FIELD(pbmpm_advice, price), FIELD(pbmpm_advice, came_true), FIELD(pbmpm_advice, text),
 };
 enum { EXPECTED = sizeof expected / sizeof *expected };
 

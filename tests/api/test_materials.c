@@ -177,7 +177,7 @@ static pbmpm_world_id sheared_box(pbmpm_material_def def)
 {
     static float affine[4 * 1000];
     const pbmpm_world_def world_def = default_world(2, 0.1f, 1000);
-    const pbmpm_world_id made = create_world(&world_def);
+    const pbmpm_world_id made = papers_world(&world_def);
     pbmpm_material_id material;
     OK(pbmpm_material_create(made, &def, &material));
     const uint32_t count = fill_shape(made, material, box_shape(0, 0, 0, 0.5f, 0.5f, 0.5f), (const float[3]){0, 0, 0});
@@ -208,7 +208,7 @@ static double squeezed_ratio_after_a_step(float relaxation)
 {
     static float ratios[1000];
     const pbmpm_world_def world_def = default_world(2, 0.1f, 1000);
-    const pbmpm_world_id made = create_world(&world_def);
+    const pbmpm_world_id made = papers_world(&world_def);
     pbmpm_material_def def = default_material(PBMPM_LIQUID);
     pbmpm_material_id material;
     def.relaxation = relaxation;

@@ -290,7 +290,7 @@ static void check_bytes_per_particle(int32_t dimension, pbmpm_material_kind kind
     uint64_t bytes[2];
     uint32_t each[2];
     pbmpm_settings settings = default_settings();
-    if (with_pressure) settings.solver = PBMPM_SOLVER_DUAL;
+    settings.solver = with_pressure ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PAPER;
     OK(pbmpm_world_set_settings(world, &settings));
     fill_shape(world, material, box_shape(5, 5, 5, 0.1f, 0.1f, 0.1f), (const float[3]){0, 0, 0});
     OK(pbmpm_world_step(world, 0.01f));

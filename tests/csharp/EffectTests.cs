@@ -10,6 +10,25 @@ static class EffectTests
     }
 
     [Test]
+    static void AdviceTellsWhatASceneWillNotHold()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            Expect.Equal(0, world.Advice(Scenes.Frame).Length, "advice for a pool");
+            var settings = world.Settings;
+            settings.Gravity = new Float3(0, 0, 0);
+            world.Settings = settings;
+            var advice = world.Advice(Scenes.Frame);
+            Expect.Equal(1, advice.Length, "advice without gravity");
+            Expect.Equal(AdviceCode.NoGravity, advice[0].Code, "what it is about");
+            Expect.Equal(Change.Gravity, advice[0].Change, "what would help");
+            Expect.Equal(9.81f, advice[0].Value, "to what");
+            Expect.True(advice[0].ToString().Contains("gravity") && !advice[0].CameTrue, "words");
+            Expect.Refused(Result.ErrorInvalidArgument, () => world.Advice(0), "no time step");
+        }
+    }
+
+    [Test]
     static void WhatIsEmittedDrainedAndKilledAddsUp()
     {
         using (var world = Scenes.Box(2))

@@ -222,6 +222,7 @@ def test_a_swinging_beam_does_not_creep() -> None:
 
 @pytest.mark.parametrize("integrator", ["euler", "bdf2"])
 def test_spinning_disc_is_braked_by_the_integrator_alone(integrator: str) -> None:
+    """And not by backward Euler's chords, which took a third: bodies get back what inner forces took from their rotation."""
     found = SpinningDiscCase().measure(Setting("primal", 60.0, 20, 10, integrator=integrator))
     assert found.stable
     # A ring has no width and does not give; the disc gives 0.1 %.

@@ -165,7 +165,8 @@ def test_solids_have_the_moduli_that_the_demos_iterations_act_like(ratio: float)
     scene = import_ea_scene(data, "small.json")
     visco = scene.materials["visco"]
     assert visco.kind == "visco"
-    with pbmpm.World(2, scene.cell_size, capacity=1, iterations=scene.iterations) as world:
+    assert scene.solver.solver == "paper"
+    with pbmpm.World(2, scene.cell_size, capacity=1, iterations=scene.iterations, solver=pbmpm.Solver.PAPER) as world:
         matter = pbmpm.Visco(density=visco.density, relaxation=visco.relaxation)
         papers = world.add_material(matter).effective(1.0 / scene.rate_hz)
     shear = 0.5 * visco.young_modulus / (1 + visco.poisson_ratio)

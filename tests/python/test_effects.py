@@ -36,6 +36,7 @@ WATER: dict[str, Any] = {
     "domain": {"min": [0, 0], "max": [2, 1.5]},
     "seconds": 0.5,
     "iterations": 3,
+    "solver": {"solver": "paper"},
     "materials": {"water": {"kind": "liquid", "volume_feedback": 0}},
     "fills": [{"shape": {"kind": "box", "position": [0.5, 0.3], "half_extents": [0.5, 0.3]}, "material": "water"}],
 }
@@ -125,7 +126,7 @@ def _changed(change: dict[str, Any]) -> Scene:
     [
         ("elastic", {"materials": {"jelly": {"kind": "elastic"}}}, "no fill or emitter"),
         ("volume_feedback", {"materials": {"oil": {"kind": "liquid"}}}, "no fill or emitter"),
-        ("flip", {"solver": {"flip": 0.5}}, "paper's solver"),
+        ("flip", {"solver": {"solver": "paper", "flip": 0.5}}, "paper's solver"),
         ("emitters", {"emitters": [{"shape": BALL, "material": "water", "rate": 0}]}, "rate is 0"),
         ("emitters", {"emitters": [{"shape": BALL, "material": "water", "rate": 1, "start": 0.5}]}, "after the end"),
         ("drains", {"drains": [{"shape": BALL, "start": 9}]}, "after the end"),

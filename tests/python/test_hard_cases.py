@@ -249,7 +249,7 @@ def test_transfers_damp_a_vortex_as_the_law_says(cells: int, rate_hz: float, ite
     places = np.stack(np.meshgrid(axis, axis, indexing="ij"), axis=-1).reshape(-1, 2)
     x, y = wave_number * places.T
     vortex = np.stack([np.sin(x) * np.cos(y), -np.cos(x) * np.sin(y)], axis=1)
-    with pbmpm.World(2, 1.0, capacity=len(places), domain=([0.0, 0.0], [cells, cells]), iterations=iterations) as world:
+    with pbmpm.World(2, 1.0, capacity=len(places), domain=([0.0, 0.0], [cells, cells]), iterations=iterations, solver=pbmpm.Solver.PAPER) as world:
         world.add_particles(world.add_material(pbmpm.Liquid(relaxation=0.01)), places, velocities=0.01 * vortex)
         energies = []
         for _ in range(max(3, round(seconds * rate_hz))):
@@ -371,7 +371,7 @@ def test_energy_of_a_stretched_cube_is_that_of_the_formula(dimension: int) -> No
 def test_a_motion_removes_strain_that_all_particles_share_and_not_what_differs_in_a_cell(dimension: int) -> None:
     """An even F = diag(2, 1, 1) is undone by u = -x/2. Of random F, entries in [-2, 2], a large part stays: the nodes of
     a block of 4 cells have (4 + 2)^d displacements per axis, its particles 2^d * 4^d * d numbers."""
-    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1) as world:
+    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.0] * dimension, [0.2] * dimension), world.add_material(pbmpm.Elastic()), seed=1)
         stretched = np.tile(np.diag([2.0, 1.0, 1.0][:dimension]), (len(world), 1, 1))
         world.set(pbmpm.Field.DEFORMATION, stretched)
@@ -387,7 +387,7 @@ def test_the_strain_that_corrections_move_is_what_one_iteration_of_the_paper_mov
     """From rest, with a relaxation of 1: the affine velocities times dt. The tolerance is that of single precision and of the kernels'
     rotations."""
     material = pbmpm.Elastic(relaxation=1.0, rebound_max=rebound_max)
-    with pbmpm.World(dimension, 0.1, capacity=2000, iterations=1, threads=1) as world:
+    with pbmpm.World(dimension, 0.1, capacity=2000, iterations=1, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.03] * dimension, [0.2] * dimension), world.add_material(material), seed=1)
         random = np.random.default_rng(1).uniform(-0.3, 0.3, (len(world), dimension, dimension))
         world.set(pbmpm.Field.DEFORMATION, np.eye(dimension) + random)
@@ -401,7 +401,7 @@ def test_the_strain_that_corrections_move_is_what_one_iteration_of_the_paper_mov
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_corrections_balance_elsewhere_than_where_strain_is_least(dimension: int) -> None:
     """What is left of random F moves nothing; the least squares leave less strain, and that moves."""
-    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1) as world:
+    with pbmpm.World(dimension, 0.1, capacity=2000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.03] * dimension, [0.15] * dimension), world.add_material(pbmpm.Elastic()), seed=1)
         random = np.random.default_rng(1).uniform(-0.3, 0.3, (len(world), dimension, dimension))
         world.set(pbmpm.Field.DEFORMATION, np.eye(dimension) + random)

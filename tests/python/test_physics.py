@@ -58,7 +58,7 @@ def test_free_fall_has_the_error_of_its_time_step(dimension: int, parameters: pb
     seconds, iterations, errors = 1.0, 5, []
     for rate in (30, 60, 120):
         gravity = [0.0, -GRAVITY, 0.0][:dimension]
-        with pbmpm.World(dimension, CELL, capacity=10_000, gravity=gravity, iterations=iterations, threads=1) as world:
+        with pbmpm.World(dimension, CELL, capacity=10_000, gravity=gravity, iterations=iterations, threads=1, solver=pbmpm.Solver.PAPER) as world:
             world.fill(pbmpm.Sphere([0.0] * dimension, 3 * CELL), world.add_material(parameters), jitter=0)
             start = positions_of(world)
             for _ in range(round(seconds * rate)):
@@ -95,7 +95,7 @@ def test_linear_momentum_of_a_free_body(
 ) -> None:
     """Kept to 1e-6 with one iteration (check I2), mass exactly. The drift is round-off, mostly of node masses, and acts anew
     in each of the N + 1 rounds of transfer: 3 times as much is allowed for 3 times as many."""
-    with pbmpm.World(dimension, CELL, capacity=20_000, iterations=iterations, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=20_000, iterations=iterations, threads=1, solver=pbmpm.Solver.PAPER) as world:
         spinning_body(world, parameters, (1.0, 0.5, 0.25))
         start = world.stats
         for _ in range(steps):
@@ -108,7 +108,7 @@ def test_linear_momentum_of_a_free_body(
 @each_body
 def test_angular_momentum_of_a_free_body(dimension: int, parameters: pbmpm.materials.Parameters, steps: int) -> None:
     """Kept to 1e-5 (check I3); the body stays at the origin, so that its path adds nothing."""
-    with pbmpm.World(dimension, CELL, capacity=20_000, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=20_000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         spinning_body(world, parameters, (0.0, 0.0, 0.0))
         start = world.stats.angular_momentum[2]
         for _ in range(steps):
@@ -119,7 +119,7 @@ def test_angular_momentum_of_a_free_body(dimension: int, parameters: pbmpm.mater
 def test_rigid_rotation_is_kept(dimension: int) -> None:
     """A finite turn of a turned elastic body asks for no correction (check I7: 1e-6)."""
     step, before = turn(dimension, 0.1), turn(dimension, 0.7)
-    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.03] * dimension, [4 * CELL] * dimension), world.add_material(pbmpm.Elastic()))
         world.set(pbmpm.Field.DEFORMATION, np.tile(before, (len(world), 1, 1)))
         set_linear_motion(world, (step - np.eye(dimension)) * RATE)
@@ -133,7 +133,7 @@ def test_uniform_stretch_is_kept(dimension: int) -> None:
     """A constant gradient without change of volume goes through the grid unchanged (check I8: 1e-5)."""
     gradient = np.zeros((dimension, dimension))
     gradient[0, 0], gradient[1, 1], gradient[0, 1], gradient[-1, 0] = 0.05, -0.05, 0.03, 0.02
-    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.03] * dimension, [4 * CELL] * dimension), world.add_material(MATERIALS["liquid"]))
         set_linear_motion(world, gradient * RATE)
         start = positions_of(world)
@@ -147,7 +147,8 @@ def test_mirror_symmetry(parameters: pbmpm.materials.Parameters) -> None:
     """A symmetric collapse stays symmetric for 1 s to 1e-5 of the tank's width (check I6)."""
     width, rate = 6.4, 240
     with pbmpm.World(
-        2, CELL, capacity=5000, gravity=(0, -GRAVITY), domain=((0, 0), (width, 3.2)), iterations=10, threads=1
+        2, CELL, capacity=5000, gravity=(0, -GRAVITY), domain=((0, 0), (width, 3.2)), iterations=10, threads=1,
+        solver=pbmpm.Solver.PAPER,
     ) as world:
         world.fill(pbmpm.Box((0.5 * width, 0.8), (0.8, 0.8)), world.add_material(parameters), jitter=0)
         start = positions_of(world)
@@ -176,6 +177,7 @@ def column_modulus(dimension: int, iterations: int, relaxation: float) -> float:
         domain=([0] * dimension, size),
         iterations=iterations,
         threads=1,
+        solver=pbmpm.Solver.PAPER,
     ) as world:
         liquid = pbmpm.Liquid(volume_feedback=0, relaxation=relaxation)
         world.fill(pbmpm.Box(half, half), world.add_material(liquid), jitter=0)
@@ -213,7 +215,7 @@ def bar_frequency(
 ) -> float:
     """Frequency [Hz] of the first longitudinal mode of a free bar, from the zeros of its velocity."""
     thickness, periods, wave_number = 4 * CELL, 3, math.pi / length
-    with pbmpm.World(dimension, CELL, capacity=20_000, iterations=iterations, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=20_000, iterations=iterations, threads=1, solver=pbmpm.Solver.PAPER) as world:
         half = [0.5 * length] + [0.5 * thickness] * (dimension - 1)
         bar = pbmpm.Box([0.5 * length] + [0.0] * (dimension - 1), half)
         world.fill(bar, world.add_material(pbmpm.Elastic(relaxation=relaxation)), jitter=0)
@@ -257,7 +259,7 @@ def shear_wave_viscosity(dimension: int, iterations: int, viscosity: float, wave
     """Kinematic viscosity [m^2/s] by the decay of a shear wave in the middle of a free block, far from its faces."""
     waves, wave = (5 if dimension == 2 else 3), wave_cells * CELL
     wave_number = 2 * math.pi / wave
-    with pbmpm.World(dimension, CELL, capacity=80_000, iterations=iterations, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=80_000, iterations=iterations, threads=1, solver=pbmpm.Solver.PAPER) as world:
         half = [1.5 * wave, 0.5 * waves * wave, 3 * CELL][:dimension]
         liquid = pbmpm.Liquid(viscosity=viscosity, volume_feedback=0)
         world.fill(pbmpm.Box([0.0] * dimension, half), world.add_material(liquid), jitter=0)
@@ -302,7 +304,7 @@ def test_shear_wave_decays_by_the_laws(dimension: int, iterations: int, viscosit
 def drop_axes(cells: int, rate: int, seconds: float, feedback: float) -> tuple[float, float]:
     """Half axes, over the radius, of a drop that starts as a disc with the velocity (-x, y) / s."""
     radius = cells * CELL
-    with pbmpm.World(2, CELL, capacity=20_000, iterations=10, threads=1) as world:
+    with pbmpm.World(2, CELL, capacity=20_000, iterations=10, threads=1, solver=pbmpm.Solver.PAPER) as world:
         liquid = pbmpm.Liquid(volume_feedback=feedback)
         world.fill(pbmpm.Sphere((0.0, 0.0), radius), world.add_material(liquid), jitter=0)
         start = np.cov(world.positions.array().astype(float).T)
@@ -317,7 +319,7 @@ def test_the_layer_at_the_floor_is_no_denser_than_the_rest() -> None:
     """The grid holds less at a wall, whose other side is empty. After a dam break feedback that does not know of walls leaves
     the floor's layer at 1.22 times its volume instead of 1.11; the law's own compression there is 1.09."""
     width, height, rate = 32, 24, 120
-    with pbmpm.World(2, CELL, capacity=5000, domain=((0, 0), (width * CELL, 64 * CELL)), iterations=5, threads=1) as world:
+    with pbmpm.World(2, CELL, capacity=5000, domain=((0, 0), (width * CELL, 64 * CELL)), iterations=5, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.gravity = (0, -9.81)
         half = (0.25 * width * CELL, 0.5 * height * CELL)
         world.fill(pbmpm.Box(half, half), world.add_material(pbmpm.Liquid()), jitter=0)
@@ -365,7 +367,8 @@ def peak_energy(
     side, gravity = cells * 0.05, [0.0, -GRAVITY, 0.0][:dimension]
     domain = ([0.0] * dimension, [4 * side, 2 * side, 0.4][:dimension])
     with pbmpm.World(
-        dimension, 0.05, capacity=20_000, gravity=gravity, domain=domain, iterations=iterations, threads=1
+        dimension, 0.05, capacity=20_000, gravity=gravity, domain=domain, iterations=iterations, threads=1,
+        solver=pbmpm.Solver.PAPER,
     ) as world:
         body = [0.5 * side, 0.5 * side, 0.2][:dimension]
         world.fill(pbmpm.Box(body, body), world.add_material(parameters))
@@ -395,7 +398,7 @@ def test_moving_wall_adds_no_more_than_its_work(dimension: int, parameters: pbmp
     """Seen from a wall of constant speed the wall does no work, so the energy there never rises (check I14: 0.1 %)."""
     speed = 2.0
     along, rest = [speed, 0.0, 0.0][:dimension], [0.0] * (dimension - 1)
-    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1) as world:
+    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Sphere([0.6, *rest], 4 * CELL), world.add_material(parameters))
         wall = world.add_collider(pbmpm.Box([-0.5, *rest], [0.5] + [5.0] * (dimension - 1)), kinematic=True)
         masses = by_id(world, world.masses.array())

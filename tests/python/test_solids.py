@@ -12,6 +12,7 @@ import pytest
 
 import pbmpm
 from pbmpm.app.effects.catalogue import effects_on
+from pbmpm.app.bodies import form_of
 from pbmpm.app.errors import InputError
 from pbmpm.app.picture2d import draw_2d
 from pbmpm.app.picture import look_of
@@ -310,10 +311,62 @@ def test_a_body_turns_upright_again() -> None:
     assert abs(np.mean(angles[240:])) < 0.1 and np.max(np.abs(angles[240:])) < 0.3
 
 
+BAR = {"kind": "mesh", "position": [0, 3], "vertices": [[0, -0.1], [1, -0.1], [1, 0.1], [0, 0.1]], "elements": [[0, 1], [1, 2], [2, 3], [3, 0]]}
+
+
+def test_a_mesh_is_as_heavy_and_as_hard_to_turn_as_its_formula_says() -> None:
+    form = form_of(parse_scene(_scene(BAR, body={"density": 1.0})).colliders[0].shape, 2)
+    assert form.volume == pytest.approx(0.2, rel=0.01)
+    assert form.centre == pytest.approx([0.5, 0, 0], abs=0.005)
+    assert form.inertia[2, 2] == pytest.approx((1 + 0.2**2) / 12, rel=0.02)
+
+
+def _body_angles(body: dict[str, Any], seconds: float) -> tuple[list[float], list[list[float]]]:
+    """Angle and position over time of the bar above, far from all water."""
+    data = _scene(BAR, body=body)
+    data.update(rate_hz=240)
+    del data["domain"]
+    scene = parse_scene(data)
+    angles, places = [], []
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        for _ in range(round(seconds * 240)):
+            simulation.step()
+            position, (_, _, z, w) = simulation.frame().body_poses[0]
+            angles.append(2 * math.atan2(z, w))
+            places.append(position)
+    return angles, places
+
+
+def test_a_bar_on_a_hinge_swings_as_a_pendulum_does() -> None:
+    """Let go level it is down after 1.854 sqrt(I / (m g l)): a quarter of the period of a swing of 90 degrees."""
+    angles, places = _body_angles({"density": 500.0, "moves": False}, 1.2)
+    assert all(place == pytest.approx([0, 3, 0]) for place in places)
+    down = next(k for k, angle in enumerate(angles) if angle < -math.pi / 2)
+    swing = 1.8541 * math.sqrt(((1 + 0.2**2) / 12 + 0.25) / (9.81 * 0.5))
+    assert (down + 0.5) / 240 == pytest.approx(swing, rel=0.02)
+    assert min(angles) == pytest.approx(-math.pi, abs=0.05)
+
+
+def test_a_free_mesh_falls_and_moves_about_its_centre_of_mass() -> None:
+    angles, places = _body_angles({"density": 500.0, "velocity": [1.0, 0.0]}, 0.25)
+    assert angles == pytest.approx([0.0] * len(angles), abs=1e-6)
+    assert places[-1][:2] == pytest.approx([0.25, 3 - 9.81 * 0.25**2 / 2], abs=0.01)
+
+
 def test_bodies_that_make_no_sense() -> None:
-    with pytest.raises(InputError, match="only boxes and spheres"):
-        parse_scene(_scene(POLYGON, body={"mass": 1.0}))
+    with pytest.raises(InputError, match="only boxes, spheres and meshes"):
+        parse_scene(_scene({"kind": "capsule", "position": [0, 0], "half_length": 1, "radius": 0.5}, body={"mass": 1.0}))
     box = {"kind": "box", "position": [0, 0], "half_extents": [1, 1]}
+    for body in ({}, {"mass": 1.0, "density": 1.0}):
+        with pytest.raises(InputError, match="either a mass or a density"):
+            parse_scene(_scene(box, body=body))
+    for body in ({"mass": 1.0, "moves": False, "turns": False}, {"mass": 1.0, "moves": False, "velocity": [1, 0]}):
+        with pytest.raises(InputError, match="does not move has to turn"):
+            parse_scene(_scene(box, body=body))
+    with pytest.raises(InputError, match="body.axis: in 2D"):
+        parse_scene(_scene(box, body={"mass": 1.0, "axis": [0, 0, 1]}))
+    with pytest.raises(InputError, match="axis: must not be zero"):
+        parse_scene(_scene(box, body={"mass": 1.0, "axis": [0, 0, 0]}))
     frames = [{"time": 0, "position": [0, 0]}, {"time": 1, "position": [1, 0]}]
     with pytest.raises(InputError, match="not both"):
         parse_scene(_scene(box, body={"mass": 1.0}, motion={"keyframes": frames}))

@@ -263,8 +263,8 @@ static void test_what_is_asked_of_raised_iterations_grows_with_their_swing(void)
     world_destroy(world);
 }
 
-/* Walls have images where a liquid leans on them, and for what a single iteration lays on the floor. */
-static void test_who_has_images_behind_walls(void)
+/* Nodes at walls follow others where a liquid leans on the walls, and for what a single iteration lays on the floor; never with the primal and the paper's. */
+static void test_whose_nodes_follow_at_walls(void)
 {
     World *world = open_world(2, 0.05f);
     pbmpm_material_def body = material_defaults(), water = material_defaults();
@@ -275,14 +275,19 @@ static void test_who_has_images_behind_walls(void)
     world->settings.iterations = 5;
     world->particles.of_material[solid.index] = 1;
     world->record.solver = PBMPM_SOLVER_EXPLICIT;
-    TEST_ASSERT_TRUE(solver_mirrors(world));
+    TEST_ASSERT_TRUE(solver_follows_walls(world));
     world->record.solver = PBMPM_SOLVER_DUAL;
-    TEST_ASSERT_FALSE(solver_mirrors(world));
+    TEST_ASSERT_FALSE(solver_follows_walls(world));
     world->settings.iterations = 1;
-    TEST_ASSERT_TRUE(solver_mirrors(world));
+    TEST_ASSERT_TRUE(solver_follows_walls(world));
     world->settings.iterations = 5;
     world->particles.of_material[liquid.index] = 1;
-    TEST_ASSERT_TRUE(solver_mirrors(world));
+    TEST_ASSERT_TRUE(solver_follows_walls(world));
+    static const pbmpm_solver others[] = {PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_PAPER};
+    for (int i = 0; i < 2; i++) {
+        world->record.solver = others[i];
+        TEST_ASSERT_FALSE(solver_follows_walls(world));
+    }
     memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
@@ -558,7 +563,7 @@ int main(void)
     RUN_TEST(test_raised_iterations_take_effect_slowly);
     RUN_TEST(test_what_solids_are_asked_to_bear);
     RUN_TEST(test_what_is_asked_of_raised_iterations_grows_with_their_swing);
-    RUN_TEST(test_who_has_images_behind_walls);
+    RUN_TEST(test_whose_nodes_follow_at_walls);
     RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);
     RUN_TEST(test_rounds_of_solids_among_liquids);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);

@@ -162,7 +162,12 @@ namespace Pbmpm
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>the dual while the world holds a particle of a liquid or of sand, else the primal</summary>
+        /// <summary>default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
+        /// axis): solids alone, and solids with liquid, by the primal; liquid alone, and what sand is in, by the dual. Islands
+        /// that hold the same kinds are solved together, as if nothing else were there. Where the primal solves liquid, it
+        /// is as stiff at most as the weight of the liquid compresses it by 2 % at its depth, or as sound travels N cells per
+        /// substep, whichever is more: see pbmpm_material_effective(). While matter sleeps (settings.sleeping) all
+        /// of the world is one island.</summary>
         Convergent = 4,
     }
 
@@ -228,6 +233,72 @@ namespace Pbmpm
         Stick = 1,
         /// <summary>no tangential impulse</summary>
         Slip = 2,
+    }
+
+    /// <summary>What an advice is about. Cells are counted in cell sizes, and a substep lasts dt / settings.substeps.</summary>
+    public enum AdviceCode : int
+    {
+        /// <summary>settings.gravity is 0, and no uniform force acts</summary>
+        NoGravity = 1,
+        /// <summary>matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter</summary>
+        FallsForever = 2,
+        /// <summary>a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default</summary>
+        Ignored = 3,
+        /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
+        /// the strain at the bottom</summary>
+        PoolTooDeep = 4,
+        /// <summary>dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep</summary>
+        PoolStirs = 5,
+        /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
+        ModulusNotHeld = 6,
+        /// <summary>sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
+        /// strain that bears it</summary>
+        SandNotHeld = 7,
+        /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
+        BodyTooThin = 8,
+        /// <summary>dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
+        BounceDamped = 9,
+        /// <summary>a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells]</summary>
+        RollingBraked = 10,
+        /// <summary>an obstacle passes matter by. Figure: its way in the next substep [cells]</summary>
+        ColliderTooFast = 11,
+        /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
+        ColliderTooThin = 12,
+        /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
+        StepTooLong = 13,
+        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
+        VolumeLost = 14,
+        /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
+        StrainClamped = 15,
+        /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells]</summary>
+        NotSolved = 16,
+    }
+
+    /// <summary>What would help.</summary>
+    public enum Change : int
+    {
+        /// <summary>nothing that a number says; see the text</summary>
+        None = 0,
+        /// <summary>settings.substeps, or the rate in the same proportion</summary>
+        Substeps = 1,
+        /// <summary>settings.iterations</summary>
+        Iterations = 2,
+        /// <summary>world_def.cell_size [m]</summary>
+        CellSize = 3,
+        /// <summary>settings.solver; the value is a pbmpm_solver</summary>
+        Solver = 4,
+        /// <summary>settings.gravity; the value is a strength [m/s^2]</summary>
+        Gravity = 5,
+        /// <summary>pbmpm_world_set_kill_bounds(), or something to fall on</summary>
+        KillBounds = 6,
+        /// <summary>the parameter; the value is its default</summary>
+        Parameter = 7,
+        /// <summary>material_def.young_modulus [Pa]: a softer body that looks the same at any rate</summary>
+        YoungModulus = 8,
+        /// <summary>settings.integrator; the value is a pbmpm_integrator</summary>
+        Integrator = 9,
+        /// <summary>the obstacle's thickness [m]</summary>
+        Collider = 10,
     }
 
     /// <summary>Where an emitter's particles are born.</summary>
@@ -431,6 +502,9 @@ namespace Pbmpm
     /// from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
     /// hold the modulus: see pbmpm_material_effective().
     ///
+    /// With the dual solver sand carries its stress on from substep to substep: its pressure keeps the volume ratio, with the bulk modulus, J follows the grid as a
+    /// liquid's does (by volume_feedback), and what was compressed comes back by a tenth per 1/60 s. Where it lies deep it takes up to 16 more iterations.
+    ///
     /// Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
     /// artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
     ///
@@ -456,7 +530,7 @@ namespace Pbmpm
         /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
-        /// <summary>liquid, visco: share per substep by which J follows the volume measured on the grid where
+        /// <summary>liquid, visco, with the dual solver sand: share per substep by which J follows the volume measured on the grid where
         /// that shows compression, or J is below 0.8 of it (up to 0.9 if three times its weight and its motion cannot press it that far), in [0, 1];
         /// default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
         /// Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
@@ -503,7 +577,7 @@ namespace Pbmpm
         public float FrictionAngle;
         /// <summary>sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry</summary>
         public float Cohesion;
-        /// <summary>sand: 1 (default): sand that has come apart, up to three times its volume, closes up again before it bears
+        /// <summary>sand: 1 (default): sand that has come apart, up to three times its volume (1.15 times with the dual solver), closes up again before it bears
         /// pressure; 0: it does not, and a heap grows with each fall</summary>
         public uint VolumeCorrection;
         /// <summary>visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
@@ -533,10 +607,12 @@ namespace Pbmpm
         /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
         public uint Size;
         /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-        /// of young_modulus. Other solvers: the material's own.</summary>
+        /// of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
+        /// stands for it at the depth of the last step.</summary>
         public float BulkModulus;
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own.</summary>
+        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
+        /// solver of the island that the particles are in now, of several the softest.</summary>
         public float YoungModulus;
         /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
         /// N dx^2 / (8 dt); without what the transfers add</summary>
@@ -673,7 +749,7 @@ namespace Pbmpm
         /// <summary>largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
         /// default 32. Faster particles are slowed to it; each time is counted in the events.</summary>
         public float MaxDisplacement;
-        /// <summary>default PBMPM_SOLVER_PAPER</summary>
+        /// <summary>default PBMPM_SOLVER_CONVERGENT</summary>
         public Solver Solver;
         /// <summary>dual solver; default PBMPM_PRESSURE_PARTICLES</summary>
         public Pressure Pressure;
@@ -1177,7 +1253,8 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
-        /// <summary>that the last substep was solved with (never PBMPM_SOLVER_CONVERGENT)</summary>
+        /// <summary>that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: islands of matter with several. Then
+        /// iterations, residual and error are the largest, and checks that failed the sum</summary>
         public Solver Solver;
         /// <summary>what ended its iterations</summary>
         public Stop Stop;
@@ -1386,6 +1463,34 @@ namespace Pbmpm.Native
         public IntPtr Data;
         /// <summary>valid while pbmpm_world_generation() returns this number</summary>
         public ulong Generation;
+    }
+
+    /// <summary>One thing that the present scene and settings do not hold.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct Advice
+    {
+        /// <summary>sizeof(pbmpm_advice); set by the caller in the first element of an array</summary>
+        public uint Size;
+        /// <summary>what</summary>
+        public AdviceCode Code;
+        /// <summary>whose; all zero: of no material</summary>
+        public MaterialId Material;
+        /// <summary>whose; all zero: of no obstacle</summary>
+        public ColliderId Collider;
+        /// <summary>what was found; the code says of what</summary>
+        public float Figure;
+        /// <summary>what it would have to keep to</summary>
+        public float Bound;
+        /// <summary>what would help</summary>
+        public Change Change;
+        /// <summary>to what; where it is out of a setting's range it is the end of that range</summary>
+        public float Value;
+        /// <summary>what that costs, in percent of a step; negative: not known</summary>
+        public float Price;
+        /// <summary>1: measured in the present state; 0: foreseen</summary>
+        public int CameTrue;
+        /// <summary>one sentence, constant, valid as long as the library; never null</summary>
+        public IntPtr Text;
     }
 
     /// <summary>The functions of the C library, as they are.</summary>
@@ -1621,25 +1726,6 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_shape(WorldId world, Shape* shape, ParticleId* ids, uint capacity, uint* count);
 
-        /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
-        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
-        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
-
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
-        /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
-        /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
-
-        /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
-        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
-        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_step_end(WorldId world, int wait);
-
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
@@ -1681,6 +1767,40 @@ namespace Pbmpm.Native
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
+
+        /// <summary>What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
+        /// Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
+        ///
+        /// Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
+        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
+        /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
+        /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
+        /// Any thread, one at a time per world.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_advice(WorldId world, float dt, Advice* array, uint capacity, uint* count);
+
+        /// <summary>A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_advice_name(AdviceCode code);
+
+        /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
+        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
+        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
+
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
+        /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
+        /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
+
+        /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
+        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_end(WorldId world, int wait);
 
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1886,6 +2006,7 @@ namespace Pbmpm.Native
             View(fields);
             ColliderDef(fields);
             Impulse(fields);
+            Advice(fields);
             DrainId(fields);
             DrainDef(fields);
             DrainStatus(fields);
@@ -2164,6 +2285,23 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_impulse", "linear", &it, &it.Linear, &it.Linear + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "angular", &it, &it.Angular, &it.Angular + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "", &it, &it, &it + 1, true));
+        }
+
+        static void Advice(List<MirrorField> fields)
+        {
+            var it = default(Advice);
+            fields.Add(new MirrorField("pbmpm_advice", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "code", &it, &it.Code, &it.Code + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "collider", &it, &it.Collider, &it.Collider + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "figure", &it, &it.Figure, &it.Figure + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "bound", &it, &it.Bound, &it.Bound + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "change", &it, &it.Change, &it.Change + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "value", &it, &it.Value, &it.Value + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "price", &it, &it.Price, &it.Price + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "came_true", &it, &it.CameTrue, &it.CameTrue + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "text", &it, &it.Text, &it.Text + 1, false));
+            fields.Add(new MirrorField("pbmpm_advice", "", &it, &it, &it + 1, true));
         }
 
         static void DrainId(List<MirrorField> fields)

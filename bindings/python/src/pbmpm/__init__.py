@@ -12,6 +12,7 @@
 from ._ffi import ffi as _ffi
 from ._library import lib as _lib
 from ._library import library_path, version_text
+from .advice import Advice, AdviceCode, Change
 from .colliders import Collider, Friction
 from .errors import (
     BusyError,
@@ -52,12 +53,15 @@ def isa() -> str:
 
 
 __all__ = [
+    "Advice",
+    "AdviceCode",
     "Baked",
     "BakedSolid",
     "Box",
     "BusyError",
     "CapacityError",
     "Capsule",
+    "Change",
     "ClosedError",
     "Collider",
     "DamagedError",

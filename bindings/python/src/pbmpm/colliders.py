@@ -50,6 +50,11 @@ class Collider(Member):
     _name = "collider"
 
     @property
+    def identity(self) -> tuple[int, int]:
+        """Index and generation, as `Advice.collider` has them."""
+        return int(self._id.index), int(self._id.generation)
+
+    @property
     def shape(self) -> Shape:
         """The shape with its current pose; the rotation is a quaternion."""
         found, dimension = self._definition().shape, self._world.dimension

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import enum
+from dataclasses import dataclass, fields
 from typing import Any
 
-from ._convert import Vector, assign, assign_vector, plain, shortest, sized
+from ._convert import Vector, assign, assign_vector, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
 from .shapes import Shape, to_c
@@ -23,7 +24,7 @@ class Solver(enum.Enum):
     PRIMAL = ffi.integer_const("PBMPM_SOLVER_PRIMAL")
     #: explicit MLS-MPM, to compare with; liquids need a bulk modulus
     EXPLICIT = ffi.integer_const("PBMPM_SOLVER_EXPLICIT")
-    #: the dual while the world holds a particle of a liquid, else the primal
+    #: the default: per island of touching matter: liquid by itself and whatever sand touches by the dual, solids, also in liquid, by the primal
     CONVERGENT = ffi.integer_const("PBMPM_SOLVER_CONVERGENT")
 
 
@@ -47,6 +48,37 @@ class Stop(enum.Enum):
     ITERATIONS = ffi.integer_const("PBMPM_STOP_ITERATIONS")  #: all were done
     ERROR = ffi.integer_const("PBMPM_STOP_ERROR")  #: the predicted error fell below target_error
     TIME = ffi.integer_const("PBMPM_STOP_TIME")  #: time_budget_ms was spent
+
+
+@dataclass(frozen=True)
+class SettingsDefaults:
+    """What a world has unless told otherwise; see the properties of `World`."""
+
+    substeps: int
+    iterations: int
+    max_displacement: float
+    solver: Solver
+    pressure: Pressure
+    integrator: Integrator
+    flip: float
+    target_error: float
+    time_budget_ms: float
+    sleep_speed: float
+    sleep_time: float
+
+
+_DECODED = {"substeps": int, "iterations": int, "solver": Solver, "pressure": Pressure, "integrator": Integrator}
+
+
+def _defaults() -> SettingsDefaults:
+    settings = initialised("pbmpm_settings")
+    return SettingsDefaults(
+        **{item.name: _DECODED.get(item.name, shortest)(getattr(settings, item.name)) for item in fields(SettingsDefaults)}
+    )
+
+
+#: Those of the C library, the only place that has them.
+DEFAULTS = _defaults()
 
 
 class WorldSettings(WorldPart):

@@ -13,6 +13,7 @@ from ._convert import Vector, assign, assign_vector, floats, identifiers, initia
 from ._ffi import ffi
 from ._handle import WorldHandle
 from ._library import lib
+from .advice import WorldAdvice
 from .background import WorldBackground
 from .colliders import Collider, Friction
 from .errors import ClosedError, InvalidArgumentError, check
@@ -31,7 +32,7 @@ from .views import MATRICES, Field, View
 Ids = npt.NDArray[np.uint32]
 
 
-class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots, WorldBackground, WorldSolids):
+class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots, WorldBackground, WorldSolids, WorldAdvice):
     """A world of liquid and elastic matter.
 
     Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one

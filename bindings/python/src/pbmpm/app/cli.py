@@ -112,7 +112,7 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
     if warmup_steps >= seconds * settings.rate_hz:
         raise InputError("--warmup-steps: leaves no step to measure")
     output = _output(scene, settings, seconds, options)
-    result = run_scene(scene, settings, seconds, output, warmup_steps)
+    result = run_scene(scene, settings, seconds, output, warmup_steps, lambda line: click.echo(line, err=True))
     emit_json(result.report, json_target)
     if json_target != "-":
         click.echo(_summary(result.report))

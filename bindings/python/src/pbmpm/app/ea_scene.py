@@ -90,6 +90,7 @@ def import_ea_scene(data: dict[str, Any], source: str) -> Scene:
         "seconds": DEFAULT_SECONDS,
         "rate_hz": settings["simRate"],
         "iterations": int(settings["iterationCount"]),
+        "solver": {"solver": "paper"},
         "materials": _materials(settings, cell_size, {shape.material for shape in shapes if shape.emits}, notes),
         "fills": [
             _fill(s, p, i, settings) for i, (s, p) in enumerate(zip(shapes, parts)) if s.function == "initial fill"

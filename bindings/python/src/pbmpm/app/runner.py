@@ -6,12 +6,13 @@ import math
 import signal
 import threading
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from .advising import advice_lines, advice_rows
 from .effects.catalogue import effects_on, remarks
 from .frame import Frame
 from .machine import machine_facts
@@ -76,11 +77,20 @@ class Interrupt:
 
 
 def run_scene(
-    scene: Scene, settings: RunSettings, seconds: float, output: OutputOptions, warmup_steps: int = 0
+    scene: Scene,
+    settings: RunSettings,
+    seconds: float,
+    output: OutputOptions,
+    warmup_steps: int = 0,
+    tell: Callable[[str], None] | None = None,
 ) -> RunResult:
-    """Simulates ``seconds`` of a scene. Timing leaves out the first ``warmup_steps`` steps."""
+    """Simulates ``seconds`` of a scene. Timing leaves out the first ``warmup_steps`` steps. ``tell`` gets a line for each advice, before the
+    first step and of what came true after the last."""
     steps = max(1, math.ceil(seconds * settings.rate_hz - _TIME_TOLERANCE))
     with Simulation(scene, settings) as simulation, Interrupt().watching() as interrupt:
+        foreseen = advice_rows(simulation)
+        for line in advice_lines(simulation) if tell else []:
+            tell(f"advice: {line}")
         recorder = _Recorder(scene, settings, output, simulation)
         meter = Meter(warmup_steps)
         try:
@@ -89,7 +99,9 @@ def run_scene(
             recorder.finish("failed", {})
             raise
         problems = simulation.problems()
-        report = _report(scene, settings, simulation, meter, bool(interrupt), problems)
+        report = {**_report(scene, settings, simulation, meter, bool(interrupt), problems), "advice": foreseen, "advice_after": advice_rows(simulation)}
+        for line in advice_lines(simulation, came_true=True) if tell else []:
+            tell(f"came true: {line}")
         recorder.finish("interrupted" if interrupt else "failed" if problems else "complete", report)
     return RunResult(report, bool(interrupt), problems)
 

@@ -11,11 +11,12 @@ from __future__ import annotations
 import json
 import math
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, cast
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from ..materials import Elastic, Liquid, Sand, Visco
+from ..settings import DEFAULTS
 from .errors import InputError
 from .names import EffectName, IntegratorName, PressureName, SolverName
 
@@ -237,12 +238,28 @@ class MotionPart(_Part):
 class BodyPart(_Part):
     """What makes an obstacle a rigid body that matter pushes. It keeps inside the domain and passes other obstacles."""
 
-    mass: Positive
+    mass: Positive | None = None
     """[kg]; in 2D per metre of depth"""
+    density: Positive | None = None
+    """[kg/m^3], instead of the mass"""
+    moves: bool = True
+    """False: its position is a hinge, and it only turns."""
     turns: bool = True
+    axis: Annotated[list[Finite], Field(min_length=3, max_length=3)] | None = None
+    """In 3D: it turns about this axis alone."""
     velocity: Vector | None = None
     virtual_mass: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
     """[kg], for bodies much lighter than the liquid that holds them; see ``pbmpm_impulse``"""
+
+    @model_validator(mode="after")
+    def _is_one_body(self) -> BodyPart:
+        if (self.mass is None) == (self.density is None):
+            raise ValueError("a body needs either a mass or a density")
+        if not self.moves and (not self.turns or self.velocity is not None):
+            raise ValueError("a body that does not move has to turn, and has no velocity")
+        if self.axis is not None and math.hypot(*self.axis) < 1e-6:
+            raise ValueError("axis: must not be zero")
+        return self
 
 
 class ColliderPart(_Part):
@@ -258,8 +275,8 @@ class ColliderPart(_Part):
     def _moves_one_way(self) -> ColliderPart:
         if self.body is not None and self.motion is not None:
             raise ValueError("an obstacle has a motion or a body, not both")
-        if self.body is not None and self.shape.kind not in ("box", "sphere"):
-            raise ValueError("body: only boxes and spheres can be bodies")
+        if self.body is not None and self.shape.kind not in ("box", "sphere", "mesh"):
+            raise ValueError("body: only boxes, spheres and meshes can be bodies")
         return self
 
 
@@ -353,12 +370,12 @@ class CameraPart(_Part):
 class SolverPart(_Part):
     """How the equations are solved. Fields and defaults are those of ``pbmpm_settings``."""
 
-    solver: SolverName = "paper"
-    pressure: PressureName = "particles"
-    integrator: IntegratorName = "euler"
-    flip: Share = 0.0
-    target_error: Share = 0.0
-    time_budget_ms: Milliseconds = 0.0
+    solver: SolverName = cast(SolverName, DEFAULTS.solver.name.lower())
+    pressure: PressureName = cast(PressureName, DEFAULTS.pressure.name.lower())
+    integrator: IntegratorName = cast(IntegratorName, DEFAULTS.integrator.name.lower())
+    flip: Share = DEFAULTS.flip
+    target_error: Share = DEFAULTS.target_error
+    time_budget_ms: Milliseconds = DEFAULTS.time_budget_ms
 
 
 class SleepingPart(_Part):
@@ -393,10 +410,10 @@ class Scene(_Part):
     domain: DomainPart | None = None
     seconds: Positive
     rate_hz: Rate = 60.0
-    substeps: Substeps = 1
-    iterations: Iterations = 5
+    substeps: Substeps = DEFAULTS.substeps
+    iterations: Iterations = DEFAULTS.iterations
     solver: SolverPart = SolverPart()
-    max_displacement: Annotated[float, Field(ge=0.1, le=64)] = 32.0
+    max_displacement: Annotated[float, Field(ge=0.1, le=64)] = DEFAULTS.max_displacement
     materials: Annotated[dict[str, MaterialPart], Field(min_length=1)]
     fills: list[FillPart] = []
     colliders: list[ColliderPart] = []
@@ -511,6 +528,9 @@ def _cross_check(scene: Scene) -> list[str]:
     if not scene.sources:
         problems.append("fills: there is nothing in the scene: it needs a fill or an emitter")
     problems += _material_problems(scene)
+    for index, part in enumerate(scene.colliders):
+        if scene.dimension == 2 and part.body is not None and part.body.axis is not None:
+            problems.append(f"colliders[{index}].body.axis: in 2D a body turns in the plane")
     for name in ("colliders", "drains", "forces"):
         for index, part in enumerate(getattr(scene, name)):
             if part.shape is not None and part.shape.kind == "plane" and math.hypot(*part.shape.normal) < 1e-6:

@@ -27,6 +27,8 @@ DELETIONS = (
     pbmpm.EventKind.DELETED_CONDITION,
 )
 
+_PLAIN = SolverPart()  # the library's defaults
+
 
 @dataclass(frozen=True)
 class RunSettings:
@@ -37,12 +39,12 @@ class RunSettings:
     iterations: int
     threads: int = 0
     """0: one per core."""
-    solver: SolverName = "paper"
-    pressure: PressureName = "particles"
-    integrator: IntegratorName = "euler"
-    flip: float = 0.0
-    target_error: float = 0.0
-    time_budget_ms: float = 0.0
+    solver: SolverName = _PLAIN.solver
+    pressure: PressureName = _PLAIN.pressure
+    integrator: IntegratorName = _PLAIN.integrator
+    flip: float = _PLAIN.flip
+    target_error: float = _PLAIN.target_error
+    time_budget_ms: float = _PLAIN.time_budget_ms
 
     @classmethod
     def of(cls, scene: Scene, threads: int = 0, **changes: Any) -> RunSettings:
@@ -211,9 +213,7 @@ class Simulation:
 
     def step(self) -> None:
         """Advances by one step, with the obstacles on their way."""
-        for collider, part in self._moving:
-            position, rotation = collider_pose(part, (self.steps + 1) * self.settings.dt)
-            collider.move(position[: self.scene.dimension], rotation)
+        self._set_motions()
         self._flows.before_step(self.time, self.settings.dt)
         for body in self._bodies.values():
             body.before_step(self.settings.dt)
@@ -225,6 +225,17 @@ class Simulation:
     def advance(self, dt: float) -> None:
         """The step of the world alone."""
         self.world.step(dt)
+
+    def advice(self) -> list[pbmpm.Advice]:
+        """What the scene and settings will not hold in the next step, and what came true so far."""
+        self._set_motions()
+        return self.world.advice(self.settings.dt)
+
+    def _set_motions(self) -> None:
+        """Where moving obstacles are at the end of the next step."""
+        for collider, part in self._moving:
+            position, rotation = collider_pose(part, (self.steps + 1) * self.settings.dt)
+            collider.move(position[: self.scene.dimension], rotation)
 
     def body_states(self) -> tuple[dict[str, Any], ...]:
         """How the rigid bodies are and move, in the order of the scene."""

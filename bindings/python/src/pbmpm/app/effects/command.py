@@ -46,6 +46,7 @@ def effects(
 
     Exit code 1 when the scene breaks before it is measured.
     """
+    from ..advising import scene_advice
     from .catalogue import effects_on
     from .chart import save_chart
     from .measure import BrokenScene, Plan, measure, names
@@ -73,6 +74,8 @@ def effects(
         save_chart(report, chart)
     if json_target != "-":
         click.echo(text_of(report))
+        for line in scene_advice(scene, settings):
+            click.echo(f"advice: {line}")
         if chart is not None:
             click.echo(f"chart: {chart}")
 

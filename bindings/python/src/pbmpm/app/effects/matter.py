@@ -140,6 +140,10 @@ def _has_liquid(scene: Scene) -> bool:
     return any(scene.materials[name].kind == "liquid" for name in materials_with_particles(scene))
 
 
+def _has_solid(scene: Scene) -> bool:
+    return any(scene.materials[name].kind not in ("liquid", "sand") for name in materials_with_particles(scene))
+
+
 def _for_dual(scene: Scene) -> str | None:
     dual = scene.solver.solver == "dual" or (scene.solver.solver == "convergent" and _has_liquid(scene))
     if not dual:
@@ -157,7 +161,7 @@ def _for_flip(scene: Scene) -> str | None:
 
 def _for_primal(scene: Scene) -> str | None:
     solver = scene.solver.solver
-    primal = solver == "primal" or (solver == "convergent" and not _has_liquid(scene))
+    primal = solver == "primal" or (solver == "convergent" and _has_solid(scene))
     return None if primal else "only the primal solver uses it"
 
 

@@ -62,6 +62,8 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     Exit code 1 when nothing fits into the budget.
     """
     from ..scene import load_scene
+    from ..advising import scene_advice
+    from ..simulation import RunSettings
     from .chart import save_chart
     from .presets import presets, save_presets
     from .report import report_of, text_of
@@ -89,6 +91,9 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     )
     if json_target != "-":
         click.echo(text_of(tuning, made, paths))
+        for level, preset in made.items():
+            for line in scene_advice(scene, RunSettings.of(scene, plan.threads, **preset.settings.changes())):
+                click.echo(f"advice at '{level}': {line}")
         click.echo(f"chart: {folder / 'chart.png'}")
     if "high" in made and (made["high"].ms_p99 or 0.0) > plan.budget_ms:
         click.echo(f"note: one frame in a hundred of 'high' takes {made['high'].ms_p99:.3g} ms or more", err=True)

@@ -189,7 +189,10 @@ class SpinningDiscCase(ElasticCase):
         ),
         ErrorMeasure("grown", "discretisation", "%", "of the radius"),
     )
-    notes = "Backward Euler loses 2 pi omega dt per revolution at the start: d omega / dt = -omega^3 dt."
+    notes = (
+        "Backward Euler loses 2 pi omega dt per revolution at the start: d omega / dt = -omega^3 dt. "
+        "The primal solver gives it back to whole bodies."
+    )
 
     def __init__(self) -> None:
         disc = SpinningDisc()
@@ -212,7 +215,9 @@ class SpinningDiscCase(ElasticCase):
         if setting.solver != "explicit":
             steps = round(disc.period / setting.dt) * setting.substeps
             dt = setting.dt / setting.substeps
-            errors["of_theory"] = relative(kept, rotation_kept(setting.integrator, disc.angular_velocity, dt, steps))
+            given_back = setting.solver == "primal" and setting.integrator == "euler"  # what chords take, see src/primal_spin.c
+            theory = 1.0 if given_back else rotation_kept(setting.integrator, disc.angular_velocity, dt, steps)
+            errors["of_theory"] = relative(kept, theory)
         return record.measurement(errors, (errors["displaced"],), kinetic_kept=moving, stored=stored)
 
 

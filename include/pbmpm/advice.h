@@ -1,0 +1,85 @@
+/* pbmpm: what the present scene and settings will not hold, what would help, and what that costs. */
+#ifndef PBMPM_ADVICE_H
+#define PBMPM_ADVICE_H
+
+#include "collider.h"
+#include "material.h"
+#include "world.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** What an advice is about. Cells are counted in cell sizes, and a substep lasts dt / settings.substeps. */
+typedef enum pbmpm_advice_code {
+    /* Foreseen from the scene and the settings. */
+    PBMPM_ADVICE_NO_GRAVITY = 1,       /**< settings.gravity is 0, and no uniform force acts */
+    PBMPM_ADVICE_FALLS_FOREVER = 2,    /**< matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter */
+    PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
+    PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
+                                            the strain at the bottom */
+    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep */
+    PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
+                                            strain that bears it */
+    PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body */
+    PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
+    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
+    /* Came true: measured in the present state. */
+    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
+    PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
+    PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
+    PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
+} pbmpm_advice_code;
+
+/** What would help. */
+typedef enum pbmpm_change {
+    PBMPM_CHANGE_NONE = 0,       /**< nothing that a number says; see the text */
+    PBMPM_CHANGE_SUBSTEPS = 1,   /**< settings.substeps, or the rate in the same proportion */
+    PBMPM_CHANGE_ITERATIONS = 2, /**< settings.iterations */
+    PBMPM_CHANGE_CELL_SIZE = 3,  /**< world_def.cell_size [m] */
+    PBMPM_CHANGE_SOLVER = 4,     /**< settings.solver; the value is a pbmpm_solver */
+    PBMPM_CHANGE_GRAVITY = 5,    /**< settings.gravity; the value is a strength [m/s^2] */
+    PBMPM_CHANGE_KILL_BOUNDS = 6, /**< pbmpm_world_set_kill_bounds(), or something to fall on */
+    PBMPM_CHANGE_PARAMETER = 7,  /**< the parameter; the value is its default */
+    PBMPM_CHANGE_YOUNG_MODULUS = 8, /**< material_def.young_modulus [Pa]: a softer body that looks the same at any rate */
+    PBMPM_CHANGE_INTEGRATOR = 9, /**< settings.integrator; the value is a pbmpm_integrator */
+    PBMPM_CHANGE_COLLIDER = 10,  /**< the obstacle's thickness [m] */
+    PBMPM_CHANGE_FORCE32 = 0x7fffffff
+} pbmpm_change;
+
+/** One thing that the present scene and settings do not hold. */
+typedef struct pbmpm_advice {
+    uint32_t size;               /**< sizeof(pbmpm_advice); set by the caller in the first element of an array */
+    pbmpm_advice_code code;      /**< what */
+    pbmpm_material_id material;  /**< whose; all zero: of no material */
+    pbmpm_collider_id collider;  /**< whose; all zero: of no obstacle */
+    float figure;                /**< what was found; the code says of what */
+    float bound;                 /**< what it would have to keep to */
+    pbmpm_change change;         /**< what would help */
+    float value;                 /**< to what; where it is out of a setting's range it is the end of that range */
+    float price;                 /**< what that costs, in percent of a step; negative: not known */
+    int32_t came_true;           /**< 1: measured in the present state; 0: foreseen */
+    const char *text;            /**< one sentence, constant, valid as long as the library; never null */
+} pbmpm_advice;
+
+/** What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
+ *  Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
+ *
+ *  Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
+ *  capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
+ *  step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
+ *  Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
+ *  Any thread, one at a time per world. */
+PBMPM_API pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count);
+
+/** A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread. */
+PBMPM_API const char *pbmpm_advice_name(pbmpm_advice_code code);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,347 @@
+/* Advice: what is foreseen of a scene and its settings, what came true, and what the call promises. */
+#include <math.h>
+#include <string.h>
+
+#include "scenes.h"
+
+enum { ROOM = 32 };
+static const float DT = 1.0f / 60.0f;
+static const float at_rest[3] = {0, 0, 0};
+
+static pbmpm_advice told[ROOM];
+static uint32_t told_count;
+
+void setUp(void)
+{
+}
+
+void tearDown(void)
+{
+    pbmpm_shutdown();
+}
+
+static void ask(pbmpm_world_id world)
+{
+    told[0].size = sizeof told[0];
+    OK(pbmpm_world_advice(world, DT, told, ROOM, &told_count));
+    TEST_ASSERT_TRUE(told_count <= ROOM);
+}
+
+static const pbmpm_advice *find(pbmpm_advice_code code)
+{
+    for (uint32_t i = 0; i < told_count; i++)
+        if (told[i].code == code) return &told[i];
+    return NULL;
+}
+
+static const pbmpm_advice *expect(pbmpm_world_id world, pbmpm_advice_code code)
+{
+    ask(world);
+    const pbmpm_advice *found = find(code);
+    TEST_ASSERT_NOT_NULL_MESSAGE(found, pbmpm_advice_name(code));
+    TEST_ASSERT_EQUAL_UINT32(sizeof *found, found->size);
+    TEST_ASSERT_TRUE(strlen(found->text) > 10);
+    return found;
+}
+
+static void expect_none(pbmpm_world_id world, pbmpm_advice_code code)
+{
+    ask(world);
+    TEST_ASSERT_NULL_MESSAGE(find(code), pbmpm_advice_name(code));
+}
+
+static pbmpm_world_id falling_world(int32_t dimension, float cell_size)
+{
+    const pbmpm_world_def def = default_world(dimension, cell_size, 60000);
+    const pbmpm_world_id world = create_world(&def);
+    set_gravity(world, 0, -9.81f, 0);
+    return world;
+}
+
+static pbmpm_material_id add_material(pbmpm_world_id world, const pbmpm_material_def *def)
+{
+    pbmpm_material_id material;
+    OK(pbmpm_material_create(world, def, &material));
+    return material;
+}
+
+/* ---- the call ---- */
+
+static void test_a_tank_of_water_at_defaults_needs_no_advice(void)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    set_gravity(world, 0, -9.81f, 0);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.15f, 0, 0.5f, 0.15f, 0.5f), at_rest);
+    for (int step = 0; step < 120; step++) OK(pbmpm_world_step(world, DT));
+    ask(world);
+    TEST_ASSERT_EQUAL_UINT32_MESSAGE(0, told_count, told_count ? told[0].text : "");
+}
+
+static void test_arguments_are_checked(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    uint32_t count = 77;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_advice(world, DT, told, ROOM, NULL));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_advice(world, DT, NULL, 1, &count));
+    told[0].size = 4;
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_advice(world, DT, told, ROOM, &count));
+    told[0].size = sizeof told[0];
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_advice(world, 0.0f, told, ROOM, &count));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_advice(world, NAN, told, ROOM, &count));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_advice(world, 10.1f, told, ROOM, &count));
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_world_advice((pbmpm_world_id){0, 0}, DT, told, ROOM, &count));
+    TEST_ASSERT_EQUAL_UINT32(77, count);
+}
+
+static void test_every_code_has_a_name(void)
+{
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_NOT_SOLVED; code++)
+        TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
+    TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
+    TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
+}
+
+/* Both parts of the answer: how many there are, and as many of the first as there is room for. Nothing that is read back changes. */
+static void test_it_writes_what_there_is_room_for_and_changes_nothing(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.flip = 0.5f;
+    OK(pbmpm_world_set_settings(world, &settings));
+    const uint64_t hash = world_hash(world);
+    const pbmpm_stats before = world_stats(world);
+    uint32_t count = 0;
+    ask(world);
+    TEST_ASSERT_TRUE(told_count >= 2);
+    TEST_ASSERT_EQUAL_INT(PBMPM_ADVICE_NO_GRAVITY, told[0].code);
+    memset(told, 0xA5, sizeof told);
+    told[0].size = sizeof told[0];
+    OK(pbmpm_world_advice(world, DT, told, 1, &count));
+    TEST_ASSERT_EQUAL_UINT32(told_count, count);
+    TEST_ASSERT_EQUAL_INT(PBMPM_ADVICE_NO_GRAVITY, told[0].code);
+    TEST_ASSERT_EQUAL_HEX32(0xA5A5A5A5, told[1].size);
+    TEST_ASSERT_EQUAL_HEX64(hash, world_hash(world));
+    TEST_ASSERT_EQUAL_UINT64(before.memory_bytes, world_stats(world).memory_bytes);
+}
+
+static void watched(pbmpm_world_def *def, void *user)
+{
+    def->allocator = ledger_allocator(user);
+}
+
+static void test_without_memory_it_says_so(void)
+{
+    static ledger book;
+    uint32_t count = 77;
+    book = (ledger){0};
+    const pbmpm_world_id world = tank_2d(watched, &book);
+    book.fail_at = book.calls + 1;
+    EXPECT(PBMPM_ERROR_OUT_OF_MEMORY, pbmpm_world_advice(world, DT, NULL, 0, &count));
+    TEST_ASSERT_EQUAL_UINT32(77, count);
+    OK(pbmpm_world_advice(world, DT, NULL, 0, &count));
+    OK(pbmpm_world_destroy(world));
+    ledger_expect_clean(&book, "after advice");
+}
+
+/* ---- what is foreseen ---- */
+
+static void test_no_gravity(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    TEST_ASSERT_EQUAL_INT(PBMPM_CHANGE_GRAVITY, expect(world, PBMPM_ADVICE_NO_GRAVITY)->change);
+    expect_none(world, PBMPM_ADVICE_FALLS_FOREVER);
+    set_gravity(world, 0, -9.81f, 0);
+    expect_none(world, PBMPM_ADVICE_NO_GRAVITY);
+}
+
+static void check_falling(int32_t dimension)
+{
+    const pbmpm_world_id world = falling_world(dimension, 0.1f);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, 2, 0, 0.5f, 0.5f, 0.5f), at_rest);
+    TEST_ASSERT_EQUAL_FLOAT(1.0f, expect(world, PBMPM_ADVICE_FALLS_FOREVER)->figure);
+    const pbmpm_collider_id beside = create_collider(world, box_shape(5, 0, 0, 0.5f, 0.5f, 0.5f), false);
+    expect(world, PBMPM_ADVICE_FALLS_FOREVER);
+    OK(pbmpm_collider_destroy(world, beside));
+    const pbmpm_collider_id below = create_collider(world, box_shape(0, -50, 0, 1, 0.5f, 1), false);
+    expect_none(world, PBMPM_ADVICE_FALLS_FOREVER);
+    OK(pbmpm_collider_destroy(world, below));
+    pbmpm_kill_bounds bounds;
+    OK(pbmpm_kill_bounds_init(&bounds, sizeof bounds));
+    bounds.enabled = 1;
+    OK(pbmpm_world_set_kill_bounds(world, &bounds));
+    expect_none(world, PBMPM_ADVICE_FALLS_FOREVER);
+}
+
+static void test_matter_that_falls_for_ever(void)
+{
+    check_falling(2);
+    check_falling(3);
+}
+
+static void check_ignored(pbmpm_world_id world, const char *word)
+{
+    ask(world);
+    for (uint32_t i = 0; i < told_count; i++)
+        if (told[i].code == PBMPM_ADVICE_IGNORED && strncmp(told[i].text, word, strlen(word)) == 0) return;
+    TEST_FAIL_MESSAGE(word);
+}
+
+static void test_parameters_that_do_nothing(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_material_def jelly = default_material(PBMPM_ELASTIC);
+    expect_none(world, PBMPM_ADVICE_IGNORED);
+    jelly.young_modulus = 2e5f;
+    jelly.elasticity_ratio = 0.5f;
+    jelly.elastic_model = PBMPM_NEO_HOOKEAN;
+    fill_shape(world, add_material(world, &jelly), box_shape(0.5f, 0.75f, 0, 0.2f, 0.2f, 0.2f), at_rest);
+    check_ignored(world, "elasticity_ratio");
+    set_solver(world, PBMPM_SOLVER_DUAL);
+    check_ignored(world, "elastic_model");
+    set_solver(world, PBMPM_SOLVER_PAPER);
+    check_ignored(world, "young_modulus");
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.flip = 0.5f;
+    settings.integrator = PBMPM_INTEGRATOR_BDF2;
+    settings.target_error = 0.01f;
+    settings.pressure = PBMPM_PRESSURE_CELLS;
+    OK(pbmpm_world_set_settings(world, &settings));
+    check_ignored(world, "settings.flip");
+    check_ignored(world, "settings.integrator");
+    check_ignored(world, "settings.target_error");
+    check_ignored(world, "settings.pressure");
+    set_solver(world, PBMPM_SOLVER_PRIMAL);
+    ask(world);
+    for (uint32_t i = 0; i < told_count; i++) TEST_ASSERT_TRUE(strncmp(told[i].text, "settings.integrator", 19) != 0);
+    pbmpm_collider_def wall = {.size = sizeof wall};
+    OK(pbmpm_collider_def_init(&wall, sizeof wall));
+    wall.friction = PBMPM_FRICTION_SLIP;
+    wall.friction_coefficient = 0.7f;
+    pbmpm_collider_id id;
+    OK(pbmpm_collider_create(world, &wall, &id));
+    check_ignored(world, "friction_coefficient");
+}
+
+/* The pool is as deep as it is, whatever its compression; the remedy makes the figure keep to its bound. */
+static void test_a_pool_too_deep_for_the_rate(void)
+{
+    pbmpm_world_def def = default_world(2, 0.01f, 60000);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    set_gravity(world, 0, -9.81f, 0);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.25f, 0, 0.5f, 0.25f, 0.5f), at_rest);
+    const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_POOL_TOO_DEEP);
+    TEST_ASSERT_FLOAT_WITHIN(0.05f * 13.6f, 9.81f * DT * DT * 0.5f / (0.01f * 0.01f), advice->figure);
+    TEST_ASSERT_EQUAL_INT(PBMPM_CHANGE_SUBSTEPS, advice->change);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 100.0f * (advice->value - 1.0f), advice->price);
+    set_rate(world, (int32_t)advice->value, 5);
+    expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
+}
+
+static void test_a_body_that_is_thin_for_the_grid(void)
+{
+    const pbmpm_world_id world = falling_world(2, 0.1f);
+    const pbmpm_material_id thin = create_material(world, PBMPM_ELASTIC), thick = create_material(world, PBMPM_ELASTIC);
+    fill_shape(world, thick, box_shape(0.05f, 0.03f, 0, 0.5f, 0.5f, 0.5f), at_rest);
+    fill_shape(world, thin, box_shape(3, 0, 0, 0.1f, 1, 0.5f), at_rest);
+    const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_BODY_TOO_THIN);
+    TEST_ASSERT_EQUAL_UINT32(thin.generation, advice->material.generation);
+    TEST_ASSERT_FLOAT_WITHIN(0.3f, 2.0f, advice->figure);
+    for (uint32_t i = 0; i < told_count; i++)
+        TEST_ASSERT_TRUE(told[i].code != PBMPM_ADVICE_BODY_TOO_THIN || told[i].material.generation == thin.generation);
+}
+
+static void test_obstacles(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    const pbmpm_collider_id thin = create_collider(world, box_shape(0.2f, 0.9f, 0, 0.1f, 0.01f, 0.1f), false);
+    const pbmpm_collider_id fast = create_collider(world, sphere_shape(0.7f, 0.9f, 0, 0.05f), true);
+    const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_COLLIDER_TOO_THIN);
+    TEST_ASSERT_EQUAL_UINT32(thin.generation, advice->collider.generation);
+    TEST_ASSERT_FLOAT_WITHIN(1e-4f, 0.4f, advice->figure);
+    expect_none(world, PBMPM_ADVICE_COLLIDER_TOO_FAST);
+    OK(pbmpm_collider_move(world, fast, (const float[3]){0.55f, 0.9f, 0}, NULL));
+    advice = expect(world, PBMPM_ADVICE_COLLIDER_TOO_FAST);
+    TEST_ASSERT_EQUAL_UINT32(fast.generation, advice->collider.generation);
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 3.0f, advice->figure);
+    TEST_ASSERT_EQUAL_FLOAT(3.0f, advice->value);
+}
+
+static void test_a_step_that_is_too_long(void)
+{
+    const pbmpm_world_id world = falling_world(2, 0.1f);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    fill_shape(world, water, box_shape(0, 0, 0, 0.3f, 0.3f, 0.3f), (const float[3]){100, 0, 0});
+    expect_none(world, PBMPM_ADVICE_STEP_TOO_LONG);
+    fill_shape(world, water, box_shape(0, 1, 0, 0.3f, 0.3f, 0.3f), (const float[3]){300, 0, 0});
+    TEST_ASSERT_FLOAT_WITHIN(0.1f, 50.0f, expect(world, PBMPM_ADVICE_STEP_TOO_LONG)->figure);
+}
+
+/* ---- what came true ---- */
+
+/* Twice as many particles as there is room for. */
+static void check_volume(int32_t dimension)
+{
+    pbmpm_world_def def = default_world(dimension, 0.1f, 60000);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    fill_shape(world, water, box_shape(0.5f, 0.4f, 0.5f, 0.5f, 0.4f, 0.5f), at_rest);
+    expect_none(world, PBMPM_ADVICE_VOLUME_LOST);
+    fill_shape(world, water, box_shape(0.5f, 0.4f, 0.5f, 0.5f, 0.4f, 0.5f), at_rest);
+    OK(pbmpm_world_step(world, 1e-4f));
+    const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_VOLUME_LOST);
+    TEST_ASSERT_EQUAL_INT32(1, advice->came_true);
+    TEST_ASSERT_FLOAT_WITHIN(0.05f, 0.5f, advice->figure);
+}
+
+static void test_volume_that_is_lost(void)
+{
+    check_volume(2);
+    check_volume(3);
+}
+
+static void check_clamped(int32_t dimension)
+{
+    static float crushed[9 * 1000];
+    const pbmpm_world_def def = default_world(dimension, 0.1f, 1000);
+    const pbmpm_world_id world = create_world(&def);
+    const uint32_t d = (uint32_t)dimension;
+    const uint32_t count = fill_shape(world, create_material(world, PBMPM_ELASTIC), box_shape(0, 0, 0, 0.2f, 0.2f, 0.2f), at_rest);
+    expect_none(world, PBMPM_ADVICE_STRAIN_CLAMPED);
+    memset(crushed, 0, sizeof crushed);
+    for (uint32_t i = 0; i < count; i++)
+        for (uint32_t a = 0; a < d; a++) crushed[(i * d + a) * d + (a + 1) % d] = a == 0 && i % 4 == 0 ? 0.1f : 1.0f; /* turned, too */
+    OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, NULL, count, crushed));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 0.25f, expect(world, PBMPM_ADVICE_STRAIN_CLAMPED)->figure);
+}
+
+static void test_strain_at_its_bounds(void)
+{
+    check_clamped(2);
+    check_clamped(3);
+}
+
+int main(void)
+{
+    UNITY_BEGIN();
+    RUN_TEST(test_a_tank_of_water_at_defaults_needs_no_advice);
+    RUN_TEST(test_arguments_are_checked);
+    RUN_TEST(test_every_code_has_a_name);
+    RUN_TEST(test_it_writes_what_there_is_room_for_and_changes_nothing);
+    RUN_TEST(test_without_memory_it_says_so);
+    RUN_TEST(test_no_gravity);
+    RUN_TEST(test_matter_that_falls_for_ever);
+    RUN_TEST(test_parameters_that_do_nothing);
+    RUN_TEST(test_a_pool_too_deep_for_the_rate);
+    RUN_TEST(test_a_body_that_is_thin_for_the_grid);
+    RUN_TEST(test_obstacles);
+    RUN_TEST(test_a_step_that_is_too_long);
+    RUN_TEST(test_volume_that_is_lost);
+    RUN_TEST(test_strain_at_its_bounds);
+    return UNITY_END();
+}

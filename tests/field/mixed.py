@@ -1,0 +1,287 @@
+"""Several kinds of matter, and rigid bodies, in one world."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import numpy as np
+
+from harness import G, SURFACE, Frame, Run, case, lattice, pool, rms, rows_of, tank
+from pbmpm import Box, Elastic, Friction, Liquid, Plane, Region, Sand, Sphere, Visco
+
+FLOATS = "Archimedes; 0.4 cells"
+
+
+def _wet_share(y: np.ndarray, level: float, spacing: float) -> float:
+    """Share of a body below a level; a particle at the level counts half."""
+    return float(np.clip((level - y) / spacing + 0.5, 0, 1).mean())
+
+
+def _level(world: Any, frame: Frame, width: float, centre: float, reach: float) -> float:
+    """Of the water beside a body that may drift; a tenth of the width in front of it in 3D."""
+    across = [0.1 * width] * (frame.dimension - 2)
+    return float(frame.levels(world, [[x, 0.0, *across] for x in np.linspace(0.04, 0.96, 24) * width if abs(x - centre) > reach]).mean())
+
+
+@case(
+    light=dict(density=300),
+    half=dict(density=500),
+    heavy=dict(density=800),
+    stiff=dict(density=500, modulus=1e6),
+    small=dict(density=500, cells=6),
+    disc=dict(density=500, round=True),
+    boxes=dict(density=500, walls="boxes"),
+    light_3d=dict(density=300, dimension=3),
+    heavy_3d=dict(density=800, dimension=3),
+)
+def floats(run: Run, density: float, modulus: float = 5e4, cells: int = 10, round: bool = False, walls: str = "domain", dimension: int = 2) -> None:  # noqa: A002
+    """A jelly floats as deep as its density says."""
+    cell = 0.04 if dimension == 2 else 0.06
+    cells = cells if dimension == 2 else 6
+    side = cells * cell
+    width, depth = (1.6, 0.64) if dimension == 2 else (1.08, 0.54)
+    middle = [width / 2] * (dimension - 2)
+    domain = ([0.0] * dimension, [width, 1.6] + [width] * (dimension - 2)) if walls == "domain" else None
+    frame = Frame(dimension)
+    with run.world(dimension, cell, domain=domain) as world:
+        if walls != "domain":
+            tank(world, frame, width, 1.5, walls)
+        water = pool(world, frame, [0.0] * dimension, [width, depth] + [width] * (dimension - 2), Liquid())
+        jelly = world.add_material(Elastic(density=density, young_modulus=modulus))
+        at = [width / 2, depth + side / 2 + cell] + middle
+        volume = math.pi * side**2 / 4 if round else side**dimension
+        world.fill(Sphere(at, side / 2) if round else Box(at, [side / 2] * dimension), jelly)
+        seconds = 5 if dimension == 2 else 2.5
+        shares, levels = [], []
+
+        def watch(t: float) -> None:
+            if t > seconds - 1:
+                p = world.positions.array()[rows_of(world, jelly)]
+                levels.append(_level(world, frame, width, p[:, 0].mean(), 0.71 * side + 2 * cell))
+                shares.append(_wet_share(p[:, 1], levels[-1], cell / 2))
+
+        run.steps(world, seconds, after=watch)
+        high = side if not round else side * math.pi / 4  # mean height of a disc
+        slack = 0.4 * cell / high
+        run.check("share below the level", np.mean(shares), density / 1000 - slack, density / 1000 + slack, why=FLOATS)
+        run.near("level", np.mean(levels), depth + volume * density / 1000 / width ** (dimension - 1), SURFACE, cell, why="water keeps its volume")
+        assert water
+
+
+@case(jelly=dict(density=1500, modulus=1e5), clay=dict(density=1800, modulus=5e5))
+def sinks(run: Run, density: float, modulus: float) -> None:
+    """What is heavier than water lies on the bottom, and the level rises by its volume."""
+    cell, width, depth, side = 0.04, 1.6, 0.64, 0.32
+    with run.world(2, cell, domain=((0, 0), (width, 1.6))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        body = world.add_material(Elastic(density=density, young_modulus=modulus))
+        world.fill(Box((width / 2, depth + side / 2 + cell), (side / 2, side / 2)), body)
+        run.steps(world, 5)
+        y = world.positions.array()[rows_of(world, body), 1].mean()
+        run.near("height of its centre", y, side / 2, 0.4, cell, why="it lies on the bottom; 0.4 cells")
+        level = _level(world, Frame(), width, world.positions.array()[rows_of(world, body), 0].mean(), 0.71 * side + 2 * cell)
+        run.near("level", level, depth + side**2 / width, SURFACE, cell, why="both keep their volume")
+
+
+@case(from_half_a_metre=dict())
+def dropped_jelly(run: Run) -> None:
+    """A jelly of 5e4 Pa that falls half a metre into water is pressed by the fall as elasticity lets it, and keeps its form afterwards."""
+    cell, width, depth, side = 0.04, 1.6, 0.64, 0.4
+    with run.world(2, cell, domain=((0, 0), (width, 2.4))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        jelly = world.add_material(Elastic(density=800, young_modulus=5e4))
+        world.fill(Box((width / 2, depth + 0.5 + side / 2), (side / 2, side / 2)), jelly)
+        strain = []
+
+        def watch(t: float) -> None:
+            f = world.deformations.array().reshape(-1, 2, 2)[rows_of(world, jelly)].astype(float)
+            strain.append(math.sqrt(((np.linalg.svd(f, compute_uv=False) - 1) ** 2).sum(1).mean()))
+
+        run.steps(world, 5, after=watch)
+        # Plane modulus 67 kPa: waves travel at 9.2 m/s, and a body that is stopped dead is strained by v / c.
+        run.check("largest rms strain", max(strain), 0.0, 0.34, why="water stops it less than a wall would: v / c with v = sqrt(2 g h)")
+        run.check("rms strain in the end", strain[-1], 0.0, 0.05, why="hydrostatics around a floating square: 0.027; twice that is another body")
+
+
+@case(half=dict(density=500), light=dict(density=250), turned=dict(density=500, angle=0.4))
+def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
+    """A rigid box that impulses move floats as deep as its density says."""
+    cell, width, depth, side = 0.04, 1.6, 0.64, 0.4
+    with run.world(2, cell, domain=((0, 0), (width, 2))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        start = np.array([width / 2, depth + side])
+        box = world.add_collider(Box(start.tolist(), (side / 2, side / 2), rotation=angle), friction=Friction.SLIP, kinematic=True, measures_impulse=True)
+        mass = density * side**2
+        inertia = mass * side**2 / 6
+        virtual = 1000 * side**2 * (density / 1000) ** 2  # as pbmpm_impulse in include/pbmpm/collider.h says
+        body = {"x": start, "v": np.zeros(2), "a": angle, "w": 0.0, "last": np.zeros(2)}
+        under, levels, turns = [], [], []
+
+        def before(_: float) -> None:
+            body["x"] = body["x"] + run.dt * body["v"]
+            body["a"] += run.dt * body["w"]
+            reach = side / 2 * (abs(math.cos(body["a"])) + abs(math.sin(body["a"])))
+            place = min(max(body["x"][0], reach), width - reach)
+            body["v"][0] *= place == body["x"][0]
+            body["x"][0] = place
+            box.move(body["x"].tolist(), body["a"])
+
+        def after(t: float) -> None:
+            given = box.impulse
+            body["last"] = (np.array([0.0, -G * run.dt * mass]) + given.linear + virtual * body["last"]) / (mass + virtual)
+            body["v"] = body["v"] + body["last"]
+            body["w"] += given.angular[0] / inertia
+            if t > 6:
+                turns.append(abs(body["w"]))
+                levels.append(_level(world, Frame(), width, body["x"][0], 0.71 * side + 2 * cell))
+                c, s = math.cos(body["a"]), math.sin(body["a"])
+                inside = lattice((-side / 2, -side / 2), (side / 2, side / 2), cell / 4) @ np.array([[c, s], [-s, c]]) + body["x"]
+                under.append(_wet_share(inside[:, 1], levels[-1], cell / 4))
+
+        run.steps(world, 8, before=before, after=after)
+        slack = 0.4 * cell / side
+        run.check("share below the level", np.mean(under), density / 1000 - slack, density / 1000 + slack, why=FLOATS)
+        run.check(
+            "mean spin",
+            np.mean(turns),
+            0,
+            0.5,
+            "rad/s",
+            why="a box that floats does not go on turning; half a radian per second is what is left of its rocking",
+        )
+        run.near("level", np.mean(levels), depth + side**2 * density / 1000 / width, SURFACE, cell, why="water keeps its volume")
+
+
+@case(sand_heap=dict(what="sand"), water_drop=dict(what="water"), clay=dict(what="clay"), water_3d=dict(what="water", dimension=3))
+def far_away(run: Run, what: str, dimension: int = 2) -> None:
+    """Other matter somewhere else changes nothing for a bar that hangs."""
+    cell, tips = 0.05, []
+    kinds = {"sand": Sand(density=1600, young_modulus=1e6), "water": Liquid(), "clay": Visco(young_modulus=1e6)}
+    last = [0.0] * (dimension - 2)
+    for other in (False, True):
+        with run.world(dimension, cell) as world:
+            bar = world.add_material(Elastic(young_modulus=1e5))
+            p = lattice([-0.1, -1.0] + [-0.1] * (dimension - 2), [0.1, 0.1] + [0.1] * (dimension - 2), cell / 2)
+            ids = world.add_particles(bar, p)
+            world.add_collider(Box([0.0, 0.2] + last, [1.0, 0.2] + [1.0] * (dimension - 2)), friction=Friction.STICK)
+            world.add_collider(Plane([0.0, -2.0] + last, [0.0, 1.0] + last), friction_coefficient=0.8)
+            if other:
+                world.fill(Box([1.5, -1.85] + last, [0.2, 0.15] + [0.2] * (dimension - 2)), world.add_material(kinds[what]))
+            run.steps(world, 1.5)
+            tips.append(world.positions.array()[world.find(ids[p[:, 1] < -0.95])][:, 1].mean())
+            if other:
+                run.check("modulus that the bar claims over its own", bar.effective(run.dt).young_modulus / 1e5, 0.95, 1.05, why="it is the material's own")
+    run.check("what the other matter moves the tip by", 1e3 * abs(tips[1] - tips[0]), 0, 5, "mm", why="nothing joins them; a tenth of a cell")
+
+
+@case(light_above=dict(above=800, below=1000), far_apart=dict(above=500, below=2000))
+def two_liquids(run: Run, above: float, below: float) -> None:
+    """A light liquid lies on a heavy one, both at rest."""
+    cell, width, depth = 0.04, 1.2, 0.32
+    with run.world(2, cell, domain=((0, 0), (width, 1.6))) as world:
+        water = pool(world, Frame(), (0, 0), (width, depth), Liquid(density=below))
+        oil = pool(world, Frame(), (0, depth), (width, 2 * depth), Liquid(density=above), seed=2)
+        speed = []
+        run.steps(world, 6, after=lambda t: speed.append(rms(world)) if t > 5 else None)
+        y = world.positions.array()[:, 1]
+        run.check("rms speed", np.mean(speed), 0, 0.01, "m/s", why="0; a quarter of a cell per second")
+        run.near(
+            "mean height of the heavy one",
+            y[rows_of(world, water)].mean(),
+            depth / 2,
+            SURFACE,
+            cell,
+            why="layers keep their order and volume; the border is known to a particle",
+        )
+        run.near("mean height of the light one", y[rows_of(world, oil)].mean(), 1.5 * depth, SURFACE, cell, why="layers keep their order and volume")
+
+
+@case(heavy_above=dict())
+def turns_over(run: Run) -> None:
+    """A heavy liquid on a light one comes down (Rayleigh and Taylor), and the level stays."""
+    cell, width, depth = 0.04, 0.8, 0.32
+    with run.world(2, cell, domain=((0, 0), (width, 1.6))) as world:
+        oil = pool(world, Frame(), (0, 0), (width, depth), Liquid(density=500))
+        water = pool(world, Frame(), (0, depth), (width, 2 * depth), Liquid(density=1500), seed=2)
+        run.steps(world, 8)
+        y = world.positions.array()[:, 1]
+        run.check(
+            "height of the light one over that of the heavy one",
+            y[rows_of(world, oil)].mean() / y[rows_of(world, water)].mean(),
+            1.4,
+            3.2,
+            why="parted they are at 1 to 3; half mixed still above 1.4",
+        )
+        run.near("mean height of all", y.mean(), depth, SURFACE, cell, why="both keep their volume")
+
+
+@case(poured=dict())
+def sand_in_water(run: Run) -> None:
+    """Sand that is poured into a tank of water lies on the bottom, and the level rises by its volume."""
+    cell, width, depth = 0.04, 1.2, 0.48
+    with run.world(2, cell, domain=((0, 0), (width, 1.6))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        grains = world.add_material(Sand(density=2000, young_modulus=1e6))
+        emitter = world.add_emitter(Sphere((width / 2, 1.2), 0.06), grains, 0.12, region=Region.DISC, speed=1.0)
+        run.steps(world, 1)
+        emitter.enabled = False
+        run.steps(world, 4)
+        volume = emitter.status.emitted_mass / 2000
+        level = Frame().levels(world, [[x * width, 0] for x in np.linspace(0.1, 0.9, 15)]).mean()
+        y = world.positions.array()[rows_of(world, grains), 1]
+        run.near("level", level, depth + volume / width, SURFACE, cell, why="both keep their volume")
+        run.check(
+            "mean height of the sand",
+            y.mean() / math.sqrt(volume * math.tan(math.radians(30))),
+            0.1,
+            0.45,
+            why="at the bottom: a heap of 30 degrees is sqrt(V tan 30) high, its mean a third",
+        )
+        run.check("rms speed of the sand", 1e3 * rms(world, rows_of(world, grains)), 0, 10, "mm/s", why="it has come to rest")
+
+
+@case(cube=dict())
+def jelly_on_sand(run: Run) -> None:
+    """A jelly cube on a bed of sand stays on top and rests."""
+    cell = 0.025
+    with run.world(2, cell) as world:
+        frame = Frame()
+        tank(world, frame, 0.8, 0.5, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=0.5)
+        pool(world, frame, (0, 0), (0.8, 0.2), Sand(density=1600, young_modulus=1e6))
+        jelly = pool(world, frame, (0.3, 0.2), (0.5, 0.4), Elastic(density=800, young_modulus=1e5))
+        run.steps(world, 3)
+        rows = rows_of(world, jelly)
+        p = world.positions.array()
+        run.near("height of the cube", p[rows, 1].mean(), 0.3, SURFACE, cell, why="the bed bears many times its weight (Prandtl)")
+        run.near("mean height of the bed", p[~rows, 1].mean(), 0.1, 0.25, cell, why="grains keep their volume")
+        run.check("rms speed", 1e3 * rms(world), 0, 10, "mm/s", why="all rests")
+
+
+@case(domain=dict(walls="domain"), boxes_off=dict(walls="boxes"))
+def all_in_a_tank(run: Run, walls: str) -> None:
+    """Water, jelly, sand and clay in one tank: all is still there, fills its volume and comes to rest."""
+    cell, width, depth, side = 0.04, 1.6, 0.48, 0.24
+    frame = Frame(2, 0, 0.0 if walls == "domain" else 0.3 * cell)
+    with run.world(2, cell, domain=((0, 0), (width, 1.6)) if walls == "domain" else None) as world:
+        if walls != "domain":
+            tank(world, frame, width, 1.5, walls)
+        pool(world, frame, (0, 0), (width, depth), Liquid())
+        bodies = [
+            (0.3, Elastic(density=500, young_modulus=5e4)),
+            (0.8, Sand(density=1800, young_modulus=1e6)),
+            (1.3, Visco(density=1800, young_modulus=5e5, yield_strain=0.05)),
+        ]
+        for x, parameters in bodies:
+            pool(world, frame, (x - side / 2, depth + cell), (x + side / 2, depth + cell + side), parameters)
+        count, speed, levels = len(world), [], []
+
+        def watch(t: float) -> None:
+            if t > 9:
+                speed.append(rms(world))
+                levels.append(frame.levels(world, [[x, 0] for x in (0.05, 0.1, 0.55, 1.05, 1.5, 1.55)]).mean())
+
+        run.steps(world, 10, after=watch)
+        run.check("particles over those of the start", len(world) / count, 1, 1, why="nothing is lost")
+        run.near("level", np.mean(levels), depth + 2.5 * side**2 / width, SURFACE, cell, why="all keep their volume; the jelly floats half under")
+        run.check("rms speed", np.mean(speed), 0, 0.02, "m/s", why="0; half a cell per second")

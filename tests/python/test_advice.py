@@ -1,0 +1,115 @@
+"""Advice through the binding and the command: what is foreseen of a scene, and what came true."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from test_scene_run import pbmpm_command
+
+import pbmpm
+from pbmpm import AdviceCode, Change
+
+
+def codes(world: pbmpm.World) -> set[AdviceCode]:
+    return {item.code for item in world.advice(1 / 60)}
+
+
+def test_a_tank_of_water_needs_none(dimension: int) -> None:
+    with pbmpm.World(dimension, 0.05, gravity=[0, -9.81, 0][:dimension], domain=([0.0] * dimension, [0.6] * dimension)) as world:
+        world.fill(pbmpm.Box([0.3] * dimension, [0.3, 0.15, 0.3][:dimension]), world.add_material(pbmpm.Liquid()))
+        assert world.advice(1 / 60) == []
+        for _ in range(60):
+            world.step(1 / 60)
+        assert world.advice(1 / 60) == []
+
+
+def test_a_record_has_numbers_and_words() -> None:
+    with pbmpm.World(2, 0.05) as world:
+        soft = world.add_material(pbmpm.Elastic(elasticity_ratio=0.5))
+        world.fill(pbmpm.Box((0, 0.5), (0.5, 0.2)), soft)
+        nothing_pulls, ignored = world.advice(1 / 60)
+        assert (nothing_pulls.code, nothing_pulls.change, nothing_pulls.price) == (AdviceCode.NO_GRAVITY, Change.GRAVITY, 0)
+        assert nothing_pulls.material is nothing_pulls.collider is None and not nothing_pulls.came_true
+        assert (ignored.code, ignored.material, ignored.figure, ignored.bound) == (AdviceCode.IGNORED, soft.index, 0.5, 1.0)
+        assert "elasticity_ratio" in str(ignored) and "0.5" in str(ignored)
+        assert "gravity 9.81 m/s^2" in str(nothing_pulls)
+
+
+def test_a_remedy_is_what_its_figure_asks_for() -> None:
+    """A pool that is too deep for the rate is not, once the advice was taken."""
+    with pbmpm.World(2, 0.01, gravity=(0, -9.81), domain=((0, 0), (0.2, 1.0)), threads=1) as world:
+        world.fill(pbmpm.Box((0.1, 0.3), (0.1, 0.3)), world.add_material(pbmpm.Liquid()))
+        (item,) = [item for item in world.advice(1 / 60) if item.code is AdviceCode.POOL_TOO_DEEP]
+        assert item.change is Change.SUBSTEPS and item.figure > item.bound
+        assert item.price == pytest.approx(100 * (item.value - 1))
+        world.substeps = int(item.value)
+        assert AdviceCode.POOL_TOO_DEEP not in codes(world)
+
+
+def test_sand_that_few_iterations_do_not_hold() -> None:
+    with pbmpm.World(2, 0.02, gravity=(0, -9.81), threads=1) as world:
+        world.add_collider(pbmpm.Plane((0, 0), (0, 1)))
+        world.fill(pbmpm.Box((0, 0.2), (0.2, 0.2)), world.add_material(pbmpm.Sand(density=1600, young_modulus=1e6)))
+        assert AdviceCode.SAND_NOT_HELD not in codes(world)
+        world.solver = pbmpm.Solver.PAPER
+        assert AdviceCode.SAND_NOT_HELD in codes(world)
+
+
+def test_a_bounce_that_the_time_step_damps() -> None:
+    with pbmpm.World(3, 0.05, gravity=(0, -9.81, 0), domain=((-1, 0, -1), (1, 2, 1)), threads=1) as world:
+        world.fill(pbmpm.Sphere((0, 0.5, 0), 0.2), world.add_material(pbmpm.Elastic(young_modulus=1e6)))
+        assert AdviceCode.BOUNCE_DAMPED not in codes(world)
+        world.solver = pbmpm.Solver.DUAL
+        assert AdviceCode.BOUNCE_DAMPED in codes(world)
+        world.substeps = 16
+        assert AdviceCode.BOUNCE_DAMPED not in codes(world)
+
+
+def test_a_round_body_that_rests_on_less_than_a_cell() -> None:
+    for half, young, braked in ((None, 1e6, True), (None, 1e5, False), (0.2, 1e6, False)):
+        with pbmpm.World(2, 0.025, gravity=(0, -9.81), threads=1) as world:
+            world.add_collider(pbmpm.Plane((0, 0), (0, 1)), friction_coefficient=0.6)
+            shape = pbmpm.Sphere((0, 0.2), 0.2) if half is None else pbmpm.Box((0, 0.2), (half, half))
+            world.fill(shape, world.add_material(pbmpm.Elastic(young_modulus=young)))
+            assert (AdviceCode.ROLLING_BRAKED in codes(world)) == braked
+
+
+SCENE = {
+    "format": "pbmpm-scene",
+    "version": 1,
+    "name": "advised",
+    "dimension": 2,
+    "cell_size": 0.05,
+    "gravity": [0, -9.81],
+    "domain": {"min": [0, 0], "max": [1, 1]},
+    "seconds": 0.2,
+    "materials": {"jam": {"kind": "liquid", "viscosity": 0.5}},
+    "fills": [{"shape": {"kind": "box", "position": [0.5, 0.2], "half_extents": [0.5, 0.2]}, "material": "jam"}],
+    "colliders": [
+        {"shape": {"kind": "box", "position": [0.5, 0.8], "half_extents": [0.1, 0.01]}},
+        {
+            "shape": {"kind": "sphere", "position": [0.2, 0.9], "radius": 0.05},
+            "motion": {"keyframes": [{"time": 0, "position": [0.2, 0.9]}, {"time": 0.1, "position": [0.8, 0.9]}]},
+        },
+    ],
+}
+
+
+def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None:
+    path = tmp_path / "advised.json"
+    path.write_text(json.dumps(SCENE), encoding="utf-8")
+    done = pbmpm_command("run", path, "--json", "-")
+    assert done.returncode == 0, done.stderr
+    said = [line for line in done.stderr.splitlines() if line.startswith("advice: ")]
+    assert any(line.startswith("advice: jam: viscosity does nothing") for line in said)
+    assert any(line.startswith("advice: colliders[0]: an obstacle is thinner") for line in said)
+    assert any(line.startswith("advice: colliders[1]: an obstacle moves") for line in said)
+    report = json.loads(done.stdout)
+    assert {(row["code"], row["of"]) for row in report["advice"]} == {
+        ("ignored", "jam"),
+        ("collider_too_thin", "colliders[0]"),
+        ("collider_too_fast", "colliders[1]"),
+    }
+    assert report["advice_after"] and all(row["text"] and row["price_percent_of_step"] is not None for row in report["advice_after"])

@@ -1,0 +1,157 @@
+"""Stiff elastic bodies in contact at the pace of a game: slopes, friction, rolling, spinning, bounces, stacks. Five iterations everywhere."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+import pbmpm
+from pbmpm import Box, Elastic, Friction, Plane, Solver, Sphere
+
+GRAVITY = 9.81
+
+
+def world_of(dimension: int, cell: float, gravity: list[float]) -> pbmpm.World:
+    return pbmpm.World(dimension, cell, gravity=gravity, solver=Solver.CONVERGENT, iterations=5, threads=1, capacity=20_000)
+
+
+def on_slope(dimension: int, cell: float, degrees: float) -> pbmpm.World:
+    angle = math.radians(degrees)
+    return world_of(dimension, cell, [GRAVITY * math.sin(angle), -GRAVITY * math.cos(angle)] + [0.0] * (dimension - 2))
+
+
+def add_floor(world: pbmpm.World, friction: float) -> None:
+    rest = [0.0] * (world.dimension - 2)
+    kind = {"friction": Friction.SLIP} if friction == 0.0 else {"friction_coefficient": friction}
+    world.add_collider(Plane([0.0, 0.0, *rest], [0.0, 1.0, *rest]), **kind)
+
+
+def add_block(world: pbmpm.World, modulus: float, speed: float = 0.0) -> None:
+    rest = world.dimension - 2
+    world.fill(Box([0.0, 0.1] + [0.0] * rest, [0.2, 0.1] + [0.1] * rest), world.add_material(Elastic(young_modulus=modulus)),
+               velocity=[speed] + [0.0] * (world.dimension - 1))
+
+
+def mean_velocity(world: pbmpm.World) -> np.ndarray:
+    return np.asarray(world.stats.momentum) / world.stats.mass
+
+
+@pytest.mark.parametrize("rate", (60, 240))
+@pytest.mark.parametrize("friction", (0.0, 0.3))
+@pytest.mark.parametrize("modulus", (1e5, 1e6, 1e8))
+@pytest.mark.parametrize("dimension", (2, 3))
+def test_blocks_slide_as_coulomb_says(dimension: int, modulus: float, friction: float, rate: int) -> None:
+    with on_slope(dimension, 0.025 if dimension == 2 else 0.04, 30.0) as world:
+        add_block(world, modulus)
+        add_floor(world, friction)
+        for _ in range(round(0.5 * rate)):
+            world.step(1.0 / rate)
+        angle = math.radians(30.0)
+        true = GRAVITY * (math.sin(angle) - friction * math.cos(angle)) * 0.5
+        assert mean_velocity(world)[0] == pytest.approx(true, rel=0.02)
+        strains = np.linalg.svd(np.asarray(world.deformations).reshape(-1, dimension, dimension), compute_uv=False)
+        assert np.abs(strains - 1.0).max() < 0.05  # friction that was cut after the solution sheared the contact layer by a half and more
+
+
+@pytest.mark.parametrize("rate", (60, 240))
+@pytest.mark.parametrize("modulus", (1e6, 1e8))
+def test_blocks_stick_where_the_slope_is_flat_enough(modulus: float, rate: int) -> None:
+    with on_slope(2, 0.025, 20.0) as world:
+        add_block(world, modulus)
+        add_floor(world, 0.5)
+        for _ in range(rate):
+            world.step(1.0 / rate)
+        assert abs(mean_velocity(world)[0]) < 5e-4
+
+
+@pytest.mark.parametrize("rate", (60, 240))
+def test_friction_stops_a_block_and_lets_it_be(rate: int) -> None:
+    with on_slope(2, 0.025, 0.0) as world:
+        add_block(world, 1e7, speed=1.0)
+        add_floor(world, 0.3)
+        start = np.asarray(world.positions)[:, 0].mean()
+        for _ in range(round(0.8 * rate)):
+            world.step(1.0 / rate)
+        way = np.asarray(world.positions)[:, 0].mean() - start
+        assert way == pytest.approx(1.0 / (2 * 0.3 * GRAVITY) - 0.5 / rate, rel=0.02)  # backward Euler stops half a step earlier
+        assert abs(mean_velocity(world)[0]) < 1e-3
+
+
+@pytest.mark.parametrize(("modulus", "rate"), ((1e5, 60), (1e5, 240), (1e6, 240)))
+def test_discs_roll(modulus: float, rate: int) -> None:
+    radius = 0.2
+    with on_slope(2, radius / 8, 20.0) as world:
+        world.fill(Sphere((0.0, radius), radius), world.add_material(Elastic(young_modulus=modulus)))
+        add_floor(world, 0.6)
+        for _ in range(round(0.6 * rate)):
+            world.step(1.0 / rate)
+        true = 2.0 / 3.0 * GRAVITY * math.sin(math.radians(20.0)) * 0.6
+        places, velocities = np.asarray(world.positions, dtype=float), np.asarray(world.velocities, dtype=float)
+        mean, arm = velocities.mean(axis=0), places - places.mean(axis=0)
+        turn = -np.sum(arm[:, 0] * velocities[:, 1] - arm[:, 1] * (velocities[:, 0] - mean[0])) / np.sum(arm**2)
+        assert 0.75 * true < mean[0] < 1.1 * true
+        assert mean[0] / (turn * radius) == pytest.approx(1.0, abs=0.15)
+
+
+@pytest.mark.parametrize("modulus", (1e5, 1e7))
+@pytest.mark.parametrize("dimension", (2, 3))
+def test_free_bodies_keep_turning_and_gain_nothing(dimension: int, modulus: float) -> None:
+    """Chords took half of it in three revolutions at 60 Hz."""
+    cell, omega = 1.0 / 32.0, 2.0 * math.pi
+    with world_of(dimension, cell, [0.0] * dimension) as world:
+        world.fill(Sphere([0.5] * dimension, (10 if dimension == 2 else 5) * cell), world.add_material(Elastic(young_modulus=modulus)))
+        places = np.asarray(world.positions, dtype=float)
+        arm = places - places.mean(axis=0)
+        velocities = np.zeros_like(places)
+        velocities[:, 0], velocities[:, 1] = -omega * arm[:, 1], omega * arm[:, 0]
+        affine = np.zeros((len(places), dimension, dimension))
+        affine[:, 0, 1], affine[:, 1, 0] = -omega, omega
+        world.set(pbmpm.Field.VELOCITY, velocities)
+        world.set(pbmpm.Field.AFFINE_VELOCITY, affine)
+
+        def momentum() -> float:
+            x, v = np.asarray(world.positions, dtype=float), np.asarray(world.velocities, dtype=float)
+            c, m = np.asarray(world.affine_velocities, dtype=float).reshape(-1, dimension, dimension), np.asarray(world.masses, dtype=float).ravel()
+            r = x - np.average(x, axis=0, weights=m)
+            return float(np.sum(m * (r[:, 0] * v[:, 1] - r[:, 1] * v[:, 0] + 0.25 * cell**2 * (c[:, 1, 0] - c[:, 0, 1]))))
+
+        first = momentum()
+        for _ in range(180):
+            world.step(1.0 / 60.0)
+        assert 0.94 < momentum() / first < 1.0 + 1e-3
+
+
+@pytest.mark.parametrize(("rate", "least"), ((60, 0.55), (240, 0.75)))
+def test_balls_bounce_and_the_wall_gets_what_they_give(rate: int, least: float) -> None:
+    radius, drop = 0.2, 0.3
+    with pbmpm.World(3, 0.05, gravity=[0.0, -GRAVITY, 0.0], domain=((-1, 0, -1), (1, 2, 1)), domain_measures_impulse=True,
+                     solver=Solver.CONVERGENT, iterations=5, threads=1, capacity=20_000) as world:
+        world.fill(Sphere((0.0, radius + drop, 0.0), radius), world.add_material(Elastic(young_modulus=1e5)))
+        height, pushed = [], 0.0
+        for _ in range(rate):
+            world.step(1.0 / rate)
+            height.append(np.asarray(world.positions)[:, 1].mean())
+            pushed += world.wall_impulse(1, False).linear[1]
+        after = np.argmin(height[: round(0.45 * rate)])
+        assert least < math.sqrt(max(0.0, max(height[after:]) - radius) / drop) < 1.0
+        weight = world.stats.mass * GRAVITY
+        assert world.stats.momentum[1] == pytest.approx(-weight - pushed, abs=1e-3 * weight)
+
+
+@pytest.mark.parametrize("rate", (60, 240))
+@pytest.mark.parametrize("modulus", (1e5, 1e6, 1e8))
+def test_stacks_stand_still(modulus: float, rate: int) -> None:
+    cell, side = 0.025, 0.2
+    with on_slope(2, cell, 0.0) as world:
+        add_floor(world, 0.5)
+        material = world.add_material(Elastic(young_modulus=modulus))
+        for i in range(3):
+            world.fill(Box((0.0, side / 2 + i * (side + 0.5 * cell)), (side / 2, side / 2)), material)
+        for _ in range(2 * rate):
+            world.step(1.0 / rate)
+        places = np.asarray(world.positions)
+        assert math.sqrt(2.0 * world.stats.kinetic_energy / world.stats.mass) < 5e-3
+        assert 0.95 < (np.ptp(places[:, 1]) + cell / 2) / (3 * side) < 1.1
+        assert abs(places[:, 0].mean()) < 0.5 * cell
