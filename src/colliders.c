@@ -27,6 +27,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
     array_free(memory, &colliders->open);
+    array_free(memory, &colliders->gap);
     impulses_free(&colliders->impulses, memory);
     *colliders = (Colliders){0};
 }
@@ -206,8 +207,9 @@ void contacts_node_position(const ContactFrame *frame, int32_t block, int node, 
         point[a] = a < frame->grid->dimension ? (double)(frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS + local[a]) * frame->cell_size : 0.0;
 }
 
-/* What the iterations may add to the way of a node [cells]. */
-static const double WAY_MARGIN = 1.0;
+/* What the iterations may add to the way of a node [cells]. Nodes that walls leave free stand half a cell before them, and those behind follow: iterations do not add
+ * to that. */
+static const double WAY_MARGIN = 1.0, WAY_MARGIN_AT_WALLS = 0.25;
 
 void contacts_block_centre(const ContactFrame *frame, int32_t block, double centre[3])
 {
@@ -224,7 +226,7 @@ static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t blo
     double motion = 0.0;
     for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
     const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
-    return fmin(node, frame->max_displacement) + motion + WAY_MARGIN;
+    return fmin(node, frame->max_displacement) + motion + (frame->walls ? WAY_MARGIN_AT_WALLS : WAY_MARGIN);
 }
 
 static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
@@ -314,8 +316,8 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *aroun
         const uint32_t first = count;
         double point[3], normal[3];
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
+        if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > around->most) continue;
         contacts_node_position(frame, block, i, point);
-        if (field_distance(near, point) > around->most) continue;
         count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);
         for (int k = 0; k < near->count; k++) {
             const Obstacle *o = near->obstacle[k];
@@ -382,6 +384,40 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
         }
         if (!job->write) contact_begin[block + 1] = contacts;
     }
+}
+
+static void measure_blocks(void *context, int32_t begin, int32_t end)
+{
+    const FindJob *job = context;
+    const ContactFrame *frame = job->frame;
+    const size_t cells = (size_t)frame->grid->block_cells;
+    Around around;
+    for (int32_t block = begin; block < end; block++) {
+        const float *node = (const float *)frame->grid->node.data + (size_t)block * cells * K_NODE_WIDTH;
+        float *gap = (float *)frame->colliders->gap.data + (size_t)block * cells;
+        look_around(frame, block, &around);
+        for (size_t i = 0; i < cells; i++) {
+            double point[3];
+            gap[i] = INFINITY;
+            if (around.near.count == 0 || !(node[i * K_NODE_WIDTH + 3] > 0.0f)) continue;
+            contacts_node_position(frame, block, (int)i, point);
+            gap[i] = (float)field_distance(&around.near, point);
+        }
+    }
+}
+
+pbmpm_result contacts_measure(ContactFrame *frame, Memory *memory, Pool *pool)
+{
+    Colliders *colliders = frame->colliders;
+    const size_t nodes = (size_t)frame->grid->node_blocks * (size_t)frame->grid->block_cells;
+    FindJob job = {frame, false};
+    frame->gap = NULL;
+    if (colliders->obstacle_count == 0) return PBMPM_OK;
+    if (!array_reserve(memory, &colliders->gap, nodes, sizeof(float)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the distances of %d blocks", frame->grid->node_blocks);
+    pool_for(pool, frame->grid->node_blocks, 16, measure_blocks, &job);
+    frame->gap = colliders->gap.data;
+    return PBMPM_OK;
 }
 
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool)

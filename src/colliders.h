@@ -53,6 +53,7 @@ typedef struct Colliders {
     Array contact_begin; /* uint32_t per node block, and the end */
     uint32_t contacts;
     Array open;          /* float per node: the share that is open */
+    Array gap;           /* float per node with mass: how far [cells] the next surface is, negative inside; infinite where none is near */
 
     Impulses impulses;
     bool measures; /* an obstacle of this substep does */
@@ -101,8 +102,11 @@ typedef struct ContactFrame {
     float max_displacement; /* cells */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
+    const float *gap;            /* Colliders.gap once it is measured; null before */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
+/* Finds frame->gap, which the others need. */
+pbmpm_result contacts_measure(ContactFrame *frame, Memory *memory, Pool *pool);
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);
 
 /* Contacts of the last substep, without those of nodes that are held by nobody's obstacle. */

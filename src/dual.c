@@ -24,11 +24,11 @@ static bool shares_world(const World *world)
     return solids && solver_holds_liquid(world);
 }
 
-/* Steps of the guess before the iterations. It is for liquids and sand: three reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
+/* Steps of the guess before the iterations. It is for liquids and sand: four reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
  * few iterations follow; before a single one always. */
 static int guess_iterations(const World *world)
 {
-    enum { MOST = 3, FEW = 4 };
+    enum { MOST = 4, FEW = 4 };
     const int iterations = world->settings.iterations;
     if ((!solver_holds_liquid(world) && !solver_holds_sand(world)) || iterations == 1) return 0;
     if (iterations < FEW && gravity_strength(world) == 0.0) return 0;

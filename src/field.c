@@ -403,20 +403,22 @@ static double box_share(const Near *near, const Solid *s, const double point[3])
 }
 
 /* A box by itself takes its own share. Of several obstacles the planes around the point tell: those in a hollow leave the product of what each leaves. */
-double field_open_share(const Near *near, const double point[3], double deepest)
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count)
 {
     Face face[FIELD_FACES];
     const Obstacle *only = NULL;
-    double normal[3], share = 1.0;
+    double normal[3], least = INFINITY, share = 1.0;
     int close = 0;
     for (int i = 0; i < near->count; i++) {
-        if (solid_distance(field_solid(near, near->obstacle[i]), point, normal) / near->cell_size >= NODE_REACH * sqrt((double)near->dimension)) continue;
+        const double distance = solid_distance(field_solid(near, near->obstacle[i]), point, normal) / near->cell_size;
+        least = fmin(least, distance);
+        if (distance >= NODE_REACH * sqrt((double)near->dimension)) continue;
         only = near->obstacle[i];
         close++;
     }
-    if (close == 0) return 1.0;
+    if (least >= NODE_REACH) return 1.0;
     if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point), spline_below(-deepest));
-    const int count = field_faces(near, point, NODE_REACH, face);
-    for (int i = 0; i < count; i++) share *= spline_below(fmax(face[i].distance, -deepest));
-    return count > 0 || field_distance(near, point) > 0.0 ? share : spline_below(-deepest);
+    if (!known) count = field_faces(near, point, NODE_REACH, face);
+    for (int i = 0; i < count; i++) share *= spline_below(fmax((known ? known : face)[i].distance, -deepest));
+    return count > 0 || least > 0.0 ? share : spline_below(-deepest);
 }

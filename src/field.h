@@ -6,6 +6,8 @@
 #ifndef PBMPM_SRC_FIELD_H
 #define PBMPM_SRC_FIELD_H
 
+#include <math.h>
+
 #include "colliders.h"
 
 enum { FIELD_FACES = 3 };
@@ -31,6 +33,9 @@ void field_near(Near *near, const ContactFrame *frame, const double centre[3], d
 
 static inline const Solid *field_solid(const Near *near, const Obstacle *o) { return near->at_end ? &o->end : &o->start; }
 
+/* The same scene elsewhere has other roundings; they do not get past this. */
+static inline double field_rounded(double value) { return round(value * 4194304.0) / 4194304.0; }
+
 /* How far [cells] the next surface is, negative inside of an obstacle: of the obstacle that the point is deepest in, which need not be the union's. */
 double field_distance(const Near *near, const double point[3]);
 
@@ -49,7 +54,8 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
  * node's spline. */
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other);
 
-/* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. */
-double field_open_share(const Near *near, const double point[3], double deepest);
+/* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. `known`: the planes around it, if the
+ * caller has them, `count` of them; else null. */
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count);
 
 #endif

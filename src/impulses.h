@@ -21,12 +21,13 @@ typedef struct ImpulseSum {
 } ImpulseSum;
 
 /* What one particle block's particles gave to obstacles by being put back. A block that meets more than PUSH_NOTES obstacles that
- * measure waits at the next one, `resume`, for the serial pass. */
+ * measure waits for the serial pass: at the obstacle `resume` that particles may have passed, or, behind the last one, at the row that may be inside. */
 typedef struct PushNotes {
     ImpulseSum sum[PUSH_NOTES];
     int32_t obstacle[PUSH_NOTES];
     int32_t count;
     int32_t resume; /* -1: done */
+    uint32_t row;
 } PushNotes;
 
 typedef struct Impulses {

@@ -8,13 +8,13 @@
 /* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not
  * matter. */
 static const double DEEPEST = 1.0;
-static const float LEAST_SHARE = 1.0f / 48.0f; /* there */
+static const float LEAST_SHARE = 1.0f / (48.0f * 48.0f * 48.0f); /* there, in a corner */
 
 double open_share_at(const ContactFrame *frame, const double node[3])
 {
     Near near;
     field_near(&near, frame, node, 2.0 * NODE_REACH, true);
-    return field_open_share(&near, node, DEEPEST);
+    return field_open_share(&near, node, DEEPEST, NULL, 0);
 }
 
 typedef struct OpenJob {
@@ -52,6 +52,7 @@ static void find_open(void *context, int32_t begin, int32_t end)
     Near near;
     for (int32_t block = begin; block < end; block++) {
         const float *volume = (const float *)grid->node_volume.data + (size_t)block * (size_t)cells;
+        const float *gap = job->frame->gap + (size_t)block * (size_t)cells;
         float *open = job->open + (size_t)block * (size_t)cells;
         bool edged;
         find_near(job, block, &near, &edged);
@@ -59,10 +60,12 @@ static void find_open(void *context, int32_t begin, int32_t end)
         for (int node = 0; node < cells; node++) {
             double point[3];
             open[node] = 1.0f;
-            const bool asked = volume[node] > 0.0f || walls_list(job->frame->walls, (uint32_t)(block * cells + node));
-            if (near.count == 0 || !asked) continue;
+            const bool listed = walls_list(job->frame->walls, (uint32_t)(block * cells + node)); /* perhaps without mass */
+            if (near.count == 0 || !(listed || (gap[node] < NODE_REACH && volume[node] > 0.0f))) continue;
+            open[node] = walls_open_share(job->frame->walls, (uint32_t)(block * cells + node));
+            if (open[node] >= 0.0f) continue;
             contacts_node_position(job->frame, block, node, point);
-            open[node] = (float)field_open_share(&near, point, job->frame->walls ? NODE_REACH : DEEPEST);
+            open[node] = (float)field_open_share(&near, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0);
         }
     }
 }

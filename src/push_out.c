@@ -1,7 +1,7 @@
 /* Particles that passed an obstacle or ended inside one, and what putting them back gives it. */
 #include <math.h>
 
-#include "colliders.h"
+#include "field.h"
 #include "result.h"
 
 /* An obstacle as a block sees it. Places are relative to the block's first node: the products and differences that lead there are exact in double
@@ -54,40 +54,92 @@ static void put_back(const ContactFrame *frame, const View *view, Particles *p, 
     if (sum && inward < 0.0) impulse_add(sum, point, gained);
 }
 
-static const double TOUCH = 1e-3; /* [cells] */
+/* Where the impulses of a block's particles are noted; null: nothing measures. */
+typedef struct Book {
+    PushNotes *notes; /* of the block; null in the serial pass, which adds to the sums */
+} Book;
 
-/* Whether the way out of an obstacle, to a point [m], leads into another one: where they overlap there is none. Walls do not count: what gets behind
- * them comes back at once. */
-static bool leads_into_another(const ContactFrame *frame, const Obstacle *o, const double point[3])
+/* The sum for what an obstacle is given; null: it does not measure. False: the block has no room for another one. */
+static bool find_sum(const ContactFrame *frame, const Book *book, const Obstacle *o, ImpulseSum **sum)
 {
-    double normal[3];
-    for (int i = 0; i < frame->colliders->obstacle_count; i++) {
-        const Obstacle *other = &frame->colliders->obstacle[i];
-        if (other == o || other->wall) continue;
-        if (solid_distance(&other->end, point, normal) < -TOUCH * frame->cell_size) return true;
+    const int obstacle = (int)(o - frame->colliders->obstacle);
+    *sum = NULL;
+    if (!o->measures) return true;
+    if (!book->notes) {
+        *sum = &frame->colliders->impulses.sum[o->place];
+        return true;
     }
-    return false;
+    PushNotes *notes = book->notes;
+    for (int n = 0; n < notes->count && !*sum; n++)
+        if (notes->obstacle[n] == obstacle) *sum = &notes->sum[n];
+    if (*sum) return true;
+    if (notes->count == PUSH_NOTES) return false;
+    notes->obstacle[notes->count] = obstacle;
+    notes->sum[notes->count] = (ImpulseSum){{0}, {0}};
+    *sum = &notes->sum[notes->count++];
+    return true;
 }
 
-/* A particle is moved to the surface at once out of a wall, and at most a cell per substep out of anything else, so that an
- * obstacle that lands on matter does not fling it. Its velocity into the surface is taken away. */
-static void push_particle(const ContactFrame *frame, const View *view, Particles *p, uint32_t row, float dt, ImpulseSum *sum)
+/* ---- Particles inside ---- */
+
+/* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
+ * not fling it. */
+static void push_through(const ContactFrame *frame, const Face *face, Particles *p, int32_t block, uint32_t row, float dt, ImpulseSum *sum)
 {
-    const Obstacle *o = &view->local;
-    double point[3] = {0}, normal[3];
-    for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
-    double depth = -solid_distance(&o->end, point, normal) / frame->cell_size;
-    if (depth <= 0.0) return;
-    double way[3] = {0}, out[3] = {0};
-    for (int a = 0; a < p->dimension; a++) out[a] = view->corner[a] + point[a] + depth * frame->cell_size * normal[a];
-    const bool stays = frame->stays && !o->wall && frame->stays[p->material[row]].kind == K_LIQUID;
-    if (stays && leads_into_another(frame, view->obstacle, out)) return;
-    if (!o->wall) depth = fmin(depth, 1.0);
-    for (int a = 0; a < p->dimension; a++) way[a] = depth * normal[a];
-    put_back(frame, view, p, row, dt, way, normal, sum);
+    const View view = view_from(frame, face->obstacle, block);
+    const double depth = field_rounded(-face->distance);
+    double way[3], normal[3];
+    for (int a = 0; a < 3; a++) {
+        normal[a] = field_rounded(face->normal[a]);
+        way[a] = (face->obstacle->wall ? depth : fmin(depth, 1.0)) * normal[a];
+    }
+    put_back(frame, &view, p, row, dt, way, normal, sum);
+}
+
+/* Where obstacles overlap so far that no face is near, the way out is that of the one whose surface is nearest, walls first. */
+static bool nearest_surface(const Near *near, const double point[3], Face *face)
+{
+    bool found = false;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        const bool nearer = !found || (o->wall && !face->obstacle->wall) || (o->wall == face->obstacle->wall && distance > face->distance);
+        if (distance >= 0.0 || !nearer) continue;
+        *face = (Face){.distance = distance, .obstacle = o};
+        for (int a = 0; a < 3; a++) face->normal[a] = normal[a];
+        found = true;
+    }
+    return found;
+}
+
+/* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
+static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, Particles *p, int32_t block, uint32_t row, float dt,
+                          const Book *book)
+{
+    Near near;
+    double point[3] = {0};
+    Face face[FIELD_FACES];
+    ImpulseSum *sum[FIELD_FACES] = {NULL};
+    for (int a = 0; a < p->dimension; a++) point[a] = ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size;
+    if (field_distance(close, point) >= 0.0) return true;
+    field_near(&near, frame, centre, reach + 2.0 * NODE_REACH, true);
+    int count = field_faces(&near, point, NODE_REACH, face);
+    if (count == 0) {
+        const bool stays = frame->stays && frame->stays[p->material[row]].kind == K_LIQUID;
+        count = nearest_surface(&near, point, face);
+        if (count == 0 || (stays && !face[0].obstacle->wall)) return true;
+    }
+    for (int i = 0; i < count; i++)
+        if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
+    for (int i = 0; i < count; i++)
+        if (face[i].distance < 0.0) push_through(frame, &face[i], p, block, row, dt, sum[i]);
+    return true;
 }
 
 /* ---- Particles that passed an obstacle ---- */
+
+static const double TOUCH = 1e-3; /* [cells] */
 
 /* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
@@ -203,55 +255,57 @@ static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
     return is_in_reach(frame, o, block, (double)((const float *)frame->grid->travel.data)[block]);
 }
 
-static void push_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
+/* Holds back what passed one obstacle. */
+static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
 {
     const uint32_t *begin = frame->grid->block_begin.data;
-    const View view = view_from(frame, o, block);
     const double unseen = longest_unseen(frame, o);
-    const bool watched = unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block];
-    for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
-        if (particles->status[row] != K_ALIVE) continue;
-        if (watched) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
-        push_particle(frame, &view, particles, row, dt, sum);
-    }
+    if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
+    const View view = view_from(frame, o, block);
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
+        if (particles->status[row] == K_ALIVE) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
 }
 
-/* The note to book an obstacle's impulse in; null when all are taken. */
-static ImpulseSum *take_note(PushNotes *notes, int obstacle)
-{
-    if (notes->count == PUSH_NOTES) return NULL;
-    notes->obstacle[notes->count] = obstacle;
-    notes->sum[notes->count] = (ImpulseSum){{0}, {0}};
-    return &notes->sum[notes->count++];
-}
-
-static void push_and_note(const ContactFrame *frame, Particles *particles, float dt, int32_t block, PushNotes *notes)
+/* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
+static void push_block(const ContactFrame *frame, Particles *particles, float dt, int32_t block, int first, uint32_t row, const Book *book)
 {
     const Colliders *colliders = frame->colliders;
-    notes->count = 0;
-    notes->resume = -1;
-    for (int i = 0; i < colliders->obstacle_count; i++) {
+    const uint32_t *begin = frame->grid->block_begin.data;
+    double centre[3];
+    Near near;
+    for (int i = first; i < colliders->obstacle_count; i++) {
         const Obstacle *o = &colliders->obstacle[i];
+        ImpulseSum *sum;
         if (!is_near(frame, o, block)) continue;
-        ImpulseSum *sum = o->measures ? take_note(notes, i) : NULL;
-        if (o->measures && !sum) {
-            notes->resume = i;
+        if (!find_sum(frame, book, o, &sum)) {
+            book->notes->resume = i;
+            book->notes->row = begin[block];
             return;
         }
-        push_block(frame, o, particles, dt, block, sum);
+        hold_block(frame, o, particles, dt, block, sum);
+    }
+    contacts_block_centre(frame, block, centre);
+    const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
+    field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
+    for (; row < begin[block + 1] && near.count > 0; row++) {
+        if (particles->status[row] != K_ALIVE || push_particle(frame, &near, centre, reach, particles, block, row, dt, book)) continue;
+        book->notes->resume = colliders->obstacle_count;
+        book->notes->row = row;
+        return;
     }
 }
 
 void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
 {
     const Colliders *colliders = frame->colliders;
-    for (int32_t block = begin; block < end; block++) {
-        if (colliders->measures) {
-            push_and_note(frame, particles, dt, block, (PushNotes *)colliders->impulses.notes.data + block);
-            continue;
+    const uint32_t *rows = frame->grid->block_begin.data;
+    for (int32_t block = begin; block < end && colliders->obstacle_count > 0; block++) {
+        Book book = {colliders->measures ? (PushNotes *)colliders->impulses.notes.data + block : NULL};
+        if (book.notes) {
+            book.notes->count = 0;
+            book.notes->resume = -1;
         }
-        for (int i = 0; i < colliders->obstacle_count; i++)
-            if (is_near(frame, &colliders->obstacle[i], block)) push_block(frame, &colliders->obstacle[i], particles, dt, block, NULL);
+        push_block(frame, particles, dt, block, 0, rows[block], &book);
     }
 }
 
@@ -274,6 +328,7 @@ pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory)
 void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt)
 {
     const Colliders *colliders = frame->colliders;
+    const Book sums = {NULL};
     if (!colliders->measures) return;
     for (int32_t block = 0; block < frame->grid->particle_blocks; block++) {
         const PushNotes *notes = (const PushNotes *)colliders->impulses.notes.data + block;
@@ -284,9 +339,6 @@ void contacts_book_push(const ContactFrame *frame, Particles *particles, float d
                 sum->angular[a] += notes->sum[n].angular[a];
             }
         }
-        for (int i = notes->resume; i >= 0 && i < colliders->obstacle_count; i++) {
-            const Obstacle *o = &colliders->obstacle[i];
-            if (is_near(frame, o, block)) push_block(frame, o, particles, dt, block, o->measures ? &colliders->impulses.sum[o->place] : NULL);
-        }
+        if (notes->resume >= 0) push_block(frame, particles, dt, block, notes->resume, notes->row, &sums);
     }
 }

@@ -164,11 +164,11 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
     *contacts = (ContactFrame){&world->colliders, &world->grid, cell_size, world->settings.max_displacement, NULL,
-                               world->sleep.holds ? world->sleep.held.data : NULL, by_ratio ? world->materials.kernel : NULL};
+                               world->sleep.holds ? world->sleep.held.data : NULL, NULL, by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
-    pbmpm_result result = PBMPM_OK;
-    if (solver_follows_walls(world)) {
+    pbmpm_result result = contacts_measure(contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;
     }

@@ -26,6 +26,7 @@ typedef struct WallNode {
     float inverse[6];
     float shift[3];    /* c0 */
     float own_mirror;  /* share of the density that it keeps */
+    float open;        /* share of its weight that is open; negative: not known */
     float normal[NORMALS_MAX][3];
     uint16_t obstacle[NORMALS_MAX];
     uint16_t normals;
@@ -169,9 +170,6 @@ static int64_t node_beside(const Grid *grid, int32_t block, const int local[3], 
 
 static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
 
-/* The same scene elsewhere has other roundings; they do not get past this. */
-static double rounded(double value) { return round(value * 4194304.0) / 4194304.0; }
-
 /* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
 static float wetness(const Site *site, const Face *face)
 {
@@ -235,7 +233,7 @@ static int profiles_of(const Site *site, const Face *face, int count, Profile pr
     for (int i = 0; i < count; i++) {
         Profile *p = &profile[used];
         bool upright = i == 0 || face[i].distance < 1.0;
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = rounded(face[i].normal[a]);
+        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(face[i].normal[a]);
         for (int k = 0; k < used; k++) upright = upright && fabs(dot(p->normal, profile[k].normal)) <= UPRIGHT;
         if (!upright) continue;
         for (int k = 0; k < used; k++) {
@@ -244,7 +242,7 @@ static int profiles_of(const Site *site, const Face *face, int count, Profile pr
         }
         const double length = sqrt(dot(p->axis, p->axis));
         for (int a = 0; a < 3; a++) p->axis[a] /= length;
-        p->distance = rounded(face[i].distance);
+        p->distance = field_rounded(face[i].distance);
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
         obstacle_motion(face[i].obstacle, face[i].foot, site->frame->cell_size, site->frame->max_displacement, p->surface);
         owner[used++] = face[i].obstacle;
@@ -266,7 +264,7 @@ static uint32_t listed(Builder *b, int64_t node)
         return 0;
     }
     WallNode *added = (WallNode *)walls->node.data + walls->nodes;
-    *added = (WallNode){.node = (uint32_t)node, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f};
+    *added = (WallNode){.node = (uint32_t)node, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f, .open = -1.0f};
     *place = ++walls->nodes;
     return *place - 1;
 }
@@ -405,15 +403,16 @@ static void add_follower(Builder *b, const Site *site, int64_t grid_node)
     Profile profile[NORMALS_MAX];
     const Obstacle *owner[NORMALS_MAX];
     bool both;
-    int count = faces_of(site, face, &both);
-    if (count == 0 || face[0].distance >= 1.0) return;
+    const int faces = faces_of(site, face, &both);
+    if (faces == 0 || face[0].distance >= 1.0) return;
     const uint32_t index = listed(b, grid_node);
     if (b->failed) return;
-    count = profiles_of(site, face, count, profile, owner);
+    int count = profiles_of(site, face, faces, profile, owner);
     const bool sticks = owner[0]->friction == PBMPM_FRICTION_STICK;
     if (sticks) count = 1;
     WallNode *node = (WallNode *)walls->node.data + index;
     node->own_mirror = 0.0f;
+    if (!both) node->open = (float)field_open_share(site->near, site->point, NODE_REACH, face, faces);
     node->normals = (uint16_t)count;
     node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB ? owner[0]->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
@@ -467,16 +466,11 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     const FindJob *job = context;
     uint64_t *marks = job->walls->marked.data;
     const Grid *grid = job->frame->grid;
-    Near near;
     for (int32_t block = begin; block < end; block++) {
         marks[block] = 0;
-        look_near_block(job->frame, block, &near);
-        for (int node = 0; node < grid->block_cells && near.count > 0; node++) {
-            double point[3];
-            if (!(mass_of(grid, (int64_t)block * grid->block_cells + node) > 0.0f) || is_held(job->frame, block, node)) continue;
-            contacts_node_position(job->frame, block, node, point);
-            if (field_distance(&near, point) < 1.0) marks[block] |= (uint64_t)1 << node;
-        }
+        for (int node = 0; node < grid->block_cells; node++)
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node))
+                marks[block] |= (uint64_t)1 << node;
     }
 }
 
@@ -844,6 +838,12 @@ void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
 }
 
 /* ---- Density ---- */
+
+float walls_open_share(const Walls *walls, uint32_t node)
+{
+    const uint32_t place = place_of(walls, node);
+    return place > 0 ? ((const WallNode *)walls->node.data)[place - 1].open : -1.0f;
+}
 
 static void fold_scalar(const Walls *walls, const float *from, float *to)
 {

@@ -33,7 +33,7 @@ void walls_free(Walls *walls, Memory *memory);
 void walls_clear(Walls *walls);
 static inline bool walls_any(const Walls *walls) { return walls->nodes > 0; }
 
-/* Lists the nodes at walls; needs the masses of the predictor. */
+/* Lists the nodes at walls; needs the masses of the predictor and frame->gap. */
 pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool);
 
 /* Whether a node of the grid is listed, and whether its normal part follows others: then it has no contact of its own. `walls` may be null. */
@@ -53,6 +53,9 @@ float walls_work(const Walls *walls, uint32_t node, const float *u);
 /* What a listed node adds to the least value of 1/2 (u~, M u~) - (E u~ + c0, m u* + q), with u the displacement that has it, base that of the predictor and q the
  * push: -(u - c0) . (m u* + q - m c0) / 2 - c0 . q, and m/2 |u*|^2 as elsewhere. */
 float walls_value(const Walls *walls, uint32_t node, const float *u, const float *base, const float *push);
+
+/* The share of a node of the grid that is open, if it is known; else negative. */
+float walls_open_share(const Walls *walls, uint32_t node);
 
 /* node_volume, rest volume per cell, becomes rest volume per open volume at nodes near walls. `open`: per node of the grid the share that is open; it becomes 1
  * there. */
