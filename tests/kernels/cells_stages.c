@@ -5,6 +5,7 @@
 
 #include "bounds.h"
 #include "check.h"
+#include "dual.h"
 #include "dual_stages.h"
 
 enum { CENTRE_ROUNDINGS = 14 }; /* a weight: 3 differences, 3 products; with mass, lightness, J and the multiplier 8 more */
@@ -58,7 +59,7 @@ static void first_quantities(const DualStage *stage, uint32_t row, const RefPart
     value[0] = light;
     value[1] = light * p->volume_ratio;
     value[2] = light * light * (double)p->material.inverse_stiffness / (p->volume_ratio * p->volume_ratio);
-    value[3] = 0.5 * scale * (double)world->particles.pressure[row];
+    value[3] = dual_carried_share(world) * scale * (double)world->particles.pressure[row];
 }
 
 /* Runs a kernel that leaves four sums per cell in the tiles. */
@@ -125,7 +126,7 @@ static void solid_quantities(const DualStage *stage, uint32_t row, const RefPart
     value[3] = 0.0;
 }
 
-/* Liquids and solids count by their masses; a pressure is that of the liquid share. */
+/* Liquids and solids count by their masses; a pressure is that of the liquid share. What has come apart may close where there is no liquid. */
 void cells_check_solids(DualStage *stage)
 {
     Scene *scene = &stage->scene;
@@ -144,7 +145,8 @@ void cells_check_solids(DualStage *stage)
         check_near(m, all_mass.node[i].mass, each * m, "mass of a cell with solids", (long)i);
         check_true(start.node[i].mass == old.node[i].mass, "the first pressure is the one before as well", (long)i);
         if (!(m > 1e-30)) continue;
-        const double ratio = solid > 1e-30 ? sum.node[i].u[1] / solid : 1.0, wanted = fmin(fmax(1.0 / ratio - 1.0, 0.0), REF_GROWTH_MAX);
+        const double least = liquid > 0.0 ? 0.0 : -1.0;
+        const double ratio = solid > 1e-30 ? sum.node[i].u[1] / solid : 1.0, wanted = fmin(fmax(1.0 / ratio - 1.0, least), REF_GROWTH_MAX);
         check_near(solid / m * wanted, strain.node[i].mass, each * solid / m * (1.0 + 1.0 / ratio) + FLUSHED, "strain of a cell", (long)i);
         check_near(liquid / m * growth.node[i].mass, less.node[i].mass, each, "growth of a cell with solids", (long)i);
         const double mixed = (liquid * soft.node[i].mass + sum.node[i].u[2]) / m;

@@ -165,7 +165,7 @@ static void set_materials(Scene *scene)
         if (!materials->generation[slot]) continue;
         materials_set(materials, slot, &materials->def[slot]);
         materials->kernel[slot].pressure_max = scene->pressure_max;
-        materials->kernel[slot].volume_share = 0.5f * materials->def[slot].volume_feedback;
+        if (materials->kernel[slot].kind == K_LIQUID) materials->kernel[slot].volume_share = 0.5f * materials->def[slot].volume_feedback;
         materials->kernel[slot].even_share = 0.5f * materials->def[slot].volume_feedback;
     }
 }
