@@ -346,6 +346,31 @@ static void test_rounds_of_solids_among_liquids(void)
     world_destroy(world);
 }
 
+/* Of pressures all is carried where the guess corrects them, half where nothing does, and a little less before a single iteration. */
+static void test_what_is_carried_of_pressures(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def water = material_defaults();
+    pbmpm_material_id liquid;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
+    world->settings.iterations = 5;
+    world->settings.gravity[1] = -9.81f;
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world)); /* nothing that has pressures */
+    world->particles.of_material[liquid.index] = 1;
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_carried_share(world));
+    world->settings.pressure = PBMPM_PRESSURE_CELLS;
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world));
+    world->settings.pressure = PBMPM_PRESSURE_PARTICLES;
+    world->settings.iterations = 3;
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_carried_share(world));
+    memset(world->settings.gravity, 0, sizeof world->settings.gravity);
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world)); /* free flight, few iterations */
+    world->settings.iterations = 1;
+    TEST_ASSERT_EQUAL_DOUBLE(0.45, dual_carried_share(world));
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
+    world_destroy(world);
+}
+
 /* Solids by themselves are asked for what bears their weight with a strain of 1/20, up to 5 per iteration; never for less than is held, nor for more
  * than they have. A grid without particles counts as one cell deep. */
 static void test_solids_are_asked_to_bear_their_weight(void)
@@ -566,6 +591,7 @@ int main(void)
     RUN_TEST(test_whose_nodes_follow_at_walls);
     RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);
     RUN_TEST(test_rounds_of_solids_among_liquids);
+    RUN_TEST(test_what_is_carried_of_pressures);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
     RUN_TEST(test_volume_control_is_a_part_of_the_feedback);
