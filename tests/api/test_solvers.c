@@ -196,7 +196,7 @@ static void test_a_warm_step_allocates_nothing(void)
 /* Each allocation refused in turn: the step says so, the world lives on, and the step after it succeeds. */
 static void test_refused_memory_is_reported_and_forgiven(void)
 {
-    enum { MOST_ALLOCATIONS = 128 }; /* more than any first step makes: ends the loop of a step that never succeeds */
+    enum { MOST_ALLOCATIONS = 512 }; /* more than any first step of several groups of islands makes: ends the loop of a step that never succeeds */
     static ledger book;
     for (int w = 0; w < way_count; w++)
         for (uint64_t nth = 1; nth < MOST_ALLOCATIONS; nth++) {

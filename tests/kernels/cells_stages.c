@@ -218,6 +218,72 @@ void cells_check_push(DualStage *stage)
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) reference_grid_free(all[i]);
 }
 
+/* ---- The guess is added to the pressures of particles ---- */
+
+/* A field of cells at a particle, and the error of it. */
+static double at_particle(const RefGrid *cells, const RefParticle *p, double *error)
+{
+    const RefCentres centres = reference_centres(cells->dimension, p);
+    double sum = 0.0;
+    *error = 0.0;
+    for (int c = 0; c < centres.count; c++) {
+        const double value = cells->node[reference_index(cells, centres.cell[c])].mass;
+        sum += lightness_of(p) * centres.weight[c] * value;
+        *error += lightness_of(p) * (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * fabs(value) + FLUSHED;
+    }
+    return sum;
+}
+
+/* Liquids start from the mean of the cells and the share `fine` of what they have beside it, others from cells alone. */
+void cells_check_carry(DualStage *stage, float fine)
+{
+    Scene *scene = &stage->scene;
+    World *world = scene->world;
+    KernelArgs *a = &world->args;
+    const uint32_t count = world->particles.count;
+    double *own = malloc(count * sizeof *own);
+    for (uint32_t i = 0; i < count; i++)
+        own[i] = dual_carried_share(world) * reference_scale(&scene->step, (double)world->materials.def[world->particles.material[i]].density) * (double)a->pressure[i];
+    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
+    a->fine_carried = fine;
+    scene_run_particles(scene, scene->kernels->cells_carry);
+    for (uint32_t i = 0; i < count; i++) {
+        const RefParticle p = scene_particle(scene, i);
+        double error;
+        if (p.material.kind != K_LIQUID) continue;
+        const double mean = at_particle(&pressure, &p, &error), expected = mean + (double)fine * (own[i] - mean);
+        check_near(fmax(0.0, expected), (double)a->pressure[i], 2.0 * error + 8.0 * UNIT_ROUNDOFF * (own[i] + mean), "what is carried", (long)i);
+        check_true(a->pressure[i] == a->pressure_old[i], "it is the one before as well", (long)i);
+    }
+    dual_check_tiles(stage, "what is carried in tiles");
+    free(own);
+    reference_grid_free(&pressure);
+}
+
+/* What changed in cells since is added to it, and what was carried is kept. */
+void cells_check_add(DualStage *stage, Random *random)
+{
+    Scene *scene = &stage->scene;
+    World *world = scene->world;
+    KernelArgs *a = &world->args;
+    const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
+    for (size_t i = 0; i < cells; i++)
+        if (a->cell_mass[i] > 0.0f) a->cell_pressure[i] = (float)((double)a->cell_pressure[i] * random_in(random, 0.0, 2.0) + random_in(random, 0.0, 0.05));
+    RefGrid before = scene_scalars_of(scene, a->cell_pressure_old), now = scene_scalars_of(scene, a->cell_pressure);
+    scene_run_particles(scene, scene->kernels->cells_add);
+    for (uint32_t i = 0; i < world->particles.count; i++) {
+        const RefParticle p = scene_particle(scene, i);
+        double errors[2];
+        if (p.material.kind != K_LIQUID) continue;
+        const double old = (double)a->pressure_old[i], change = at_particle(&now, &p, &errors[0]) - at_particle(&before, &p, &errors[1]);
+        check_near(fmax(0.0, old + change), (double)a->pressure[i], errors[0] + errors[1] + 4.0 * UNIT_ROUNDOFF * old, "what the guess adds", (long)i);
+    }
+    dual_check_tiles(stage, "what the guess adds in tiles");
+    reference_grid_free(&before);
+    reference_grid_free(&now);
+}
+
 /* ---- Traces to cells ---- */
 
 static const RefGrid *nodes_now; /* what the traces are taken of */

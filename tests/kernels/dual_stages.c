@@ -125,8 +125,7 @@ void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9])
 
 /* ---- Tiles ---- */
 
-/* Tiles hold the scatter of the multipliers that the particles have now. */
-static void check_tiles(const DualStage *stage, const char *what)
+void dual_check_tiles(const DualStage *stage, const char *what)
 {
     const Scene *scene = &stage->scene;
     RefGrid expected = reference_grid(scene->step.dimension, scene->low, scene->high), sizes, sum = scene_tiles(scene, &sizes);
@@ -187,7 +186,7 @@ void dual_check_begin(DualStage *stage)
     }
     free(pascal);
     check_block_mass(stage);
-    check_tiles(stage, "first push in tiles");
+    dual_check_tiles(stage, "first push in tiles");
 }
 
 /* ---- Nodes ---- */
@@ -335,5 +334,5 @@ void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids)
 void dual_check_iterate(DualStage *stage)
 {
     dual_check_multipliers(stage, stage->scene.kernels->dual_iterate, true);
-    check_tiles(stage, "multipliers in tiles");
+    dual_check_tiles(stage, "multipliers in tiles");
 }

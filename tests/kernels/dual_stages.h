@@ -33,6 +33,9 @@ void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9]);
 /* Runs a kernel that makes the next multipliers, and compares them, of liquids too if asked, and what blocks report of them. */
 void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids);
 
+/* That tiles hold the scatter of the multipliers that the particles have now. */
+void dual_check_tiles(const DualStage *stage, const char *what);
+
 /* Pressures on particles. */
 void dual_check_begin(DualStage *stage);
 void dual_check_push(DualStage *stage);
@@ -43,6 +46,8 @@ void cells_check_begin(DualStage *stage);
 void cells_check_mean(DualStage *stage);
 void cells_check_solids(DualStage *stage);
 void cells_check_push(DualStage *stage);
+void cells_check_carry(DualStage *stage, float fine);
+void cells_check_add(DualStage *stage, Random *random);
 void cells_check_trace(DualStage *stage);
 void cells_check_guess_trace(DualStage *stage);
 void cells_check_update(DualStage *stage);

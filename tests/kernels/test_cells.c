@@ -67,6 +67,38 @@ static void check_guess(DualStage *stage)
     cells_check_guess_trace(stage);
 }
 
+/* Before and after the guess of pressures that particles keep. */
+static void check_kept(DualStage *stage)
+{
+    static const float fine[] = {0.8f, 0.0f, 1.0f};
+    static uint64_t calls;
+    Random random = {++calls};
+    const size_t count = stage->scene.world->particles.count;
+    float *pascal = malloc(count * sizeof *pascal);
+    TEST_ASSERT_NOT_NULL(pascal);
+    memcpy(pascal, stage->scene.world->args.pressure, count * sizeof *pascal);
+    cells_check_begin(stage);
+    cells_check_mean(stage);
+    stage->scene.world->args.cell_strain = stage->strain;
+    cells_check_solids(stage);
+    for (size_t k = 0; k < sizeof fine / sizeof *fine; k++) {
+        memcpy(stage->scene.world->args.pressure, pascal, count * sizeof *pascal);
+        cells_check_carry(stage, fine[k]);
+        push_nodes(stage);
+        cells_check_add(stage, &random);
+        push_nodes(stage);
+    }
+    free(pascal);
+}
+
+static void test_the_guess_is_added_to_what_particles_keep(void)
+{
+    SceneSpec spec = liquid_scene("cells: kept pressures");
+    dual_check_spec(&spec, 3, check_kept);
+    spec_crowded(&spec);
+    dual_check_spec(&spec, 1, check_kept);
+}
+
 static void test_solids_in_the_guess(void)
 {
     SceneSpec spec = liquid_scene("cells: solids in the guess");
@@ -122,6 +154,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_mixed_materials);
     RUN_TEST(test_solids_in_the_guess);
+    RUN_TEST(test_the_guess_is_added_to_what_particles_keep);
     RUN_TEST(test_single_particles_far_apart);
     RUN_TEST(test_crowded_cells);
     RUN_TEST(test_all_densities);
