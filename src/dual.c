@@ -25,14 +25,14 @@ static bool shares_world(const World *world)
 }
 
 /* Steps of the guess before the iterations. It is for liquids and sand: four reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
- * few iterations follow; before a single one always. */
+ * few iterations follow; before a single one always. Sand alone takes three: with four its heaps flatten by two degrees more. */
 static int guess_iterations(const World *world)
 {
-    enum { MOST = 4, FEW = 4 };
-    const int iterations = world->settings.iterations;
+    enum { MOST = 4, MOST_OF_SAND = 3, FEW = 4 };
+    const int iterations = world->settings.iterations, most = solver_holds_liquid(world) ? MOST : MOST_OF_SAND;
     if ((!solver_holds_liquid(world) && !solver_holds_sand(world)) || iterations == 1) return 0;
     if (iterations < FEW && gravity_strength(world) == 0.0) return 0;
-    return iterations < MOST ? iterations : MOST;
+    return iterations < most ? iterations : most;
 }
 
 /* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of
