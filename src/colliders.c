@@ -292,6 +292,7 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     Face face[FIELD_FACES];
     uint32_t count = 0;
     int faces = field_faces(&around->near, point, around->most, face);
+    if (faces == 0) faces = field_surface(&around->near, point, &face[0]); /* deep inside: what sticks holds it */
     if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;

@@ -46,6 +46,9 @@ int field_faces(const Near *near, const double point[3], double reach, Face face
 /* The same where face[0] is given. */
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
+/* Of the obstacles that a point is in, the surface that is nearest, walls of the domain first: where they overlap too far for field_faces(). False: it is in none. */
+bool field_surface(const Near *near, const double point[3], Face *face);
+
 /* Other faces of the box that face[0] belongs to, within `reach`, where the point is in that box: at an outer edge the space is open beyond them, too. Written
  * behind the `count` first; returns how many there are in all. */
 int field_outer_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES], int count);
