@@ -94,7 +94,7 @@ static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row
 static void push_through(const ContactFrame *frame, const Face *face, Particles *p, int32_t block, uint32_t row, float dt, ImpulseSum *sum)
 {
     const View view = view_from(frame, face->obstacle, block);
-    const double depth = field_rounded(-face->distance);
+    const double depth = field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); /* up: not outside by a rounding */
     double way[3], normal[3];
     for (int a = 0; a < 3; a++) {
         normal[a] = field_rounded(face->normal[a]);
@@ -128,12 +128,21 @@ static bool is_behind_wall(const Near *near, const double point[3])
     return false;
 }
 
+/* Whether matter is trapped where obstacles overlap, and stays there, see ContactFrame. */
+static bool stays(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], int faces)
+{
+    double normal[3];
+    int in = 0;
+    if (!frame->stays || frame->stays[p->material[row]].kind != K_LIQUID) return false;
+    for (int i = 0; i < near->count; i++) in += solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0;
+    return faces == 0 || in > 1;
+}
+
 /* Where obstacles overlap so far that no face is near: out of the one whose surface is nearest, unless that leads behind a wall. */
-static bool has_way_out(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], Face *face)
+static bool has_way_out(const Near *near, const double point[3], Face *face)
 {
     double end[3];
-    const bool stays = frame->stays && frame->stays[p->material[row]].kind == K_LIQUID;
-    if (stays || !field_surface(near, point, face)) return false;
+    if (!field_surface(near, point, face)) return false;
     for (int a = 0; a < 3; a++) end[a] = point[a] + fmin(-face->distance, 1.0) * near->cell_size * face->normal[a];
     return !is_behind_wall(near, end);
 }
@@ -153,7 +162,8 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     if (field_distance(close, point) >= 0.0) return true;
     field_near(&near, frame, centre, reach + 2.0 * NODE_REACH, true);
     int count = field_faces(&near, point, NODE_REACH, face);
-    if (count == 0) count = has_way_out(frame, &near, p, row, point, &face[0]);
+    if (stays(frame, &near, p, row, point, count)) return true;
+    if (count == 0) count = has_way_out(&near, point, &face[0]);
     for (int i = 0; i < count; i++)
         if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
     for (int i = 0; i < count; i++)
