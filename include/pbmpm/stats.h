@@ -44,7 +44,7 @@ typedef struct pbmpm_stats {
     pbmpm_solver solver;          /**< that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: islands of matter with several. Then
                                        iterations, residual and error are the largest, and checks that failed the sum */
     pbmpm_stop stop;              /**< what ended its iterations */
-    uint32_t iterations_used;     /**< by it; passes over the particles that a line search repeats count as iterations */
+    uint32_t iterations_used;     /**< by it; passes that a line search repeats and those that deep sand takes beyond the iterations set count too */
     float residual;               /**< its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver */
     float predicted_error;        /**< root mean square distance of its displacements from the converged ones [cells], as predicted
                                        from the residual; 0 where residual is */

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -28,7 +29,7 @@ from pbmpm.app.bench.pool import (
 )
 from pbmpm.app.bench.report import ratios_of, row_of
 from pbmpm.app.bench.scenes import GAME, SceneCosts, measure_scenes, scene_pieces, scene_row, scenes_text
-from pbmpm.app.bench.subjects import ITERATIONS, MATERIALS, VARIANTS, applies, scene_of
+from pbmpm.app.bench.subjects import CELL, ITERATIONS, MATERIALS, RATE_HZ, VARIANTS, applies, scene_of
 from pbmpm.app.meter import Meter
 from pbmpm.app.scene import load_scene
 from pbmpm.app.simulation import RunSettings
@@ -98,6 +99,11 @@ def test_the_ratio_is_that_of_the_same_rounds() -> None:
     assert ratios_of("liquid", 3, [dual]) == []
 
 
+def passes_of_deep_sand() -> int:
+    """The dual solver crosses a column of 6 m in 1/60 s, by 4 cells per iteration; what it does beyond those asked for counts, as it costs as much."""
+    return max(ITERATIONS, math.ceil(6.0 / CELL * 60.0 / RATE_HZ / 4.0))
+
+
 @pytest.mark.parametrize("material", MATERIALS)
 def test_a_measurement_steps_all_solvers(material: str) -> None:
     done: list[int] = []
@@ -107,7 +113,8 @@ def test_a_measurement_steps_all_solvers(material: str) -> None:
     for own in found:
         solver_iterates = own.variant != "explicit"
         assert (len(own.few), len(own.many)) == (1, 1 if solver_iterates else 0)
-        assert own.used[0] == (ITERATIONS if solver_iterates else 1)
+        few = passes_of_deep_sand() if (own.variant, material) == ("dual", "sand") else ITERATIONS
+        assert own.used[0] == (few if solver_iterates else 1)
         assert own.used[1] > own.used[0] or not solver_iterates
         assert own.bytes_per_particle > 100  # positions, velocities, affine velocities, identifiers
 

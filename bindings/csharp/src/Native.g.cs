@@ -1258,7 +1258,7 @@ namespace Pbmpm
         public Solver Solver;
         /// <summary>what ended its iterations</summary>
         public Stop Stop;
-        /// <summary>by it; passes over the particles that a line search repeats count as iterations</summary>
+        /// <summary>by it; passes that a line search repeats and those that deep sand takes beyond the iterations set count too</summary>
         public uint IterationsUsed;
         /// <summary>its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver</summary>
         public float Residual;

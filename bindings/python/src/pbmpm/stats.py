@@ -48,7 +48,7 @@ class Stats:
     clamped_total: int  #: times a particle was slowed to max_displacement since creation
     solver: Solver  #: that the last substep was solved with; CONVERGENT: islands of matter with several
     stop: Stop  #: what ended its iterations
-    iterations_used: int  #: by it; passes that a line search repeats count as iterations
+    iterations_used: int  #: by it; passes that a line search repeats and those of deep sand beyond the set ones count too
     residual: float  #: its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver
     predicted_error: float  #: root mean square distance from the converged displacements [cells], as predicted from it
     energy_checks_failed: int  #: primal: bodies whose unfinished solution would have gained energy and was replaced

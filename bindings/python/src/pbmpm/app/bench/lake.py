@@ -56,6 +56,7 @@ def lake_scene(name: str) -> Scene:
             "seconds": 1,
             "rate_hz": RATE_HZ,
             "iterations": ITERATIONS,
+            "solver": {"solver": "paper"},
             "materials": materials,
             "fills": fills,
         }
