@@ -128,14 +128,18 @@ static bool is_behind_wall(const Near *near, const double point[3])
     return false;
 }
 
-/* Whether matter is trapped where obstacles overlap, and stays there, see ContactFrame. */
+/* Whether matter is trapped where obstacles overlap, and stays there, see ContactFrame: it is in more than one, or the surface that is nearest lies in another. */
 static bool stays(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], int faces)
 {
+    Face face;
     double normal[3];
     int in = 0;
     if (!frame->stays || frame->stays[p->material[row]].kind != K_LIQUID) return false;
     for (int i = 0; i < near->count; i++) in += solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0;
-    return faces == 0 || in > 1;
+    if (in > 1 || faces > 0 || !field_surface(near, point, &face)) return in > 1;
+    for (int i = 0; i < near->count; i++)
+        if (near->obstacle[i] != face.obstacle && !near->obstacle[i]->wall && solid_distance(field_solid(near, near->obstacle[i]), face.foot, normal) < 0.0) return true;
+    return false;
 }
 
 /* Where obstacles overlap so far that no face is near: out of the one whose surface is nearest, unless that leads behind a wall. */
