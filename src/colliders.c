@@ -285,10 +285,17 @@ typedef struct Around {
     double reach[OBSTACLES], most;
 } Around;
 
-/* Contacts of a node that is deeper inside than its spline reaches, or where obstacles have closed on matter: with each that it is in. */
+/* Contacts of a node that is deeper inside than its spline reaches, or where obstacles have closed on matter: with that whose surface is nearest, or where liquid stays
+ * between them with each that it is in. */
 static uint32_t contacts_deep_inside(const ContactFrame *frame, const Around *around, const double point[3], int node, Contact *out)
 {
+    Face face;
     uint32_t count = 0;
+    if (!frame->stays) {
+        if (!field_surface(&around->near, point, &face) || face.obstacle->start.grid) return 0;
+        if (out) out[0] = contact_at(frame, face.obstacle, point, node, face.distance, face.normal);
+        return 1;
+    }
     for (int k = 0; k < around->near.count; k++) {
         const Obstacle *o = around->near.obstacle[k];
         double normal[3];
