@@ -39,7 +39,8 @@ static double share_of(const DualModes *modes, double root) { return root / (mod
 
 double dual_predicted_error(const DualModes *modes, double residual)
 {
-    return sqrt(share_of(modes, modes->slowest) * share_of(modes, fmax(modes->response, modes->slowest))) * residual;
+    const double moving = fmin(modes->response / modes->slowest, 1.0); /* of the residual, at most */
+    return sqrt(share_of(modes, modes->slowest) * share_of(modes, fmax(modes->response, modes->slowest))) * moving * residual;
 }
 
 void dual_find_response(DualModes *modes, double residual, double moved, double momentum)

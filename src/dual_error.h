@@ -7,9 +7,11 @@
  *   - Everything in one mode, r = U / R: no error is smaller, f(r) R, since sum R^2/a >= (sum R^2)^2 / sum a R^2 (Cauchy and Schwarz).
  * Predicted is their geometric mean, which is wrong by at most the square root of their ratio either way.
  *
- * Where r < s, either modes are left that are slower than those of a pool (particles in disorder make such), with the error R / (w r); or a part of R
- * moves no node, for there are more constraints than nodes can meet, and the error is that of U, at most U / (w s^2). The geometric mean of these
- * two is again that of the slowest mode. */
+ * Where r < s, a part of R moves no node: there are more constraints than nodes can meet, and as particles keep their pressures each substep asks for those
+ * anew. What does move is at most U / s in the slowest mode, and the error at most f(s) U / s, which is predicted. At rest it is most of R, and R alone
+ * predicts too much; where modes are left that are slower than those of a pool (particles in disorder make such), U predicts half of the truth.
+ * The same part makes r too large a guess of slow modes while fast ones move more: a column of 16 cells that comes to rest at 60 Hz x 5 is predicted up to
+ * 8.5 times too large, a third of its steps by more than 3. */
 #ifndef PBMPM_SRC_DUAL_ERROR_H
 #define PBMPM_SRC_DUAL_ERROR_H
 

@@ -346,12 +346,12 @@ static void test_rounds_of_solids_among_liquids(void)
     world_destroy(world);
 }
 
-/* Of pressures all is carried where the guess corrects them, half where nothing does, and a little less before a single iteration. */
+/* Of pressures all is carried where the guess corrects them, half where nothing does or liquids differ in density, a little less before a single iteration. */
 static void test_what_is_carried_of_pressures(void)
 {
     World *world = open_world(2, 0.05f);
     pbmpm_material_def water = material_defaults();
-    pbmpm_material_id liquid;
+    pbmpm_material_id liquid, oil;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
     world->settings.iterations = 5;
     world->settings.gravity[1] = -9.81f;
@@ -362,6 +362,12 @@ static void test_what_is_carried_of_pressures(void)
     TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world));
     world->settings.pressure = PBMPM_PRESSURE_PARTICLES;
     world->settings.iterations = 3;
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_carried_share(world));
+    water.density *= 0.8f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &oil));
+    world->particles.of_material[oil.index] = 1;
+    TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world));
+    world->particles.of_material[oil.index] = 0;
     TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_carried_share(world));
     memset(world->settings.gravity, 0, sizeof world->settings.gravity);
     TEST_ASSERT_EQUAL_DOUBLE(0.5, dual_carried_share(world)); /* free flight, few iterations */
@@ -524,7 +530,7 @@ static void test_the_predicted_error_lies_between_its_bounds(void)
     }
 }
 
-/* All in one mode: the error is exact, with any modulus. A residual that moves nothing counts as if it were in the slowest mode. */
+/* All in one mode: the error is exact, with any modulus. Of a residual that moves less than in the slowest mode only what moves counts. */
 static void test_the_predicted_error_of_one_mode(void)
 {
     DualModes modes = {.slowest = 0.05, .relaxation = 1.5, .softness = 0.01, .response = 0.05};
@@ -532,8 +538,10 @@ static void test_the_predicted_error_of_one_mode(void)
     NEAR(error, dual_predicted_error(&modes, 1.0));
     dual_find_response(&modes, 2.0, 2.0 * 0.05, 0.0);
     NEAR(3.0 * error, dual_predicted_error(&modes, 3.0));
+    dual_find_response(&modes, 2.0, 2.0 * 0.0125, 0.0);
+    NEAR(0.25 * error, dual_predicted_error(&modes, 1.0));
     dual_find_response(&modes, 2.0, 0.0, 0.0);
-    NEAR(error, dual_predicted_error(&modes, 1.0));
+    TEST_ASSERT_TRUE(dual_predicted_error(&modes, 1.0) == 0.0);
     dual_find_response(&modes, 0.0, 0.0, 0.5); /* nothing is left to do */
     TEST_ASSERT_TRUE(dual_predicted_error(&modes, 0.0) == 0.0);
 }
