@@ -10,6 +10,9 @@
  * norm is at most that of 1/m (Jensen's inequality), as dual.isph needs. Midway between grid lines it is the reflection of all matter in the wall.
  * What nodes behind a wall do along it by themselves, as a mirror's do off the grid, is a motion that few iterations do not see: it drove fountains.
  *
+ * At outer edges nodes inside follow the nearer face alone, and round walls count as planes: an even pressure does some work there, so small boxes bear too little
+ * of it, and water in a bowl is stirred.
+ *
  * The density is found on folded nodes: mass and open share of nodes within a cell are reflected in the wall.
  *
  * What changes the momentum of nodes is booked by wall: the sum over nodes of m u - p, each node's share going to the wall that it lies at. */
