@@ -139,11 +139,28 @@ static void turned(const World *world, const RigidBody *body, uint32_t row, doub
     }
 }
 
+/* How fast a block's particles can be at most [cells per substep], without a look at each: |v| + |w| |r|, where only v that their way became is known. */
+static double fastest_turned(const World *world, const RigidBody *body, int32_t block)
+{
+    const int32_t *place = (const int32_t *)world->grid.coordinate.data + 3 * block;
+    const double *w = body->spin, way = (double)((const float *)world->grid.travel.data)[block], half = 0.5 * K_BLOCK_AXIS;
+    double middle2 = 0.0, mean2 = 0.0;
+    for (int a = 0; a < world->particles.dimension; a++) {
+        const double middle = (double)(place[a] * K_BLOCK_AXIS) + half - 0.5 - body->arrives[a]; /* nearest nodes are 0 to K_BLOCK_AXIS - 1 */
+        middle2 += middle * middle;
+        mean2 += body->mean[a] * body->mean[a];
+    }
+    const double arm = sqrt(middle2) + sqrt(3.0) * half + way;
+    return (body->kept < 1.0 ? fmax(way, sqrt(mean2)) : way) + arm * sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]);
+}
+
 static double share_of_turn(World *world, const RigidBody *body, int32_t block)
 {
     const uint32_t *begin = world->grid.block_begin.data;
     const double fastest = primal_fastest(world);
     double share = 1.0, kept[3], turn[3];
+    const bool known = !body->multistep && body->bounce == 0.0;
+    if (known && fastest_turned(world, body, block) < (double)world->settings.max_displacement) return 1.0;
     for (uint32_t row = begin[block]; row < begin[block + 1] && body->turns; row++) {
         turned(world, body, row, kept, turn);
         share = fmin(share, primal_share_within(kept, turn, fastest));

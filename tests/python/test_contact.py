@@ -140,6 +140,51 @@ def test_balls_bounce_and_the_wall_gets_what_they_give(rate: int, least: float) 
         assert world.stats.momentum[1] == pytest.approx(-weight - pushed, abs=1e-3 * weight)
 
 
+@pytest.mark.parametrize("dimension", (2, 3))
+def test_a_body_turns_back_no_faster_than_max_displacement(dimension: int) -> None:
+    """What its chord loses came back in full, whatever the limit."""
+    cell, omega, dt = 1.0 / 32.0, 8.0 * math.pi, 1.0 / 60.0
+    with world_of(dimension, cell, [0.0] * dimension) as world:
+        world.fill(Sphere([0.5] * dimension, 5 * cell), world.add_material(Elastic(young_modulus=1e6)))
+        arm = np.asarray(world.positions, dtype=float) - 0.5
+        velocities = np.zeros_like(arm)
+        velocities[:, 0], velocities[:, 1] = -omega * arm[:, 1], omega * arm[:, 0]
+        affine = np.zeros((len(arm), dimension, dimension))
+        affine[:, 0, 1], affine[:, 1, 0] = -omega, omega
+        world.set(pbmpm.Field.VELOCITY, velocities)
+        world.set(pbmpm.Field.AFFINE_VELOCITY, affine)
+        rim = float(np.linalg.norm(velocities, axis=1).max())
+        world.max_displacement = 0.98 * rim * dt / cell
+        for _ in range(20):
+            world.step(dt)
+            assert world.stats.max_speed <= 0.98 * rim * (1.0 + 1e-4)
+        assert world.stats.max_speed > 0.5 * rim
+
+
+@pytest.mark.parametrize("dimension", (2, 3))
+def test_a_body_bounces_no_faster_than_max_displacement(dimension: int) -> None:
+    """What it does not get back the wall does not give, in steps that slow no particle."""
+    cell, dt, speed, over = 0.05, 1.0 / 60.0, 3.0, 1.1
+    domain = ([-1.0] * dimension, [1.0] * dimension)
+    with pbmpm.World(dimension, cell, domain=domain, domain_measures_impulse=True, solver=Solver.CONVERGENT, iterations=5, threads=1,
+                     capacity=20_000, max_displacement=over * speed * dt / cell) as world:
+        world.fill(Sphere([0.0] * dimension, 0.3), world.add_material(Elastic(young_modulus=3e4)))
+        velocities = np.zeros((len(world), dimension))
+        velocities[:, 1] = -speed
+        world.set(pbmpm.Field.VELOCITY, velocities)
+        mass = world.stats.mass
+        momentum, clamped = -mass * speed, 0
+        for _ in range(30):
+            world.step(dt)
+            stats = world.stats
+            assert stats.max_speed <= over * speed * (1.0 + 1e-4)
+            if stats.clamped_total == clamped:
+                pushed = world.wall_impulse(1, False).linear[1]
+                assert stats.momentum[1] == pytest.approx(momentum - pushed, abs=1e-4 * mass * speed)
+            momentum, clamped = stats.momentum[1], stats.clamped_total
+        assert momentum > 0.5 * mass * speed
+
+
 @pytest.mark.parametrize("rate", (60, 240))
 @pytest.mark.parametrize("modulus", (1e5, 1e6, 1e8))
 def test_stacks_stand_still(modulus: float, rate: int) -> None:
