@@ -285,6 +285,29 @@ typedef struct Around {
     double reach[OBSTACLES], most;
 } Around;
 
+/* Contacts of a node that is deeper inside than its spline reaches, or where obstacles have closed on matter: with that whose surface is nearest, or where liquid stays
+ * between them with each that it is in. */
+static uint32_t contacts_deep_inside(const ContactFrame *frame, const Around *around, const double point[3], int node, Contact *out)
+{
+    Face face;
+    uint32_t count = 0;
+    if (!frame->stays) {
+        if (!field_surface(&around->near, point, &face) || face.obstacle->start.grid) return 0;
+        if (out) out[0] = contact_at(frame, face.obstacle, point, node, face.distance, face.normal);
+        return 1;
+    }
+    for (int k = 0; k < around->near.count; k++) {
+        const Obstacle *o = around->near.obstacle[k];
+        double normal[3];
+        if (o->start.grid) continue;
+        const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
+        if (distance > 0.0) continue;
+        if (out) out[count] = contact_at(frame, o, point, node, distance, normal);
+        count++;
+    }
+    return count;
+}
+
 /* Contacts of a node with the planes around it. In a box near its outer edge the other faces of the edge hold it, too: were it held by one alone, what presses on the
  * other would push past it, and a floating box would lie too deep in the water. */
 static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *around, const float *u, const double point[3], int node, Contact *out)
@@ -292,6 +315,7 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     Face face[FIELD_FACES];
     uint32_t count = 0;
     int faces = field_faces(&around->near, point, around->most, face);
+    if (faces == 0) return contacts_deep_inside(frame, around, point, node, out);
     if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;

@@ -340,6 +340,21 @@ int field_faces_beside(const Near *near, const double point[3], double reach, Fa
     return add_beside(near, point, reach, face, 1);
 }
 
+bool field_surface(const Near *near, const double point[3], Face *face)
+{
+    bool found = false;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        const bool nearer = !found || (o->wall && !face->obstacle->wall) || (o->wall == face->obstacle->wall && distance > face->distance);
+        if (distance >= 0.0 || !nearer) continue;
+        *face = face_at(near, o, point, distance, normal);
+        found = true;
+    }
+    return found;
+}
+
 int field_outer_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES], int count)
 {
     Face all[2 * 3];

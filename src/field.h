@@ -34,7 +34,8 @@ void field_near(Near *near, const ContactFrame *frame, const double centre[3], d
 static inline const Solid *field_solid(const Near *near, const Obstacle *o) { return near->at_end ? &o->end : &o->start; }
 
 /* The same scene elsewhere has other roundings; they do not get past this. */
-static inline double field_rounded(double value) { return round(value * 4194304.0) / 4194304.0; }
+static const double FIELD_ROUNDING = 1.0 / 4194304.0;
+static inline double field_rounded(double value) { return round(value / FIELD_ROUNDING) * FIELD_ROUNDING; }
 
 /* How far [cells] the next surface is, negative inside of an obstacle: of the obstacle that the point is deepest in, which need not be the union's. */
 double field_distance(const Near *near, const double point[3]);
@@ -45,6 +46,9 @@ int field_faces(const Near *near, const double point[3], double reach, Face face
 
 /* The same where face[0] is given. */
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
+
+/* Of the obstacles that a point is in, the surface that is nearest, walls of the domain first: where they overlap too far for field_faces(). False: it is in none. */
+bool field_surface(const Near *near, const double point[3], Face *face);
 
 /* Other faces of the box that face[0] belongs to, within `reach`, where the point is in that box: at an outer edge the space is open beyond them, too. Written
  * behind the `count` first; returns how many there are in all. */

@@ -51,7 +51,7 @@ void primal_solve(World *world, const ContactFrame *contacts);
 /* Before particles move: keeps what primal_calm() needs of them. */
 void primal_before_going(World *world);
 
-/* After particles have moved: takes from the velocities of liquids what they have gained. */
-void primal_calm(World *world);
+/* After particles have moved: gives back rotations and bounces, and takes from the velocities of liquids what they have gained. */
+void primal_calm(World *world, const ContactFrame *contacts);
 
 #endif

@@ -7,7 +7,8 @@
  *     s^2/2 sum m |u - u*|^2 + s sum m u.(u - u*) = KEPT E,
  *
  * the smaller root: a body that is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so
- * momentum is kept and impulses stay exact. No body has more energy than before. */
+ * momentum is kept and impulses stay exact. No body has more energy than before. The energy is convex in s, so less than s is no more, and a body gets as
+ * much as leaves all of its particles within max_displacement. */
 #include <math.h>
 #include <string.h>
 
@@ -65,8 +66,77 @@ void primal_find_bounces(Primal *p)
     primal_gather_rigid(p, 7);
     for (int32_t i = 0; i < state->bodies.count; i++)
         if (body[i].bounces) find_bounce(&body[i], &of[i], p->world->args.gravity);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        holds_scale_booked(p->contacts, block, 1.0 + primal_rigid_of(p, block)->bounce);
+}
+
+/* ---- What particles may get ---- */
+
+double primal_fastest(const World *world)
+{
+    return (double)world->settings.max_displacement * (double)world->def.cell_size / (double)world->args.dt;
+}
+
+/* a q^2 + 2 b q = limit^2 - v^2, the larger root. */
+double primal_share_within(const double v[3], const double more[3], double limit)
+{
+    double a = 0.0, b = 0.0, v2 = 0.0;
+    for (int c = 0; c < 3; c++) {
+        a += more[c] * more[c];
+        b += more[c] * v[c];
+        v2 += v[c] * v[c];
+    }
+    const double room = fmax(0.0, limit * limit - v2);
+    if (a + 2.0 * b <= room) return 1.0;
+    return fmin(1.0, fmax(0.0, (sqrt(b * b + a * room) - b) / a));
+}
+
+typedef struct ShareJob {
+    World *world;
+    BlockShare *find;
+} ShareJob;
+
+static void find_shares(void *context, int32_t begin, int32_t end)
+{
+    const ShareJob *job = context;
+    World *world = job->world;
+    const RigidBody *bodies = world->primal.rigid.data;
+    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const uint32_t *clamped = world->grid.clamped.data;
+    double *share = world->primal.sums.data;
+    for (int32_t block = begin; block < end; block++) {
+        share[block] = 1.0;
+        if (sleep_is_still(world, block)) continue;
+        share[block] = clamped[block] > 0 ? 0.0 : job->find(world, &bodies[of_block[block]], block);
+    }
+}
+
+void primal_find_shares(World *world, BlockShare *find)
+{
+    ShareJob job = {world, find};
+    RigidBody *bodies = world->primal.rigid.data;
+    const int32_t *of_block = world->primal.bodies.of_block.data;
+    const double *share = world->primal.sums.data;
+    pool_for(world->pool, world->grid.particle_blocks, 8, find_shares, &job);
+    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].share = 1.0;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        RigidBody *body = &bodies[of_block[block]];
+        body->share = fmin(body->share, share[block]);
+    }
+}
+
+static double share_of_bounce(World *world, const RigidBody *body, int32_t block)
+{
+    const uint32_t *rows = world->grid.block_begin.data;
+    const Particles *p = &world->particles;
+    const double fastest = primal_fastest(world);
+    double share = 1.0, v[3] = {0}, more[3] = {0};
+    for (uint32_t row = rows[block]; row < rows[block + 1] && body->bounce != 0.0; row++) {
+        for (int a = 0; a < p->dimension; a++) {
+            v[a] = (double)p->velocity[a][row];
+            more[a] = body->bounce * (v[a] - (double)particles_spare(p, CLASS_MATRIX, a)[row]);
+        }
+        share = fmin(share, primal_share_within(v, more, fastest));
+    }
+    return share;
 }
 
 /* ---- Particles ---- */
@@ -102,7 +172,13 @@ void primal_before_going(World *world)
     if (world->primal.bounces) pool_for(world->pool, world->grid.particle_blocks, 8, keep_velocities, world);
 }
 
-void primal_bounce(World *world)
+void primal_bounce(World *world, const ContactFrame *contacts)
 {
-    if (world->primal.bounces) pool_for(world->pool, world->grid.particle_blocks, 8, bounce_blocks, world);
+    RigidBody *bodies = world->primal.rigid.data;
+    const int32_t *of_block = world->primal.bodies.of_block.data;
+    if (!world->primal.bounces) return;
+    primal_find_shares(world, share_of_bounce);
+    for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].bounce *= bodies[i].share;
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) holds_scale_booked(contacts, block, 1.0 + bodies[of_block[block]].bounce);
+    pool_for(world->pool, world->grid.particle_blocks, 8, bounce_blocks, world);
 }

@@ -189,9 +189,9 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-void primal_calm(World *world)
+void primal_calm(World *world, const ContactFrame *contacts)
 {
-    primal_bounce(world);
+    primal_bounce(world, contacts);
     primal_turn(world);
     if (!solver_holds_liquid(world)) return;
     spend(world);

@@ -47,6 +47,7 @@ typedef struct RigidBody {
     double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
+    double share;                              /* see primal_find_shares() */
 } RigidBody;
 
 /* A translation of a body, see primal_momentum.c. */
@@ -181,8 +182,18 @@ void primal_turn(World *world);
 /* Finds what bodies get back of the energy that being pushed took. After holds_book(). */
 void primal_find_bounces(Primal *p);
 
-/* After particles have moved: they get it. */
-void primal_bounce(World *world);
+/* After particles have moved: they get it, and contacts' impulses with them. */
+void primal_bounce(World *world, const ContactFrame *contacts);
+
+/* The largest q <= 1 with |v + q more| <= limit, or <= |v| where that is more. */
+double primal_share_within(const double v[3], const double more[3], double limit);
+
+/* The least share that blocks find, per body. It is 0 where a particle was slowed to max_displacement: what that took is not given back. */
+typedef double BlockShare(World *world, const RigidBody *body, int32_t block);
+void primal_find_shares(World *world, BlockShare *find);
+
+/* What max_displacement is as a speed. */
+double primal_fastest(const World *world);
 
 /* ---- primal_liquid.c ---- */
 

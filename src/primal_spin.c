@@ -2,7 +2,8 @@
  *
  * A step takes points along chords: the stress P F^T at F' = (I + D) F is symmetric for small D only, so inner forces have a torque, and a stiff body that
  * turns by t per substep loses the share 1 - cos t of its angular momentum. Inner forces T_i have none, whatever the stiffness: after particles have
- * moved the body gets back sum_i x_i x T_i, as a rigid rotation, for no more energy than the substep lost. */
+ * moved the body gets back sum_i x_i x T_i, as a rigid rotation, for no more energy than the substep lost, which less of it does not exceed: as much as
+ * leaves all of its particles within max_displacement. */
 #include <math.h>
 #include <string.h>
 
@@ -123,6 +124,45 @@ void primal_find_spin(Primal *p)
     }
 }
 
+/* What a particle keeps of its velocity, and what the rotation w adds: w x r. */
+static void turned(const World *world, const RigidBody *body, uint32_t row, double kept[3], double turn[3])
+{
+    const Particles *p = &world->particles;
+    const double dt = (double)world->args.dt, dx = (double)world->def.cell_size;
+    double r[3] = {0};
+    for (int a = 0; a < p->dimension; a++) r[a] = (double)(p->cell[a][row] - world->grid.anchor[a]) + (double)p->fraction[a][row] - body->arrives[a];
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        const double mean = body->mean[a] * dx / dt, v = a < p->dimension ? (double)p->velocity[a][row] : 0.0;
+        kept[a] = body->kept < 1.0 ? mean + body->kept * (v - mean) : v;
+        turn[a] = (body->spin[b] * r[c] - body->spin[c] * r[b]) * dx / dt;
+    }
+}
+
+static double share_of_turn(World *world, const RigidBody *body, int32_t block)
+{
+    const uint32_t *begin = world->grid.block_begin.data;
+    const double fastest = primal_fastest(world);
+    double share = 1.0, kept[3], turn[3];
+    for (uint32_t row = begin[block]; row < begin[block + 1] && body->turns; row++) {
+        turned(world, body, row, kept, turn);
+        share = fmin(share, primal_share_within(kept, turn, fastest));
+    }
+    return share;
+}
+
+/* Slowed particles have not the mean motion of the nodes: they pay as against rest, and the body has less energy than it may have. */
+static void limit_turns(World *world)
+{
+    RigidBody *body = world->primal.rigid.data;
+    primal_find_shares(world, share_of_turn);
+    for (int32_t i = 0; i < world->primal.bodies.count; i++)
+        for (int a = 0; a < 3 && body[i].turns; a++) {
+            body[i].spin[a] *= body[i].share;
+            if (body[i].share == 0.0) body[i].mean[a] = 0.0;
+        }
+}
+
 /* v += w x r, C += [w]x, of the share of v - mean and C that the body keeps. */
 static void turn_block(World *world, const RigidBody *body, int32_t block)
 {
@@ -130,14 +170,12 @@ static void turn_block(World *world, const RigidBody *body, int32_t block)
     const uint32_t *begin = world->grid.block_begin.data;
     Particles *p = &world->particles;
     const int dimension = p->dimension;
-    const double dt = (double)world->args.dt, dx = (double)world->def.cell_size;
+    const double dt = (double)world->args.dt;
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
-        double r[3] = {0};
-        for (int a = 0; a < dimension; a++) r[a] = (double)(p->cell[a][row] - world->grid.anchor[a]) + (double)p->fraction[a][row] - body->arrives[a];
+        double kept[3], turn[3];
+        turned(world, body, row, kept, turn);
         for (int a = 0; a < dimension; a++) {
-            const double turn = body->spin[next[a]] * r[last[a]] - body->spin[last[a]] * r[next[a]];
-            const double mean = body->mean[a] * dx / dt, kept = body->kept < 1.0 ? mean + body->kept * ((double)p->velocity[a][row] - mean) : (double)p->velocity[a][row];
-            p->velocity[a][row] = (float)(kept + turn * dx / dt);
+            p->velocity[a][row] = (float)(kept[a] + turn[a]);
             for (int c = 0; c < dimension && body->kept < 1.0; c++) p->affine[a * 3 + c][row] *= (float)body->kept;
             if (last[a] < dimension) p->affine[a * 3 + last[a]][row] += (float)(body->spin[next[a]] / dt);
             if (next[a] < dimension) p->affine[a * 3 + next[a]][row] -= (float)(body->spin[last[a]] / dt);
@@ -159,5 +197,7 @@ void primal_turn(World *world)
     const RigidBody *body = world->primal.rigid.data;
     bool any = false;
     for (int32_t i = 0; i < world->primal.bodies.count; i++) any = any || body[i].turns;
-    if (any) pool_for(world->pool, world->grid.particle_blocks, 8, turn_blocks, world);
+    if (!any) return;
+    limit_turns(world);
+    pool_for(world->pool, world->grid.particle_blocks, 8, turn_blocks, world);
 }

@@ -82,12 +82,19 @@ static bool find_sum(const ContactFrame *frame, const Book *book, const Obstacle
 
 /* ---- Particles inside ---- */
 
+/* [m] */
+static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row, double point[3])
+{
+    for (int a = 0; a < 3; a++)
+        point[a] = a < p->dimension ? ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size : 0.0;
+}
+
 /* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
  * not fling it. */
 static void push_through(const ContactFrame *frame, const Face *face, Particles *p, int32_t block, uint32_t row, float dt, ImpulseSum *sum)
 {
     const View view = view_from(frame, face->obstacle, block);
-    const double depth = field_rounded(-face->distance);
+    const double depth = field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); /* up: not outside by a rounding */
     double way[3], normal[3];
     for (int a = 0; a < 3; a++) {
         normal[a] = field_rounded(face->normal[a]);
@@ -96,21 +103,52 @@ static void push_through(const ContactFrame *frame, const Face *face, Particles 
     put_back(frame, &view, p, row, dt, way, normal, sum);
 }
 
-/* Where obstacles overlap so far that no face is near, the way out is that of the one whose surface is nearest, walls first. */
-static bool nearest_surface(const Near *near, const double point[3], Face *face)
+/* What is behind a wall of the domain comes back at once, whatever else is there. False: no room to book in. */
+static bool push_inside(const ContactFrame *frame, const Near *near, Particles *p, int32_t block, uint32_t row, float dt, const Book *book)
 {
-    bool found = false;
     for (int i = 0; i < near->count; i++) {
-        const Obstacle *o = near->obstacle[i];
-        double normal[3];
-        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
-        const bool nearer = !found || (o->wall && !face->obstacle->wall) || (o->wall == face->obstacle->wall && distance > face->distance);
-        if (distance >= 0.0 || !nearer) continue;
-        *face = (Face){.distance = distance, .obstacle = o};
-        for (int a = 0; a < 3; a++) face->normal[a] = normal[a];
-        found = true;
+        double point[3];
+        Face face = {.obstacle = near->obstacle[i]};
+        ImpulseSum *sum;
+        if (!near->obstacle[i]->wall) continue;
+        place_of(frame, p, row, point);
+        face.distance = solid_distance(field_solid(near, near->obstacle[i]), point, face.normal) / near->cell_size;
+        if (face.distance >= 0.0) continue;
+        if (!find_sum(frame, book, near->obstacle[i], &sum)) return false;
+        push_through(frame, &face, p, block, row, dt, sum);
     }
-    return found;
+    return true;
+}
+
+static bool is_behind_wall(const Near *near, const double point[3])
+{
+    double normal[3];
+    for (int i = 0; i < near->count; i++)
+        if (near->obstacle[i]->wall && solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0) return true;
+    return false;
+}
+
+/* Whether matter is trapped where obstacles overlap, and stays there, see ContactFrame: it is in more than one, or the surface that is nearest lies in another. */
+static bool stays(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], int faces)
+{
+    Face face;
+    double normal[3];
+    int in = 0;
+    if (!frame->stays || frame->stays[p->material[row]].kind != K_LIQUID) return false;
+    for (int i = 0; i < near->count; i++) in += solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0;
+    if (in > 1 || faces > 0 || !field_surface(near, point, &face)) return in > 1;
+    for (int i = 0; i < near->count; i++)
+        if (near->obstacle[i] != face.obstacle && !near->obstacle[i]->wall && solid_distance(field_solid(near, near->obstacle[i]), face.foot, normal) < 0.0) return true;
+    return false;
+}
+
+/* Where obstacles overlap so far that no face is near: out of the one whose surface is nearest, unless that leads behind a wall. */
+static bool has_way_out(const Near *near, const double point[3], Face *face)
+{
+    double end[3];
+    if (!field_surface(near, point, face)) return false;
+    for (int a = 0; a < 3; a++) end[a] = point[a] + fmin(-face->distance, 1.0) * near->cell_size * face->normal[a];
+    return !is_behind_wall(near, end);
 }
 
 /* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
@@ -118,18 +156,18 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
                           const Book *book)
 {
     Near near;
-    double point[3] = {0};
+    double point[3];
     Face face[FIELD_FACES];
     ImpulseSum *sum[FIELD_FACES] = {NULL};
-    for (int a = 0; a < p->dimension; a++) point[a] = ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size;
+    place_of(frame, p, row, point);
+    if (field_distance(close, point) >= 0.0) return true;
+    if (!push_inside(frame, close, p, block, row, dt, book)) return false;
+    place_of(frame, p, row, point);
     if (field_distance(close, point) >= 0.0) return true;
     field_near(&near, frame, centre, reach + 2.0 * NODE_REACH, true);
     int count = field_faces(&near, point, NODE_REACH, face);
-    if (count == 0) {
-        const bool stays = frame->stays && frame->stays[p->material[row]].kind == K_LIQUID;
-        count = nearest_surface(&near, point, face);
-        if (count == 0 || (stays && !face[0].obstacle->wall)) return true;
-    }
+    if (stays(frame, &near, p, row, point, count)) return true;
+    if (count == 0) count = has_way_out(&near, point, &face[0]);
     for (int i = 0; i < count; i++)
         if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
     for (int i = 0; i < count; i++)

@@ -23,7 +23,7 @@ void solver_predict(World *world);
 void solver_solve(World *world, const ContactFrame *contacts);
 
 /* Last G2P: moves the particles and updates J and F. */
-void solver_integrate(World *world);
+void solver_integrate(World *world, const ContactFrame *contacts);
 
 /* ---- For the solvers ---- */
 

@@ -182,11 +182,11 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
 /* They go, and what happened on the way is booked. Returns how many have to be removed. */
 static uint32_t go(World *world, float dt, int part, const ContactFrame *contacts)
 {
-    contacts_book(contacts, (double)dt);
-    walls_book(&world->walls, contacts, (double)dt);
     PushJob push = {world, contacts, dt};
     if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
-    solver_integrate(world);
+    solver_integrate(world, contacts);
+    contacts_book(contacts, (double)dt); /* bodies that bounce off have scaled it */
+    walls_book(&world->walls, contacts, (double)dt);
     pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
     contacts_book_push(contacts, &world->particles, dt);
     forces_account(&world->forces, world->grid.node_blocks);

@@ -341,6 +341,21 @@ static double share_of_set(const Profile *profile, int count, int set)
     return share;
 }
 
+/* Matter that is about to leave a wall by more than this [cells] in a substep is not held: bound to the wall, what is behind it would move the other way. At rest
+ * and in waves matter stays far below it. */
+static const double LEAVES = 0.5;
+
+static bool leaves(const Builder *b, const WallEntry *entry, const Profile *profile)
+{
+    const float *grid_node = b->frame->grid->node.data;
+    double along = 0.0;
+    for (int k = 0; k < CORNERS_MAX; k++) {
+        const float *u = grid_node + (size_t)((const WallNode *)b->walls->node.data)[entry->parent[k]].node * K_NODE_WIDTH;
+        for (int a = 0; a < 3; a++) along += (double)entry->weight[k] * ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
+    }
+    return along > LEAVES;
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Site *site, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
@@ -355,6 +370,7 @@ static void add_motion(Builder *b, const Site *site, uint32_t index, const Profi
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
+        if (found && leaves(b, entry, &profile[j])) scale[j] = 1.0;
         add_product(entry->matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);

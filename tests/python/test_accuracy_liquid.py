@@ -109,7 +109,7 @@ def test_period_of_the_wave() -> None:
         pytest.param(Poiseuille(), Setting("dual", 60.0, 10, 12), {"profile_error": 0.02}, id="poiseuille"),
         pytest.param(ObstacleDamBreak(), Setting("dual", 60.0, 5, 8), {"gauge_mae": 0.12}, id="dam break on a box"),
         pytest.param(
-            DamBreak(stability_seconds=2.0),
+            DamBreak(),
             Setting("dual", 60.0, 5, 16),
             {"front_rms_shifted": 0.04, "height_rms": 0.1},
             id="dam break",
