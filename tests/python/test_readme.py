@@ -24,7 +24,7 @@ def test_the_python_example_runs(root: Path, capsys: pytest.CaptureFixture[str])
     exec(compile(example(root, "python"), "README.md", "exec"), {})
     particles, height = capsys.readouterr().out.split()
     assert int(particles) == 800
-    assert 0.2 < float(height) < 1.0
+    assert 0.125 < float(height) < 0.5  # between that of the pool it becomes and that of the column it was: energy is not gained
 
 
 def test_files_that_the_readme_names_exist(root: Path) -> None:
