@@ -237,10 +237,10 @@ def test_a_column_slumps_and_rests_with_its_volume(dimension: int, rate: float) 
 
 
 def test_sand_in_a_bin_stands_as_high_as_it_is() -> None:
-    """A bed 25 cells deep, let go at 60 Hz x 5, was crushed to half its height."""
+    """A bed 25 cells deep, let go at 60 Hz x 5, was crushed to half its height. It rests within three seconds."""
     with at_a_games_pace(2, 0.02, domain=([0.0, 0.0], [0.8, 2.0])) as world:
         world.fill(pbmpm.Box([0.4, 0.25], [0.4, 0.25]), world.add_material(pbmpm.Sand(density=1600.0, young_modulus=1e6)))
-        for _ in range(120):
+        for _ in range(200):
             world.step(1.0 / 60.0)
         assert 0.95 < 4.0 * float(world.positions.array()[:, 1].mean()) < 1.05
         assert speed(world) < 0.005

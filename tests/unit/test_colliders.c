@@ -222,8 +222,7 @@ static pbmpm_collider_id add_collider(Setting *s, const pbmpm_shape *shape, pbmp
     return id;
 }
 
-/* However nodes move, after their contacts none goes deeper into a plane than it was, and those that cannot reach it move freely. So do those that are deeper than
- * their spline reaches: they carry nothing that is before the plane. */
+/* However nodes move, after their contacts none goes deeper into a plane than it was, and those that cannot reach it move freely. */
 static void check_plane(int dimension, const float u[3])
 {
     static Setting s;
@@ -250,8 +249,7 @@ static void check_plane(int dimension, const float u[3])
                 wanted += (double)u[a] * normal[a] * (a < dimension);
                 after += (double)node[a] * normal[a];
             }
-            if (fabs(before + NODE_REACH) < 1e-6) continue;
-            const double allowed = before < -NODE_REACH ? -INFINITY : fmin(before, 0.0); /* not into it, and not deeper */
+            const double allowed = fmin(before, 0.0); /* not into it, and not deeper */
             TEST_ASSERT_DOUBLE_WITHIN(1e-5, fmax(wanted, allowed), after);
             held += wanted < allowed;
         }
@@ -295,7 +293,7 @@ static void check_carried(int dimension, int parts)
                 double point[3], local[3] = {0}, normal[3];
                 node_point(&s, b, i, point);
                 const double depth = -solid_distance(&o->start, point, normal) / CELL_SIZE;
-                if (depth < 1e-5 || depth > NODE_REACH - 1e-5) continue; /* only what is inside is held for sure; deeper it carries nothing that is outside */
+                if (depth < 1e-5) continue; /* only what is inside is held for sure */
                 held++;
                 for (int a = 0; a < 3; a++)
                     for (int c = 0; c < 3; c++) local[a] += from_pose[c * 3 + a] * (point[c] - o->start.position[c]);
