@@ -252,8 +252,7 @@ bool solver_follows_walls(const World *world)
 {
     const pbmpm_solver solver = world->record.solver;
     if (solver != PBMPM_SOLVER_DUAL && solver != PBMPM_SOLVER_EXPLICIT) return false;
-    const bool alone = solver == PBMPM_SOLVER_DUAL && !solver_holds_liquid(world);
-    return !alone || world->settings.iterations == 1;
+    return solver_holds_liquid(world) || (solver == PBMPM_SOLVER_DUAL && world->settings.iterations == 1);
 }
 
 /* Whether there are particles of sand. */

@@ -49,7 +49,7 @@ bool solver_wants_volume(const World *world);
 /* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
 float solver_feedback_share(const pbmpm_material_def *def, float dt);
 
-/* Whether nodes at walls follow others, see walls.h: so walls bear the pressure of a liquid. For solids of the dual solver without liquid they
+/* Whether nodes at walls follow others, see walls.h: so walls bear the pressure of a liquid. For solids without liquid they
  * do not, for what leans on two walls would creep round the corner between them: a block in a box as wide as itself sank by 1 to 4 % in 20 s. One
  * iteration bears no weight whatever it does; where they follow what lies in a row of cells then has no strain that later, stiffer substeps throw up. */
 bool solver_follows_walls(const World *world);

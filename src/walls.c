@@ -726,7 +726,7 @@ static void press(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the node and of those whose image it is. */
+/* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the nodes that follow in proportion to what they follow. */
 static void rub(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
@@ -735,10 +735,10 @@ static void rub(void *context, int32_t begin, int32_t end)
     const WallLink *link = job->walls->link.data;
     for (int32_t i = begin; i < end; i++) {
         const WallNode *n = &node[i];
-        float *u = job->v.free[i], v[3], impulse = n->own_mirror * job->v.moved[i][3], along = 0.0f, size2 = 0.0f;
+        float *u = job->v.free[i], v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
         for (uint32_t l = n->link_begin; l < n->link_end; l++)
-            if (entry[link[l].entry].mirrored) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
+            if (!entry[link[l].entry].mirrored) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
         for (int a = 0; a < 3; a++) along += (u[a] - n->surface[a]) * n->normal[0][a];

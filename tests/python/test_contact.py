@@ -200,3 +200,20 @@ def test_stacks_stand_still(modulus: float, rate: int) -> None:
         assert math.sqrt(2.0 * world.stats.kinetic_energy / world.stats.mass) < 5e-3
         assert 0.95 < (np.ptp(places[:, 1]) + cell / 2) / (3 * side) < 1.1
         assert abs(places[:, 0].mean()) < 0.5 * cell
+
+
+@pytest.mark.parametrize("solver", [pbmpm.Solver.EXPLICIT, pbmpm.Solver.DUAL])
+def test_friction_acts_whatever_else_is_in_the_world(solver: pbmpm.Solver) -> None:
+    """A block slides down 30 degrees with friction 0.3, a drop of light liquid in free fall elsewhere: g (sin - 0.3 cos) within 5 %, what a block of 8 cells rocks by."""
+    angle = math.radians(30)
+    rate, iterations = (4000, 1) if solver is pbmpm.Solver.EXPLICIT else (60, 5)
+    gravity = 9.81 * math.sin(angle), -9.81 * math.cos(angle)
+    with pbmpm.World(2, 0.025, gravity=gravity, solver=solver, iterations=iterations, capacity=2000, threads=1) as world:
+        world.fill(pbmpm.Box((0, 0.1), (0.2, 0.1)), world.add_material(pbmpm.Elastic(young_modulus=1e6)))
+        world.add_collider(pbmpm.Plane((0, 0), (0, 1)), friction_coefficient=0.3)
+        if solver is pbmpm.Solver.DUAL:
+            world.fill(pbmpm.Box((-3, 9), (0.02, 0.02)), world.add_material(pbmpm.Liquid(density=1)))
+        for _ in range(round(0.8 * rate)):
+            world.step(1 / rate)
+        speed = world.stats.momentum[0] / world.stats.mass
+    assert speed == pytest.approx((gravity[0] + 0.3 * gravity[1]) * 0.8, rel=0.05)
