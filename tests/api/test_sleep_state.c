@@ -148,7 +148,7 @@ static void check_half_asleep(int32_t dimension, const way *chosen)
     fall_asleep(made.world, chosen->name);
     fill_shape(made.world, made.rubber, box_shape(0.3f, 0.65f, 0.2f, 0.1f, 0.1f, 0.1f), (const float[3]){0, -1, 0});
     for (int part = 0; part < (dimension == 2 ? 2 : 1); part++) {
-        for (int i = 0; i < 10 + 20 * part; i++) OK(pbmpm_world_step(made.world, DT));
+        for (int i = 0; i < 10 + 14 * part; i++) OK(pbmpm_world_step(made.world, DT));
         const pbmpm_stats stats = world_stats(made.world);
         TEST_ASSERT_TRUE_MESSAGE(stats.particles_asleep > 0 && stats.particles_asleep < stats.particle_count, chosen->name);
         uint64_t bytes;
