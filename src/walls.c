@@ -49,6 +49,7 @@ typedef struct Vectors {
 static Vectors vectors_of(const Walls *walls)
 {
     float(*first)[4] = walls->vector.data;
+    if (walls->nodes == 0) return (Vectors){NULL, NULL, NULL, NULL};
     return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + VECTORS * (size_t)walls->nodes};
 }
 
