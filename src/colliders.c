@@ -316,7 +316,7 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     uint32_t count = 0;
     int faces = field_faces(&around->near, point, around->most, face);
     if (faces == 0) return contacts_deep_inside(frame, around, point, node, out);
-    if (faces > 0 && face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
+    if (face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;
         int k = 0;

@@ -1,47 +1,12 @@
 #include "walls.h"
 
 #include <math.h>
-#include <string.h>
 
-#include "result.h"
+#include "walls_list.h"
 
-enum { CORNERS_MAX = 8, NORMALS_MAX = FIELD_FACES, SMALL = 256, GRAIN = 64, NOWHERE = -1 };
-
-/* What a node takes from others: A u~ of a place between them, A a symmetric matrix (upper triangle, row by row). */
-typedef struct WallEntry {
-    uint32_t parent[CORNERS_MAX]; /* nodes of the list */
-    float weight[CORNERS_MAX];
-    float matrix[6];
-    uint32_t follower;
-    bool mirrored; /* for the density; else for the motion */
-} WallEntry;
-
-typedef struct WallNode {
-    uint32_t node; /* of the grid */
-    uint32_t entry_begin, entry_moving, entry_end; /* those from entry_moving on are for the density alone */
-    uint32_t link_begin, link_end;
-    float mass;
-    float own[6];      /* what of u~ it has itself */
-    float lump[6];     /* M */
-    float inverse[6];
-    float shift[3];    /* c0 */
-    float own_mirror;  /* share of the density that it keeps */
-    float open;        /* share of its weight that is open; negative: not known */
-    float normal[NORMALS_MAX][3];
-    uint16_t obstacle[NORMALS_MAX];
-    uint16_t normals;
-    bool follows;      /* its motion is that of others, but for what `own` leaves it */
-    float coefficient; /* of friction, on the nearest wall */
-    float surface[3];  /* that wall's motion */
-} WallNode;
-
-typedef struct WallLink {
-    uint32_t entry;
-    float weight;
-} WallLink;
+enum { SMALL = 256, GRAIN = 64 };
 
 /* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
-enum { VECTORS = 3 };
 typedef struct Vectors {
     float (*momentum)[4], (*free)[4], (*moved)[4], (*back)[4];
 } Vectors;
@@ -62,7 +27,7 @@ void walls_free(Walls *walls, Memory *memory)
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->followers = walls->entries = walls->links = 0;
+    walls->nodes = walls->entries = walls->links = 0;
     walls->rubs = false;
 }
 
@@ -79,519 +44,11 @@ bool walls_hold(const Walls *walls, uint32_t node)
     return place > 0 && ((const WallNode *)walls->node.data)[place - 1].follows;
 }
 
-/* ---- Symmetric matrices ---- */
-
 static void times(const float m[6], const float v[4], float out[4])
 {
     out[0] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2];
     out[1] = m[1] * v[0] + m[3] * v[1] + m[4] * v[2];
     out[2] = m[2] * v[0] + m[4] * v[1] + m[5] * v[2];
-}
-
-static void add_product(float m[6], double scale, const double a[3])
-{
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) m[k++] += (float)(scale * a[r] * a[c]);
-}
-
-/* The inverse where M has mass; what is left of a direction after the others is left at rest where it is rounding. */
-static void invert(const float m[6], float out[6])
-{
-    static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
-    double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}, inverse[3][3] = {{0}};
-    const double least = LEAST * (a[0][0] + a[1][1] + a[2][2]);
-    int order[3], count = 0;
-    bool used[3] = {false, false, false};
-    double l[3][3] = {{0}};
-    memset(out, 0, 6 * sizeof *out);
-    for (;;) { /* Cholesky with the largest pivot first */
-        int best = -1;
-        for (int i = 0; i < 3; i++)
-            if (!used[i] && (best < 0 || a[i][i] > a[best][best])) best = i;
-        if (best < 0 || !(a[best][best] > least)) break;
-        used[best] = true;
-        order[count] = best;
-        const double root = sqrt(a[best][best]);
-        for (int i = 0; i < 3; i++) l[i][count] = used[i] && i != best ? 0.0 : a[i][best] / root;
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                if (!used[i] && !used[j]) a[i][j] -= l[i][count] * l[j][count];
-        for (int i = 0; i < 3; i++)
-            if (!used[i]) a[i][best] = a[best][i] = 0.0;
-        count++;
-    }
-    for (int e = 0; e < count; e++) { /* columns of the inverse, among the pivots */
-        double y[3], x[3];
-        for (int i = 0; i < count; i++) {
-            y[i] = i == e ? 1.0 : 0.0;
-            for (int k = 0; k < i; k++) y[i] -= l[order[i]][k] * y[k];
-            y[i] /= l[order[i]][i];
-        }
-        for (int i = count - 1; i >= 0; i--) {
-            x[i] = y[i];
-            for (int k = i + 1; k < count; k++) x[i] -= l[order[k]][i] * x[k];
-            x[i] /= l[order[i]][i];
-        }
-        for (int i = 0; i < count; i++) inverse[order[i]][order[e]] = x[i];
-    }
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
-}
-
-/* ---- Geometry ---- */
-
-/* Nodes before a wall that are at least so far off [cells] move along its normal freely; half a cell, with what walls are rounded by. */
-static const double CLEAR = 0.4999;
-
-/* Where a node looks from. */
-typedef struct Site {
-    const ContactFrame *frame;
-    const Near *near;
-    int32_t block;
-    int local[3];
-    double point[3];
-} Site;
-
-static int64_t node_beside(const Grid *grid, int32_t block, const int local[3], const int way[3])
-{
-    int at[3], side[3] = {1, 1, grid->dimension == 3 ? 1 : 0};
-    for (int a = 0; a < 3; a++) {
-        at[a] = local[a] + way[a];
-        if (at[a] < -K_BLOCK_AXIS || at[a] >= 2 * K_BLOCK_AXIS) return NOWHERE;
-        if (at[a] < 0) side[a] = 0;
-        if (at[a] >= K_BLOCK_AXIS) side[a] = 2;
-        at[a] &= K_BLOCK_AXIS - 1;
-    }
-    const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
-    const int32_t other = neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
-    return other < 0 ? NOWHERE : (int64_t)other * grid->block_cells + (at[2] * K_BLOCK_AXIS + at[1]) * K_BLOCK_AXIS + at[0];
-}
-
-static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
-
-/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
-static float wetness(const Site *site, const Face *face)
-{
-    float most = 0.0f;
-    for (double before = 0.6; before < 1.5; before += 0.8) {
-        int way[3];
-        for (int a = 0; a < 3; a++) way[a] = (int)floor((before - face->distance) * face->normal[a] + 0.5);
-        most = fmaxf(most, mass_of(site->frame->grid, node_beside(site->frame->grid, site->block, site->local, way)));
-    }
-    return most;
-}
-
-/* Below this share of the other side's matter a side of a thin wall counts as dry. */
-static const float DRY = 0.02f;
-
-/* The faces that a node is bound to. In a wall thinner than two reaches of a node's spline that is the one before which matter is; `both`: matter is on both sides,
- * and the node serves neither but goes with the wall. */
-static int faces_of(const Site *site, Face face[FIELD_FACES], bool *both)
-{
-    const double reach = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
-    const int count = field_faces(site->near, site->point, reach, face);
-    double behind[3];
-    Face other;
-    *both = false;
-    if (count == 0 || face[0].distance >= CLEAR) return count;
-    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
-    if (field_distance(site->near, behind) <= 0.0 || !field_opposite(site->near, site->point, &face[0], &other)) return count;
-    const float here = wetness(site, &face[0]), there = wetness(site, &other);
-    if (there <= DRY * here) return count;
-    if (here > DRY * there) {
-        *both = true;
-        return 1;
-    }
-    face[0] = other;
-    return field_faces_beside(site->near, site->point, reach, face);
-}
-
-/* ---- The nodes that follow ---- */
-
-typedef struct Builder {
-    Walls *walls;
-    Memory *memory;
-    const ContactFrame *frame;
-    bool failed;
-} Builder;
-
-/* A face as a node uses it: normals made orthogonal, so that each takes its own part. */
-typedef struct Profile {
-    double normal[3], axis[3]; /* as it is; orthogonal to those before it */
-    double distance, share;    /* share: of the mirror image */
-    float surface[3];
-} Profile;
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* Faces that stand more or less upright on the nearest one, and on each other; others are left to the nearest. */
-static int profiles_of(const Site *site, const Face *face, int count, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
-{
-    static const double UPRIGHT = 0.3; /* cosine */
-    int used = 0;
-    for (int i = 0; i < count; i++) {
-        Profile *p = &profile[used];
-        bool upright = i == 0 || face[i].distance < 1.0;
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(face[i].normal[a]);
-        for (int k = 0; k < used; k++) upright = upright && fabs(dot(p->normal, profile[k].normal)) <= UPRIGHT;
-        if (!upright) continue;
-        for (int k = 0; k < used; k++) {
-            const double along = dot(p->axis, profile[k].axis);
-            for (int a = 0; a < 3; a++) p->axis[a] -= along * profile[k].axis[a];
-        }
-        const double length = sqrt(dot(p->axis, p->axis));
-        for (int a = 0; a < 3; a++) p->axis[a] /= length;
-        p->distance = field_rounded(face[i].distance);
-        p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
-        obstacle_motion(face[i].obstacle, face[i].foot, site->frame->cell_size, site->frame->max_displacement, p->surface);
-        owner[used++] = face[i].obstacle;
-    }
-    return used;
-}
-
-static uint32_t *places(const Walls *walls) { return walls->place.data; }
-
-/* The number of a node of the grid in the list; it is added if it is new. */
-static uint32_t listed(Builder *b, int64_t node)
-{
-    Walls *walls = b->walls;
-    uint32_t *place = &places(walls)[node];
-    if (*place) return *place - 1;
-    const size_t kept = (size_t)walls->nodes * sizeof(WallNode);
-    if (!array_grow(b->memory, &walls->node, (size_t)walls->nodes + 1, sizeof(WallNode), kept)) {
-        b->failed = true;
-        return 0;
-    }
-    WallNode *added = (WallNode *)walls->node.data + walls->nodes;
-    *added = (WallNode){.node = (uint32_t)node, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f, .open = -1.0f};
-    *place = ++walls->nodes;
-    return *place - 1;
-}
-
-static WallEntry *new_entry(Builder *b)
-{
-    Walls *walls = b->walls;
-    const size_t kept = (size_t)walls->entries * sizeof(WallEntry);
-    if (!array_grow(b->memory, &walls->entry, (size_t)walls->entries + 1, sizeof(WallEntry), kept)) {
-        b->failed = true;
-        return NULL;
-    }
-    WallEntry *entry = (WallEntry *)walls->entry.data + walls->entries;
-    *entry = (WallEntry){0};
-    return entry;
-}
-
-/* The nodes around a place `way` [cells] from the node, by multilinear weights times `weight`; with `clear` only those that no face of `profile` binds. `distance`:
- * their mean distances from the faces. False: there are none. */
-static bool find_parents(Builder *b, const Site *site, const double way[3], double weight, const Profile *profile, int count, bool clear, double distance[NORMALS_MAX],
-                         WallEntry *entry)
-{
-    const int dimension = site->near->dimension, corners = 1 << dimension;
-    int64_t node[CORNERS_MAX];
-    double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
-    for (int a = 0; a < dimension; a++) {
-        low[a] = floor(way[a] + 1e-6);
-        part[a] = fmax(way[a] - low[a], 0.0);
-    }
-    for (int k = 0; k < corners; k++) {
-        int offset[3] = {0};
-        share[k] = 1.0;
-        for (int j = 0; j < count; j++) off[k][j] = profile[j].distance;
-        for (int a = 0; a < dimension; a++) {
-            const int up = k >> a & 1;
-            offset[a] = (int)low[a] + up;
-            share[k] *= up ? part[a] : 1.0 - part[a];
-            for (int j = 0; j < count; j++) off[k][j] += offset[a] * profile[j].normal[a];
-        }
-        node[k] = share[k] > 1e-6 ? node_beside(b->frame->grid, site->block, site->local, offset) : NOWHERE;
-        if (node[k] == NOWHERE) share[k] = 0.0;
-        for (int j = 0; j < count && clear; j++)
-            if (off[k][j] < CLEAR) share[k] = 0.0;
-        sum += share[k];
-    }
-    if (sum < 1e-3) return false;
-    int used = 0;
-    for (int j = 0; j < count; j++) distance[j] = 0.0;
-    for (int k = 0; k < corners; k++) {
-        if (share[k] == 0.0) continue;
-        for (int j = 0; j < count; j++) distance[j] += share[k] / sum * off[k][j];
-        entry->parent[used] = listed(b, node[k]);
-        entry->weight[used++] = (float)(weight * share[k] / sum);
-    }
-    for (; used < CORNERS_MAX; used++) entry->parent[used] = entry->parent[0];
-    return true;
-}
-
-/* Mirrors a place in the faces of a set. */
-static void mirror(const Profile *profile, int count, int set, double way[3])
-{
-    for (int k = 0; k < count; k++) {
-        if (!(set >> k & 1)) continue;
-        const double distance = profile[k].distance + dot(way, profile[k].normal);
-        for (int a = 0; a < 3; a++) way[a] -= 2.0 * distance * profile[k].normal[a];
-    }
-}
-
-/* The weight of the image in a set of faces. */
-static double share_of_set(const Profile *profile, int count, int set)
-{
-    double share = 1.0;
-    for (int k = 0; k < count; k++) share *= set >> k & 1 ? profile[k].share : 1.0 - profile[k].share;
-    return share;
-}
-
-/* Matter that is about to leave a wall by more than this [cells] in a substep is not held: bound to the wall, what is behind it would move the other way. At rest
- * and in waves matter stays far below it. */
-static const double LEAVES = 0.5;
-
-static bool leaves(const Builder *b, const WallEntry *entry, const Profile *profile)
-{
-    const float *grid_node = b->frame->grid->node.data;
-    double along = 0.0;
-    for (int k = 0; k < CORNERS_MAX; k++) {
-        const float *u = grid_node + (size_t)((const WallNode *)b->walls->node.data)[entry->parent[k]].node * K_NODE_WIDTH;
-        for (int a = 0; a < 3; a++) along += (double)entry->weight[k] * ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
-    }
-    return along > LEAVES;
-}
-
-/* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
-static void add_motion(Builder *b, const Site *site, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
-{
-    double way[3] = {0}, distance[NORMALS_MAX], scale[NORMALS_MAX];
-    for (int j = 0; j < count; j++)
-        for (int a = 0; a < 3 && profile[j].distance < CLEAR; a++) way[a] += ceil(0.5 - profile[j].distance - 1e-6) * profile[j].normal[a];
-    WallEntry *entry = new_entry(b);
-    if (!entry) return;
-    const bool found = find_parents(b, site, way, 1.0, profile, count, true, distance, entry);
-    WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
-    memcpy(entry->matrix, rest, sizeof entry->matrix);
-    for (int j = 0; j < count; j++) {
-        double along = 0.0;
-        scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
-        if (found && leaves(b, entry, &profile[j])) scale[j] = 1.0;
-        add_product(entry->matrix, scale[j], profile[j].axis);
-        for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
-        for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
-        if (!found && profile[j].distance >= CLEAR) add_product(node->own, 1.0, profile[j].axis);
-    }
-    for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
-    if (sticks) {
-        const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-        for (int k = 0; k < 6; k++) entry->matrix[k] = (float)scale[0] * all[k];
-        for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
-        memset(node->own, 0, sizeof node->own);
-    }
-    if (!found) return;
-    entry->follower = index;
-    b->walls->entries++;
-}
-
-/* Weights that are not worth a place. */
-static const double LITTLE = 1e-6;
-
-/* The density is mirrored in each face by its share. */
-static void add_mirrors(Builder *b, const Site *site, uint32_t index, const Profile *profile, int count)
-{
-    double unused[NORMALS_MAX];
-    for (int set = 0; set < 1 << count; set++) {
-        const double weight = share_of_set(profile, count, set);
-        double way[3] = {0};
-        if (weight < LITTLE) continue;
-        mirror(profile, count, set, way);
-        WallEntry *entry = set > 0 ? new_entry(b) : NULL;
-        if (set > 0 && !entry) return;
-        if (!entry || !find_parents(b, site, way, weight, profile, count, false, unused, entry)) {
-            ((WallNode *)b->walls->node.data)[index].own_mirror += (float)weight;
-            continue;
-        }
-        entry->mirrored = true;
-        entry->follower = index;
-        b->walls->entries++;
-    }
-}
-
-static void add_follower(Builder *b, const Site *site, int64_t grid_node)
-{
-    Walls *walls = b->walls;
-    Face face[FIELD_FACES];
-    Profile profile[NORMALS_MAX];
-    const Obstacle *owner[NORMALS_MAX];
-    bool both;
-    const int faces = faces_of(site, face, &both);
-    if (faces == 0 || face[0].distance >= 1.0) return;
-    const uint32_t index = listed(b, grid_node);
-    if (b->failed) return;
-    int count = profiles_of(site, face, faces, profile, owner);
-    const bool sticks = owner[0]->friction == PBMPM_FRICTION_STICK;
-    if (sticks) count = 1;
-    WallNode *node = (WallNode *)walls->node.data + index;
-    node->own_mirror = 0.0f;
-    if (!both) node->open = (float)field_open_share(site->near, site->point, NODE_REACH, face, faces);
-    node->normals = (uint16_t)count;
-    node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB ? owner[0]->coefficient : 0.0f;
-    memcpy(node->surface, profile[0].surface, sizeof node->surface);
-    walls->rubs = walls->rubs || node->coefficient > 0.0f;
-    float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, site->near->dimension == 3 ? 1.0f : 0.0f};
-    for (int j = 0; j < count; j++) {
-        for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
-        node->obstacle[j] = (uint16_t)(owner[j] - b->frame->colliders->obstacle);
-        node->follows = node->follows || profile[j].distance < CLEAR;
-        add_product(rest, -1.0, profile[j].axis);
-    }
-    node->entry_begin = node->entry_moving = walls->entries;
-    if (node->follows) memset(node->own, 0, sizeof node->own);
-    if (both) { /* along the wall it is free */
-        double along = 0.0;
-        for (int a = 0; a < 3; a++) along += (double)profile[0].surface[a] * profile[0].axis[a];
-        for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
-        if (!sticks) memcpy(node->own, rest, sizeof rest);
-        node->own_mirror = 1.0f;
-        node->entry_end = walls->entries;
-        return;
-    }
-    if (node->follows) add_motion(b, site, index, profile, count, sticks, rest);
-    ((WallNode *)walls->node.data)[index].entry_moving = walls->entries;
-    add_mirrors(b, site, index, profile, count);
-    ((WallNode *)walls->node.data)[index].entry_end = walls->entries;
-}
-
-/* ---- Finding them ---- */
-
-typedef struct FindJob {
-    Walls *walls;
-    const ContactFrame *frame;
-} FindJob;
-
-/* What a node may see [cells]: planes at 2.5 from its reflection, which is at most 1.5 behind it and as far before. */
-static const double SEEN = 5.5;
-
-static void look_near_block(const ContactFrame *frame, int32_t block, Near *near)
-{
-    double centre[3];
-    contacts_block_centre(frame, block, centre);
-    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SEEN, false);
-}
-
-static bool is_held(const ContactFrame *frame, int32_t block, int node) { return frame->held && frame->held[block] >> node & 1; }
-
-/* Which nodes are at walls, as bits. */
-static void mark_blocks(void *context, int32_t begin, int32_t end)
-{
-    const FindJob *job = context;
-    uint64_t *marks = job->walls->marked.data;
-    const Grid *grid = job->frame->grid;
-    for (int32_t block = begin; block < end; block++) {
-        marks[block] = 0;
-        for (int node = 0; node < grid->block_cells; node++)
-            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node))
-                marks[block] |= (uint64_t)1 << node;
-    }
-}
-
-static bool add_links(Walls *walls, Memory *memory)
-{
-    WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    uint32_t links = 0;
-    for (uint32_t i = 0; i < walls->nodes; i++) node[i].link_begin = node[i].link_end = 0;
-    for (uint32_t e = 0; e < walls->entries; e++)
-        for (int k = 0; k < CORNERS_MAX && entry[e].weight[k] > 0.0f; k++) node[entry[e].parent[k]].link_end++;
-    for (uint32_t i = 0; i < walls->nodes; i++) {
-        const uint32_t count = node[i].link_end;
-        node[i].link_begin = node[i].link_end = links;
-        links += count;
-    }
-    if (!array_reserve(memory, &walls->link, links, sizeof(WallLink))) return false;
-    WallLink *link = walls->link.data;
-    for (uint32_t e = 0; e < walls->entries; e++)
-        for (int k = 0; k < CORNERS_MAX && entry[e].weight[k] > 0.0f; k++) link[node[entry[e].parent[k]].link_end++] = (WallLink){e, entry[e].weight[k]};
-    walls->links = links;
-    return true;
-}
-
-/* Nodes that are only followed rub at the wall of who mirrors in them. */
-static void give_friction(Walls *walls)
-{
-    WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    for (uint32_t i = 0; i < walls->nodes; i++)
-        for (uint32_t l = node[i].link_begin; l < node[i].link_end && node[i].normals == 0; l++) {
-            const WallNode *from = &node[entry[link[l].entry].follower];
-            node[i].normals = 1;
-            node[i].obstacle[0] = from->obstacle[0];
-            node[i].coefficient = from->coefficient;
-            memcpy(node[i].surface, from->surface, sizeof from->surface);
-            memcpy(node[i].normal[0], from->normal[0], sizeof from->normal[0]);
-        }
-}
-
-static void square(const float m[6], float out[6])
-{
-    const float row[3][4] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}};
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
-}
-
-/* M = sum m W A^2, what a node has itself included. */
-static void lump(Walls *walls, int dimension)
-{
-    WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    for (uint32_t i = 0; i < walls->nodes; i++) {
-        float *m = node[i].lump, part[6];
-        for (int k = 0; k < 6; k++) m[k] = node[i].mass * node[i].own[k];
-        for (uint32_t l = node[i].link_begin; l < node[i].link_end; l++) {
-            const WallEntry *e = &entry[link[l].entry];
-            if (e->mirrored) continue;
-            const float mass = node[e->follower].mass * link[l].weight;
-            square(e->matrix, part);
-            for (int k = 0; k < 6; k++) m[k] += mass * part[k];
-        }
-        if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
-        invert(m, node[i].inverse);
-    }
-}
-
-pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool)
-{
-    const Grid *grid = frame->grid;
-    const size_t blocks = (size_t)grid->node_blocks, nodes = blocks * (size_t)grid->block_cells;
-    FindJob job = {walls, frame};
-    Builder builder = {.walls = walls, .memory = memory, .frame = frame};
-    walls_clear(walls);
-    if (frame->colliders->obstacle_count == 0) return PBMPM_OK;
-    bool ok = array_reserve(memory, &walls->marked, blocks, sizeof(uint64_t)) && array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
-    if (ok) {
-        const uint64_t *marks = walls->marked.data;
-        pool_for(pool, grid->node_blocks, 16, mark_blocks, &job);
-        memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        for (int32_t block = 0; block < grid->node_blocks && !builder.failed; block++) {
-            if (marks[block] == 0) continue;
-            Near near;
-            look_near_block(frame, block, &near);
-            for (int i = 0; i < grid->block_cells && !builder.failed; i++) {
-                if (!(marks[block] >> i & 1)) continue;
-                Site site = {.frame = frame, .near = &near, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
-                contacts_node_position(frame, block, i, site.point);
-                add_follower(&builder, &site, (int64_t)block * grid->block_cells + i);
-            }
-        }
-        ok = !builder.failed && add_links(walls, memory) &&
-             array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, 4 * sizeof(float));
-    }
-    if (!ok) {
-        walls_clear(walls);
-        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes at walls of %d blocks", grid->node_blocks);
-    }
-    give_friction(walls);
-    lump(walls, grid->dimension);
-    return PBMPM_OK;
 }
 
 /* ---- Making motion admissible ---- */
@@ -627,15 +84,12 @@ static void send_back(void *context, int32_t begin, int32_t end)
 static void folded(const ApplyJob *job, uint32_t i, float sum[4])
 {
     const WallNode *n = (const WallNode *)job->walls->node.data + i;
-    const WallEntry *entry = job->walls->entry.data;
     const WallLink *link = job->walls->link.data;
     float rest[4];
     for (int a = 0; a < 3; a++) rest[a] = job->v.momentum[i][a] - job->shifted * n->mass * n->shift[a];
     times(n->own, rest, sum);
-    for (uint32_t l = n->link_begin; l < n->link_end; l++) {
-        if (entry[link[l].entry].mirrored) continue;
+    for (uint32_t l = n->link_begin; l < n->link_moving; l++)
         for (int a = 0; a < 3; a++) sum[a] += link[l].weight * job->v.back[link[l].entry][a];
-    }
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
@@ -723,7 +177,7 @@ static void press(void *context, int32_t begin, int32_t end)
         double sum[3], along = 0.0;
         given(job, (uint32_t)i, sum);
         for (int a = 0; a < 3; a++) along += sum[a] * (double)node[i].normal[0][a];
-        job->v.moved[i][3] = node[i].entry_end > node[i].entry_begin ? (float)along : 0.0f;
+        job->v.moved[i][3] = node[i].follows ? (float)along : 0.0f;
     }
 }
 
@@ -738,8 +192,7 @@ static void rub(void *context, int32_t begin, int32_t end)
         const WallNode *n = &node[i];
         float *u = job->v.free[i], v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
-        for (uint32_t l = n->link_begin; l < n->link_end; l++)
-            if (!entry[link[l].entry].mirrored) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
+        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
         for (int a = 0; a < 3; a++) along += (u[a] - n->surface[a]) * n->normal[0][a];
@@ -869,8 +322,7 @@ static void fold_scalar(const Walls *walls, const float *from, float *to)
     const WallLink *link = walls->link.data;
     for (uint32_t i = 0; i < walls->nodes; i++) {
         float sum = node[i].own_mirror * from[node[i].node];
-        for (uint32_t l = node[i].link_begin; l < node[i].link_end; l++)
-            if (entry[link[l].entry].mirrored) sum += link[l].weight * from[node[entry[link[l].entry].follower].node];
+        for (uint32_t l = node[i].link_moving; l < node[i].link_end; l++) sum += link[l].weight * from[node[entry[link[l].entry].follower].node];
         to[i] = sum;
     }
 }

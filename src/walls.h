@@ -28,7 +28,7 @@ typedef struct Walls {
     Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */
     Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
     Array vector;     /* per node: what is passed between loops */
-    uint32_t nodes, followers, entries, links;
+    uint32_t nodes, entries, links;
     bool rubs;        /* a wall has friction */
 } Walls;
 
