@@ -10,10 +10,17 @@ static const double BEFORE = 0.1;
 /* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
 static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
 
-/* Planes whose normals differ by less than 45 degrees, halfway to an edge, count as one: the nearest. */
-static const double SAME_WAY = 0.7;
-
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
+ * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
+static const double SAME_WAY = 0.95, SAME_WAY_BAKED = 0.7;
+
+bool field_same_way(const Face *a, const Face *b)
+{
+    const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
+    return dot(a->normal, b->normal) > (guessed ? SAME_WAY_BAKED : SAME_WAY);
+}
 
 /* point + length [cells] * normal */
 static void ahead(const Near *near, const double point[3], double length, const double normal[3], double out[3])
@@ -242,7 +249,7 @@ static bool is_exposed(const Near *near, const Face *face, const double point[3]
 static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int most)
 {
     for (int i = 0; i < count; i++) {
-        if (dot(face[i].normal, seen->normal) <= SAME_WAY) continue;
+        if (!field_same_way(&face[i], seen)) continue;
         if (seen->distance < face[i].distance) face[i] = *seen;
         return count;
     }
@@ -257,12 +264,24 @@ static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int mos
     return count;
 }
 
-/* Hollows of a solid that is not convex. */
-static int add_hollows(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
+/* Half a step of the grid of a baked solid [cells]: by so much its edges are rounded. 0 for other solids, which are exact. */
+static double rounding_of(const Near *near, const Obstacle *o)
+{
+    const DistanceGrid *grid = field_solid(near, o)->grid;
+    return grid ? 0.5 * grid->spacing / near->cell_size : 0.0;
+}
+
+/* The nearest face of a baked solid, and those of its hollows. Where a point is as near to two of these, the grid of distances has a normal between them, and its foot is on
+ * no surface: then it is left out. */
+static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
 {
     static const double STAY[3] = {0};
+    const Solid *s = field_solid(near, first->obstacle);
+    double normal[3];
     Plane plane[PLANES_MAX];
-    const int planes = concave_planes(field_solid(near, first->obstacle), near->cell_size, point, first->distance, first->normal, STAY, reach, plane);
+    const int planes = concave_planes(s, near->cell_size, point, first->distance, first->normal, STAY, reach, plane);
+    const bool between = planes > 2 && fabs(solid_distance(s, first->foot, normal)) > rounding_of(near, first->obstacle) * near->cell_size;
+    if (!between) count = add_face(face, count, first, most);
     for (int i = 1; i < planes; i++) {
         const Face hollow = face_at(near, first->obstacle, point, plane[i].gap, plane[i].normal);
         count = add_face(face, count, &hollow, most);
@@ -270,20 +289,32 @@ static int add_hollows(const Near *near, const Face *first, const double point[3
     return count;
 }
 
-/* The planes that are seen from a point in the open. */
+/* The planes that are seen from a point in the open. The foot on one may lie behind another: then their edge has to be open. */
 static int faces_seen(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
-    int count = 0;
+    Face hidden[CANDIDATES];
+    int count = 0, hides = 0;
     for (int i = 0; i < near->count; i++) {
         const Obstacle *o = near->obstacle[i];
         double normal[3];
         const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
         if (distance > reach) continue;
         const Face seen = face_at(near, o, point, distance, normal);
-        if (!is_exposed(near, &seen, point)) continue;
-        count = add_face(face, count, &seen, near->dimension);
-        if (field_solid(near, o)->grid) count = add_hollows(near, &seen, point, reach, face, count, near->dimension);
+        if (!is_exposed(near, &seen, point)) {
+            if (hides < CANDIDATES) hidden[hides++] = seen;
+            continue;
+        }
+        if (field_solid(near, o)->grid)
+            count = add_baked(near, &seen, point, reach, face, count, near->dimension);
+        else
+            count = add_face(face, count, &seen, near->dimension);
     }
+    const int seen = count;
+    for (int i = 0; i < hides; i++)
+        for (int k = 0; k < seen; k++) {
+            const Face *edge[2] = {&hidden[i], &face[k]};
+            if (dot(hidden[i].normal, face[k].normal) >= 0.0 && corner_distance(near, point, edge, 2) <= reach) count = add_face(face, count, &hidden[i], near->dimension);
+        }
     return count;
 }
 
@@ -307,18 +338,28 @@ static void sort_by_distance(Face *face, int begin, int count)
             }
 }
 
+/* Behind an inner edge of a baked solid the nearest place is the edge, where faces meet that are seen from before it. */
+static bool is_edge(const Near *near, const Face *nearest, const Face *seen, int count)
+{
+    const double rounding = rounding_of(near, nearest->obstacle);
+    int meet = 0;
+    for (int i = 0; i < count && rounding > 0.0; i++) meet += fabs(distance_to(near, &seen[i], nearest->foot)) < rounding;
+    return meet > 1;
+}
+
 /* Adds what is seen from the reflection of a point in an obstacle. */
 static int add_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES], int count)
 {
-    const int first = count;
+    int first = count;
     double open[3] = {point[0], point[1], point[2]};
     Face around[FIELD_FACES];
     for (int tries = 0; tries < 3 && field_distance(near, open) <= ON_SURFACE; tries++) reflect(near, face, count, open);
     if (field_distance(near, open) <= ON_SURFACE) return count;
     const int seen = faces_seen(near, open, reach, around);
+    if (is_edge(near, &face[0], around, seen)) first = count = 0;
     for (int i = 0; i < seen; i++) {
         bool known = count == near->dimension;
-        for (int k = 0; k < count && !known; k++) known = dot(around[i].normal, face[k].normal) > SAME_WAY;
+        for (int k = 0; k < count && !known; k++) known = field_same_way(&around[i], &face[k]);
         if (known) continue;
         around[i].distance = distance_to(near, &around[i], point);
         face[count++] = around[i];

@@ -47,6 +47,9 @@ int field_faces(const Near *near, const double point[3], double reach, Face face
 /* The same where face[0] is given. */
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
+/* Whether two planes count as one. */
+bool field_same_way(const Face *a, const Face *b);
+
 /* Of the obstacles that a point is in, the surface that is nearest, walls of the domain first: where they overlap too far for field_faces(). False: it is in none. */
 bool field_surface(const Near *near, const double point[3], Face *face);
 

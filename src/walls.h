@@ -10,8 +10,8 @@
  * norm is at most that of 1/m (Jensen's inequality), as dual.isph needs. Midway between grid lines it is the reflection of all matter in the wall.
  * What nodes behind a wall do along it by themselves, as a mirror's do off the grid, is a motion that few iterations do not see: it drove fountains.
  *
- * At outer edges nodes inside follow the nearer face alone, and round walls count as planes: an even pressure does some work there, so small boxes bear too little
- * of it, and water in a bowl is stirred.
+ * At outer edges, blunt inner ones and curved walls a node has one normal: the slope of the distances at the nodes around it. It turns as slowly as the spline sees
+ * the wall turn. The nearest face's own leaps there, and an even pressure then drives water round the edge: a pool with a box in it stirred at 0.2 m/s.
  *
  * The density is found on folded nodes: mass and open share of nodes within a cell are reflected in the wall.
  *
@@ -27,6 +27,8 @@ typedef struct Walls {
     Array link;       /* WallLink: per node that is followed, who follows */
     Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */
     Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
+    Array begin;      /* uint32_t per node block: how many such nodes are in blocks before */
+    Array bound;      /* per node at a wall: its faces */
     Array vector;     /* per node: what is passed between loops */
     uint32_t nodes, entries, links;
     bool rubs;        /* a wall has friction */

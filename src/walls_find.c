@@ -20,7 +20,7 @@ static void invert(const float m[6], float out[6])
 {
     static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
     double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}, inverse[3][3] = {{0}};
-    const double least = LEAST * (a[0][0] + a[1][1] + a[2][2]);
+    const double least = LEAST * fmax(a[0][0] + a[1][1] + a[2][2], 0.0);
     int order[3], count = 0;
     bool used[3] = {false, false, false};
     double l[3][3] = {{0}};
@@ -130,10 +130,23 @@ static int faces_of(const Site *site, Face face[FIELD_FACES], bool *both)
 
 /* ---- The nodes that follow ---- */
 
+/* A node at walls: the faces that it is bound to. */
+typedef struct Bound {
+    uint32_t node; /* of the grid */
+    int32_t block;
+    int local[3];
+    Face face[FIELD_FACES];
+    int faces;
+    bool both; /* see faces_of() */
+    float open; /* share */
+} Bound;
+
 typedef struct Builder {
     Walls *walls;
     Memory *memory;
     const ContactFrame *frame;
+    const Bound *bound; /* the first nodes of the list */
+    uint32_t bounds;
     bool failed;
 } Builder;
 
@@ -146,27 +159,80 @@ typedef struct Profile {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/* Faces that stand more or less upright on the nearest one, and on each other; others are left to the nearest. */
-static int profiles_of(const Site *site, const Face *face, int count, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
+/* Whether two faces are nearly back to back. */
+static bool opposed(const Face *a, const Face *b) { return dot(a->normal, b->normal) < -0.95; }
+
+/* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the normals of both. */
+static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
 {
-    static const double UPRIGHT = 0.3; /* cosine */
+    const Face *face = &here->face[0], *other = &there->face[0];
+    double before = 0.0; /* the one's foot, before the other's plane */
+    if (field_same_way(face, other)) return true;
+    if (opposed(face, other)) return false;
+    for (int k = 1; k < here->faces; k++)
+        if (field_same_way(&here->face[k], other)) return false;
+    for (int k = 1; k < there->faces; k++)
+        if (field_same_way(&there->face[k], face)) return false;
+    for (int a = 0; a < 3; a++) before += (face->foot[a] - other->foot[a]) * other->normal[a];
+    return before < 1e-3 * frame->cell_size;
+}
+
+/* What a node of the grid is bound to; null if it is not. */
+static const Bound *bound_at(const Builder *b, int64_t node)
+{
+    const uint32_t at = ((const uint32_t *)b->walls->place.data)[node];
+    return at > 0 && at <= b->bounds ? &b->bound[at - 1] : NULL;
+}
+
+/* The normal that a node has: the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure
+ * do work: it drove vortices out of each blunt edge. */
+static void turn_normal(const Builder *b, const Bound *bound, double normal[3])
+{
+    const Grid *grid = b->frame->grid;
+    const Face *face = &bound->face[0];
+    double slope[3] = {0}, length = 0.0;
+    for (int a = 0; a < grid->dimension; a++)
+        for (int side = -1; side <= 1; side += 2) {
+            int way[3] = {0};
+            way[a] = side;
+            const int64_t other = node_beside(grid, bound->block, bound->local, way);
+            const Bound *beside = other == NOWHERE ? NULL : bound_at(b, other);
+            double distance = face->distance + side * face->normal[a];
+            if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
+            if (!beside && other != NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
+            slope[a] += side * distance;
+        }
+    for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
+    length = sqrt(length);
+    for (int a = 0; a < 3; a++) normal[a] = length > 0.5 ? slope[a] / length : face->normal[a];
+}
+
+/* The nearest face and others that the node is near to. One by itself has the normal that turns. */
+static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
+{
+    const Face *own[NORMALS_MAX];
+    double turned[3];
     int used = 0;
-    for (int i = 0; i < count; i++) {
-        Profile *p = &profile[used];
-        bool upright = i == 0 || face[i].distance < 1.0;
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(face[i].normal[a]);
-        for (int k = 0; k < used; k++) upright = upright && fabs(dot(p->normal, profile[k].normal)) <= UPRIGHT;
-        if (!upright) continue;
-        for (int k = 0; k < used; k++) {
+    for (int i = 0; i < bound->faces && used < b->frame->grid->dimension; i++) {
+        const Face *face = &bound->face[i];
+        bool differs = i == 0 || face->distance < 1.0;
+        for (int k = 0; k < used; k++) differs = differs && !field_same_way(face, own[k]) && !opposed(face, own[k]);
+        if (differs) own[used++] = face;
+    }
+    if (used == 1) turn_normal(b, bound, turned);
+    for (int i = 0; i < used; i++) {
+        Profile *p = &profile[i];
+        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(used == 1 ? turned[a] : own[i]->normal[a]);
+        for (int k = 0; k < i; k++) {
             const double along = dot(p->axis, profile[k].axis);
             for (int a = 0; a < 3; a++) p->axis[a] -= along * profile[k].axis[a];
         }
         const double length = sqrt(dot(p->axis, p->axis));
         for (int a = 0; a < 3; a++) p->axis[a] /= length;
-        p->distance = field_rounded(face[i].distance);
+        p->distance = field_rounded(own[i]->distance);
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
-        obstacle_motion(face[i].obstacle, face[i].foot, site->frame->cell_size, site->frame->max_displacement, p->surface);
-        owner[used++] = face[i].obstacle;
+        obstacle_motion(own[i]->obstacle, own[i]->foot, b->frame->cell_size, b->frame->max_displacement, p->surface);
+        owner[i] = own[i]->obstacle;
     }
     return used;
 }
@@ -203,10 +269,10 @@ static WallEntry *new_entry(Builder *b)
 
 /* The nodes around a place `way` [cells] from the node, by multilinear weights times `weight`; with `clear` only those that no face of `profile` binds. `distance`:
  * their mean distances from the faces. False: there are none. */
-static bool find_parents(Builder *b, const Site *site, const double way[3], double weight, const Profile *profile, int count, bool clear, double distance[NORMALS_MAX],
+static bool find_parents(Builder *b, const Bound *bound, const double way[3], double weight, const Profile *profile, int count, bool clear, double distance[NORMALS_MAX],
                          WallEntry *entry)
 {
-    const int dimension = site->near->dimension, corners = 1 << dimension;
+    const int dimension = b->frame->grid->dimension, corners = 1 << dimension;
     int64_t node[CORNERS_MAX];
     double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
     for (int a = 0; a < dimension; a++) {
@@ -223,8 +289,11 @@ static bool find_parents(Builder *b, const Site *site, const double way[3], doub
             share[k] *= up ? part[a] : 1.0 - part[a];
             for (int j = 0; j < count; j++) off[k][j] += offset[a] * profile[j].normal[a];
         }
-        node[k] = share[k] > 1e-6 ? node_beside(b->frame->grid, site->block, site->local, offset) : NOWHERE;
+        node[k] = share[k] > 1e-6 ? node_beside(b->frame->grid, bound->block, bound->local, offset) : NOWHERE;
         if (node[k] == NOWHERE) share[k] = 0.0;
+        const Bound *other = node[k] == NOWHERE ? NULL : bound_at(b, node[k]);
+        if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
+        if (other && other->face[0].distance < CLEAR && clear) share[k] = 0.0;
         for (int j = 0; j < count && clear; j++)
             if (off[k][j] < CLEAR) share[k] = 0.0;
         sum += share[k];
@@ -275,15 +344,24 @@ static bool leaves(const Builder *b, const WallEntry *entry, const Profile *prof
     return along > LEAVES;
 }
 
+/* The way to a place that is clear of the faces, by whole cells along their normals. In acute edges a way out of one leads to the other. */
+static void way_out(const Profile *profile, int count, double way[3])
+{
+    for (int k = 0; k < count * count; k++) {
+        const Profile *p = &profile[k % count];
+        const double distance = p->distance + dot(way, p->normal);
+        for (int a = 0; a < 3 && distance < CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
+    }
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
-static void add_motion(Builder *b, const Site *site, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
+static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
     double way[3] = {0}, distance[NORMALS_MAX], scale[NORMALS_MAX];
-    for (int j = 0; j < count; j++)
-        for (int a = 0; a < 3 && profile[j].distance < CLEAR; a++) way[a] += ceil(0.5 - profile[j].distance - 1e-6) * profile[j].normal[a];
+    way_out(profile, count, way);
     WallEntry *entry = new_entry(b);
     if (!entry) return;
-    const bool found = find_parents(b, site, way, 1.0, profile, count, true, distance, entry);
+    const bool found = find_parents(b, bound, way, 1.0, profile, count, true, distance, entry);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
     memcpy(entry->matrix, rest, sizeof entry->matrix);
     for (int j = 0; j < count; j++) {
@@ -311,7 +389,7 @@ static void add_motion(Builder *b, const Site *site, uint32_t index, const Profi
 static const double LITTLE = 1e-6;
 
 /* The density is mirrored in each face by its share. */
-static void add_mirrors(Builder *b, const Site *site, uint32_t index, const Profile *profile, int count)
+static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count)
 {
     double unused[NORMALS_MAX];
     for (int set = 0; set < 1 << count; set++) {
@@ -321,7 +399,7 @@ static void add_mirrors(Builder *b, const Site *site, uint32_t index, const Prof
         mirror(profile, count, set, way);
         WallEntry *entry = set > 0 ? new_entry(b) : NULL;
         if (set > 0 && !entry) return;
-        if (!entry || !find_parents(b, site, way, weight, profile, count, false, unused, entry)) {
+        if (!entry || !find_parents(b, bound, way, weight, profile, count, false, unused, entry)) {
             ((WallNode *)b->walls->node.data)[index].own_mirror += (float)weight;
             continue;
         }
@@ -331,37 +409,33 @@ static void add_mirrors(Builder *b, const Site *site, uint32_t index, const Prof
     }
 }
 
-static void add_follower(Builder *b, const Site *site, int64_t grid_node)
+static void add_follower(Builder *b, uint32_t index)
 {
     Walls *walls = b->walls;
-    Face face[FIELD_FACES];
+    const Bound *bound = &b->bound[index];
     Profile profile[NORMALS_MAX];
     const Obstacle *owner[NORMALS_MAX];
-    bool both;
-    const int faces = faces_of(site, face, &both);
-    if (faces == 0 || face[0].distance >= 1.0) return;
-    const uint32_t index = listed(b, grid_node);
-    if (b->failed) return;
-    int count = profiles_of(site, face, faces, profile, owner);
+    int count = profiles_of(b, bound, profile, owner);
     const bool sticks = owner[0]->friction == PBMPM_FRICTION_STICK;
     if (sticks) count = 1;
     WallNode *node = (WallNode *)walls->node.data + index;
     node->own_mirror = 0.0f;
-    if (!both) node->open = (float)field_open_share(site->near, site->point, NODE_REACH, face, faces);
+    node->open = bound->open;
     node->normals = (uint16_t)count;
     node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB ? owner[0]->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
     walls->rubs = walls->rubs || node->coefficient > 0.0f;
-    float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, site->near->dimension == 3 ? 1.0f : 0.0f};
+    float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, b->frame->grid->dimension == 3 ? 1.0f : 0.0f};
     for (int j = 0; j < count; j++) {
         for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
         node->obstacle[j] = (uint16_t)(owner[j] - b->frame->colliders->obstacle);
         node->follows = node->follows || profile[j].distance < CLEAR;
         add_product(rest, -1.0, profile[j].axis);
     }
+    if (count == b->frame->grid->dimension) memset(rest, 0, sizeof rest); /* else rounding would be left */
     node->entry_begin = node->entry_moving = walls->entries;
     if (node->follows) memset(node->own, 0, sizeof node->own);
-    if (both) { /* along the wall it is free */
+    if (bound->both) { /* along the wall it is free */
         double along = 0.0;
         for (int a = 0; a < 3; a++) along += (double)profile[0].surface[a] * profile[0].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
@@ -370,9 +444,9 @@ static void add_follower(Builder *b, const Site *site, int64_t grid_node)
         node->entry_end = walls->entries;
         return;
     }
-    if (node->follows) add_motion(b, site, index, profile, count, sticks, rest);
+    if (node->follows) add_motion(b, bound, index, profile, count, sticks, rest);
     ((WallNode *)walls->node.data)[index].entry_moving = walls->entries;
-    add_mirrors(b, site, index, profile, count);
+    add_mirrors(b, bound, index, profile, count);
     ((WallNode *)walls->node.data)[index].entry_end = walls->entries;
 }
 
@@ -484,31 +558,85 @@ static void lump(Walls *walls, int dimension)
     }
 }
 
+typedef struct BindJob {
+    const ContactFrame *frame;
+    const uint64_t *marks;
+    const uint32_t *begin; /* per block the first of its places */
+    Bound *bound;
+} BindJob;
+
+static void bind_blocks(void *context, int32_t first, int32_t end)
+{
+    const BindJob *job = context;
+    const ContactFrame *frame = job->frame;
+    for (int32_t block = first; block < end; block++) {
+        Bound *bound = job->bound + job->begin[block];
+        Near near;
+        if (job->marks[block] == 0) continue;
+        look_near_block(frame, block, &near);
+        for (int i = 0; i < frame->grid->block_cells; i++) {
+            if (!(job->marks[block] >> i & 1)) continue;
+            Site site = {.frame = frame, .near = &near, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
+            contacts_node_position(frame, block, i, site.point);
+            *bound = (Bound){.node = (uint32_t)(block * frame->grid->block_cells + i), .block = block, .open = -1.0f};
+            memcpy(bound->local, site.local, sizeof bound->local);
+            bound->faces = faces_of(&site, bound->face, &bound->both);
+            if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
+            if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(&near, site.point, NODE_REACH, bound->face, bound->faces);
+            bound++;
+        }
+    }
+}
+
+static int count_bits(uint64_t bits)
+{
+    int count = 0;
+    for (; bits; bits &= bits - 1) count++;
+    return count;
+}
+
+/* Finds the nodes at walls. Returns how many there are. */
+static bool bind_nodes(Builder *b, Pool *pool)
+{
+    Walls *walls = b->walls;
+    const Grid *grid = b->frame->grid;
+    const size_t blocks = (size_t)grid->node_blocks;
+    FindJob job = {walls, b->frame};
+    if (!array_reserve(b->memory, &walls->marked, blocks, sizeof(uint64_t)) || !array_reserve(b->memory, &walls->begin, blocks, sizeof(uint32_t))) return false;
+    const uint64_t *marks = walls->marked.data;
+    uint32_t *begin = walls->begin.data, count = 0;
+    pool_for(pool, grid->node_blocks, 16, mark_blocks, &job);
+    for (size_t block = 0; block < blocks; block++) {
+        begin[block] = count;
+        count += (uint32_t)count_bits(marks[block]);
+    }
+    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound))) return false;
+    Bound *bound = walls->bound.data;
+    BindJob bind = {b->frame, marks, begin, bound};
+    pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
+    b->bound = bound;
+    for (uint32_t i = 0; i < count && !b->failed; i++) {
+        if (bound[i].faces == 0) continue;
+        if (b->bounds < i) bound[b->bounds] = bound[i];
+        b->bounds++;
+        listed(b, bound[b->bounds - 1].node);
+    }
+    return !b->failed;
+}
+
 pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool)
 {
     const Grid *grid = frame->grid;
-    const size_t blocks = (size_t)grid->node_blocks, nodes = blocks * (size_t)grid->block_cells;
-    FindJob job = {walls, frame};
+    const size_t nodes = (size_t)grid->node_blocks * (size_t)grid->block_cells;
     Builder builder = {.walls = walls, .memory = memory, .frame = frame};
     walls_clear(walls);
     if (frame->colliders->obstacle_count == 0) return PBMPM_OK;
-    bool ok = array_reserve(memory, &walls->marked, blocks, sizeof(uint64_t)) && array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
+    bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
-        const uint64_t *marks = walls->marked.data;
-        pool_for(pool, grid->node_blocks, 16, mark_blocks, &job);
         memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        for (int32_t block = 0; block < grid->node_blocks && !builder.failed; block++) {
-            if (marks[block] == 0) continue;
-            Near near;
-            look_near_block(frame, block, &near);
-            for (int i = 0; i < grid->block_cells && !builder.failed; i++) {
-                if (!(marks[block] >> i & 1)) continue;
-                Site site = {.frame = frame, .near = &near, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
-                contacts_node_position(frame, block, i, site.point);
-                add_follower(&builder, &site, (int64_t)block * grid->block_cells + i);
-            }
-        }
-        ok = !builder.failed && add_links(walls, memory) &&
+        ok = bind_nodes(&builder, pool);
+        for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
+        ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, 4 * sizeof(float));
     }
     if (!ok) {
@@ -519,4 +647,3 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     lump(walls, grid->dimension);
     return PBMPM_OK;
 }
-

@@ -4,7 +4,7 @@
 
 #include "walls.h"
 
-enum { CORNERS_MAX = 8, NORMALS_MAX = FIELD_FACES };
+enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
 enum { VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */
 
 /* What a node takes from others: A u~ of a place between them, A a symmetric matrix (upper triangle, row by row). */

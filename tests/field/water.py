@@ -43,6 +43,63 @@ def _rest(run: Run, world: Any, frame: Frame, true: float, limit: float, seconds
     run.near("mean height", np.mean(height), true, MEAN, world.cell_size, why="water keeps its volume and lies level")
 
 
+@case(
+    on_grid=dict(boxes=[((0.8, 0.3), (0.1, 0.1), 0)]),
+    off_grid=dict(boxes=[((0.815, 0.315), (0.1, 0.1), 0)]),
+    turned_20=dict(boxes=[((0.81, 0.3), (0.1, 0.1), 20)]),
+    turned_45=dict(boxes=[((0.81, 0.3), (0.1, 0.1), 45)]),
+    step=dict(boxes=[((0.8, 0.0), (0.2, 0.2), 0)]),
+    step_off=dict(boxes=[((0.815, 0.0), (0.2, 0.215), 0)]),
+    ramp_10=dict(boxes=[((1.1, -0.1), (0.9, 0.2), 10)]),
+    ramp_20=dict(boxes=[((1.1, -0.1), (0.9, 0.2), 20)]),
+    shelf=dict(boxes=[((1.6, 0.3), (0.3, 0.05), 0)]),
+    shelf_off=dict(boxes=[((1.6, 0.315), (0.315, 0.05), 0)]),
+)
+def furnished_pool(run: Run, boxes: list[tuple[tuple[float, float], tuple[float, float], float]]) -> None:
+    """A pool with a box in it, on its floor or at its wall: each edge is a place where an even pressure might do work."""
+    with run.world(2, CELL, domain=((0, 0), (WIDTH, 2))) as world:
+        p = lattice((0, 0), (WIDTH, DEPTH), CELL / 2)
+        for centre, half, degrees in boxes:
+            world.add_collider(Box(centre, half, rotation=math.radians(degrees)), friction=Friction.SLIP)
+            along = Frame(2, degrees).local(p - np.asarray(centre))
+            p = p[~(np.abs(along) < half).all(1)]
+        world.add_particles(world.add_material(Liquid()), p)
+        _rest(run, world, Frame(), p[:, 1].mean(), 0.01)
+
+
+@case(blunt_15=dict(slope=15), blunt_25_off=dict(slope=25, shift=0.4), blunt_35_off=dict(slope=35, shift=0.3), ridge_15=dict(slope=-15), ridge_30=dict(slope=-30))
+def creased_floor(run: Run, slope: float, shift: float = 0.0) -> None:
+    """A pool on a floor that is folded in its middle: two planes that meet in a valley, or a ridge that is baked."""
+    middle, rise = WIDTH / 2 + shift * CELL, math.tan(math.radians(slope))
+    floor = lambda x: rise * np.abs(x - middle)  # noqa: E731
+    with run.world(2, CELL) as world:
+        if slope > 0:
+            for side in (-1, 1):
+                world.add_collider(Plane((middle, 0), (side * rise, 1)), friction=Friction.SLIP)
+        else:
+            x = np.array([-0.4, middle, WIDTH + 0.4])
+            points = np.array([(x[0], -1.2), (x[2], -1.2), *zip(x[::-1], floor(x[::-1]))])
+            edges = [(k, (k + 1) % len(points)) for k in range(len(points))]
+            world.add_collider(Baked((0, 0), world.load_solid(bake_mesh(points, edges, resolution=128))), friction=Friction.SLIP)
+        for at, normal in ((0.0, 1.0), (WIDTH, -1.0)):
+            world.add_collider(Plane((at, 0), (normal, 0)), friction=Friction.SLIP)
+        p = lattice((0, -1), (WIDTH, DEPTH), CELL / 2)
+        p = p[p[:, 1] > floor(p[:, 0])]
+        world.add_particles(world.add_material(Liquid()), p)
+        _rest(run, world, Frame(), p[:, 1].mean(), 0.01)
+
+
+@case(ball=dict())
+def ball_in_pool(run: Run) -> None:
+    """A pool around a ball at rest."""
+    with run.world(2, CELL, domain=((0, 0), (WIDTH, 2))) as world:
+        world.add_collider(Sphere((0.81, 0.3), 0.15), friction=Friction.SLIP)
+        p = lattice((0, 0), (WIDTH, DEPTH), CELL / 2)
+        p = p[np.hypot(*(p - (0.81, 0.3)).T) > 0.15]
+        world.add_particles(world.add_material(Liquid()), p)
+        _rest(run, world, Frame(), p[:, 1].mean(), 0.01)
+
+
 @case(light=dict(density=500), mercury=dict(density=13600))
 def density(run: Run, density: float) -> None:
     """How heavy a liquid is makes no difference to its rest."""
