@@ -9,7 +9,7 @@
 #include "result.h"
 #include "step.h"
 
-enum { FIELDS = PBMPM_PRESSURE + 1 };
+enum { FIELDS = INSPECT_FIELDS };
 
 /* What the step's thread is at. It goes from COPYING to DONE; callers do the rest. */
 typedef enum Stage { IDLE, COPYING, STEPPING, DONE } Stage;
@@ -44,7 +44,7 @@ const char *background_fields_problem(const pbmpm_field *fields, uint32_t count)
 {
     bool seen[FIELDS] = {false};
     for (uint32_t i = 0; i < count; i++) {
-        if (fields[i] < PBMPM_POSITION || (int)fields[i] >= FIELDS) return "a field to publish does not exist";
+        if (!inspect_is_field(fields[i])) return "a field to publish does not exist";
         if (seen[fields[i]]) return "a field is to be published twice";
         seen[fields[i]] = true;
     }
@@ -228,6 +228,7 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
 {
     Background *background = world->background;
     bool wanted = false;
+    if (!inspect_is_field(field)) return inspect_no_field(field);
     for (uint32_t i = 0; i < background->wanted_count; i++) wanted |= background->wanted[i] == field;
     if (!wanted) return fail(PBMPM_ERROR_BUSY, "field %d is not published, and a step is under way", (int)field);
     pthread_mutex_lock(&background->lock);

@@ -322,6 +322,7 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
 pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
 {
     Particles *p = &world->particles;
+    if (!inspect_is_field(field)) return inspect_no_field(field);
     const uint32_t components = settable_components(world, field);
     if (components == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "this field cannot be set");
     if (!ids && count != p->count) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%u values for %u particles", count, p->count);

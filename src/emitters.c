@@ -61,7 +61,7 @@ const char *emitter_problem(const pbmpm_emitter_def *def, int dimension, double 
 {
     double length = 0.0;
     if (def->size != sizeof *def) return "emitter.size is unknown: fill the definition with pbmpm_emitter_def_init()";
-    if (def->region != PBMPM_EMIT_VOLUME && def->region != PBMPM_EMIT_DISC) return "emitter.region is unknown";
+    if (!in_enum(def->region, PBMPM_EMIT_VOLUME, PBMPM_EMIT_DISC)) return "emitter.region is unknown";
     if (def->enabled != 0 && def->enabled != 1) return "emitter.enabled must be 0 or 1";
     if (!in_range(def->rate, 0.0, 1e12)) return "emitter.rate must be in [0, 1e12]";
     if (!in_range(def->speed, 0.0, 1e6)) return "emitter.speed must be in [0, 1e6]";

@@ -31,10 +31,10 @@ const char *force_problem(const pbmpm_force_def *def, int dimension)
 {
     double length = 0.0;
     if (def->size != sizeof *def) return "force.size is unknown: fill the definition with pbmpm_force_def_init()";
-    if (def->kind < PBMPM_FORCE_UNIFORM || def->kind > PBMPM_FORCE_GRAB) return "force.kind is unknown";
+    if (!in_enum(def->kind, PBMPM_FORCE_UNIFORM, PBMPM_FORCE_GRAB)) return "force.kind is unknown";
     if (def->enabled != 0 && def->enabled != 1) return "force.enabled must be 0 or 1";
     if (def->everywhere != 0 && def->everywhere != 1) return "force.everywhere must be 0 or 1";
-    if (def->falloff < PBMPM_FALLOFF_NONE || def->falloff > PBMPM_FALLOFF_INVERSE_SQUARE) return "force.falloff is unknown";
+    if (!in_enum(def->falloff, PBMPM_FALLOFF_NONE, PBMPM_FALLOFF_INVERSE_SQUARE)) return "force.falloff is unknown";
     if (!in_range(def->range, 0.0, 1e9)) return "force.range must be in [0, 1e9]";
     if (def->falloff == PBMPM_FALLOFF_INVERSE_SQUARE && !(def->range > 0.0f)) return "force.range of an inverse square must be greater than 0";
     if (!in_range(def->strength, def->kind == PBMPM_FORCE_DRAG ? 0.0 : -1e9, 1e9))

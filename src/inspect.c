@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "numbers.h"
 #include "result.h"
 
 /* ---- Views ---- */
@@ -32,6 +33,10 @@ uint32_t inspect_components(const World *world, pbmpm_field field)
     }
 }
 
+bool inspect_is_field(pbmpm_field field) { return in_enum(field, PBMPM_POSITION, INSPECT_FIELDS - 1); }
+
+pbmpm_result inspect_no_field(pbmpm_field field) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "field %d does not exist", (int)field); }
+
 bool inspect_has(const World *world, pbmpm_field field)
 {
     return (field != PBMPM_DEFORMATION || world->particles.deformation[0]) && (field != PBMPM_PRESSURE || world->particles.pressure);
@@ -59,7 +64,7 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
         if (!p->pressure) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has pressures only once the dual solver was used");
         found = packed(p->pressure, 1);
         break;
-    default: return fail(PBMPM_ERROR_INVALID_ARGUMENT, "field %d does not exist", (int)field);
+    default: return inspect_no_field(field);
     }
     found.size = view->size;
     found.count = p->count;

@@ -6,6 +6,12 @@
 
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view);
 
+enum { INSPECT_FIELDS = PBMPM_PRESSURE + 1 };
+
+/* Whether there is such a field; and the refusal of one that there is not. */
+bool inspect_is_field(pbmpm_field field);
+pbmpm_result inspect_no_field(pbmpm_field field);
+
 /* Values per particle of a field, and whether this world has it. */
 uint32_t inspect_components(const World *world, pbmpm_field field);
 bool inspect_has(const World *world, pbmpm_field field);

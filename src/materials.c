@@ -26,7 +26,7 @@ uint32_t materials_built(void)
 
 pbmpm_result material_kind_usable(pbmpm_material_kind kind)
 {
-    if ((uint32_t)kind >= KINDS) return fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version");
+    if (!in_enum(kind, PBMPM_LIQUID, KINDS - 1)) return fail(PBMPM_ERROR_UNSUPPORTED, "material.kind is not known to this version");
     if (kinds[kind].built) return PBMPM_OK;
     return fail(PBMPM_ERROR_UNSUPPORTED, "this library was built without %s materials; the CMake option PBMPM_MATERIALS says what is built",
                 kinds[kind].name);
@@ -60,8 +60,7 @@ static const char *modulus_problem(const pbmpm_material_def *def)
     if (def->bulk_modulus != 0.0f && !in_range(def->bulk_modulus, 1e-3, 1e15))
         return "material.bulk_modulus must be 0 (incompressible) or in [1e-3, 1e15]";
     if (!in_range(def->kinematic_viscosity, 0.0, 1e6)) return "material.kinematic_viscosity must be in [0, 1e6]";
-    if (def->elastic_model != PBMPM_FIXED_COROTATED && def->elastic_model != PBMPM_NEO_HOOKEAN)
-        return "material.elastic_model is unknown";
+    if (!in_enum(def->elastic_model, PBMPM_FIXED_COROTATED, PBMPM_NEO_HOOKEAN)) return "material.elastic_model is unknown";
     if (!in_range(def->young_modulus, 1e-3, 1e15)) return "material.young_modulus must be in [1e-3, 1e15]";
     if (!in_range(def->poisson_ratio, 0.0, 0.495)) return "material.poisson_ratio must be in [0, 0.495]";
     return NULL;
@@ -82,14 +81,13 @@ static const char *yield_problem(const pbmpm_material_def *def)
 const char *material_problem(const pbmpm_material_def *def)
 {
     if (def->size != sizeof *def) return "material.size is unknown: fill the definition with pbmpm_material_def_init()";
-    if ((uint32_t)def->kind >= KINDS) return "material.kind is not known to this version";
+    if (!in_enum(def->kind, PBMPM_LIQUID, KINDS - 1)) return "material.kind is not known to this version";
     if (!in_range(def->density, 1e-3, 1e6)) return "material.density must be in [1e-3, 1e6]";
     if (!(def->relaxation > 0.0f && def->relaxation < 2.0f)) return "material.relaxation must be in (0, 2)";
     if (!in_range(def->viscosity, 0.0, 1.0)) return "material.viscosity must be in [0, 1]";
     if (!in_range(def->volume_feedback, 0.0, 1.0)) return "material.volume_feedback must be in [0, 1]";
     if (!in_range(def->elasticity_ratio, 0.0, 1.0)) return "material.elasticity_ratio must be in [0, 1]";
-    if (def->strain_policy != PBMPM_STRAIN_CLAMP && def->strain_policy != PBMPM_STRAIN_DELETE)
-        return "material.strain_policy is unknown";
+    if (!in_enum(def->strain_policy, PBMPM_STRAIN_CLAMP, PBMPM_STRAIN_DELETE)) return "material.strain_policy is unknown";
     if (!in_range(def->strain_min, 1e-3, 1.0)) return "material.strain_min must be in [1e-3, 1]";
     if (!in_range(def->strain_max, 1.0, 1e4)) return "material.strain_max must be in [1, 1e4]";
     if (!in_range(def->condition_max, 10.0, 1e6)) return "material.condition_max must be in [10, 1e6]";

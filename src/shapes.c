@@ -22,6 +22,7 @@ static double quaternion_length(const float q[4])
 
 static const char *geometry_problem(const pbmpm_shape *shape, int dimension, const BakedTable *table)
 {
+    if (!in_enum(shape->kind, PBMPM_PLANE, PBMPM_BAKED)) return "shape.kind is unknown";
     switch (shape->kind) {
     case PBMPM_PLANE: {
         double length = 0.0;

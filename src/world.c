@@ -65,11 +65,9 @@ const char *settings_problem(const pbmpm_settings *settings, int dimension)
     if (!all_in_range(settings->gravity, (size_t)dimension, -1e9, 1e9)) return "settings.gravity must be in [-1e9, 1e9]";
     if (!in_range(settings->max_displacement, 0.1, PBMPM_MAX_CELLS_PER_SUBSTEP))
         return "settings.max_displacement must be in [0.1, 64]";
-    if (settings->solver < PBMPM_SOLVER_PAPER || settings->solver > PBMPM_SOLVER_CONVERGENT) return "settings.solver is unknown";
-    if (settings->pressure != PBMPM_PRESSURE_PARTICLES && settings->pressure != PBMPM_PRESSURE_CELLS)
-        return "settings.pressure is unknown";
-    if (settings->integrator != PBMPM_INTEGRATOR_EULER && settings->integrator != PBMPM_INTEGRATOR_BDF2)
-        return "settings.integrator is unknown";
+    if (!in_enum(settings->solver, PBMPM_SOLVER_PAPER, PBMPM_SOLVER_CONVERGENT)) return "settings.solver is unknown";
+    if (!in_enum(settings->pressure, PBMPM_PRESSURE_PARTICLES, PBMPM_PRESSURE_CELLS)) return "settings.pressure is unknown";
+    if (!in_enum(settings->integrator, PBMPM_INTEGRATOR_EULER, PBMPM_INTEGRATOR_BDF2)) return "settings.integrator is unknown";
     if (!in_range(settings->flip, 0.0, 1.0)) return "settings.flip must be in [0, 1]";
     if (!in_range(settings->target_error, 0.0, 1.0)) return "settings.target_error must be in [0, 1]";
     if (!in_range(settings->time_budget_ms, 0.0, 1e6)) return "settings.time_budget_ms must be in [0, 1e6]";

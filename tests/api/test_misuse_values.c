@@ -374,6 +374,112 @@ static void test_poses(void)
     snapshot_expect_same(&before, good.world, "poses");
 }
 
+/* ---- enumerations ---- */
+
+/* No enumeration of this version has these, whether the compiler takes it for signed or unsigned. */
+static const int32_t no_value[] = {-1, INT32_MIN, INT32_MIN + 3, INT32_MAX, INT32_MAX - 1, 99, 0x10000, -2};
+enum { NO_VALUES = sizeof no_value / sizeof *no_value };
+
+static void check_field(pbmpm_field field)
+{
+    static const float values[1024];
+    pbmpm_view view = {.size = sizeof view}, same = view;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_view(good.world, field, &view));
+    TEST_ASSERT_EQUAL_MEMORY(&same, &view, sizeof view);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_set(good.world, field, &good.particle, 1, values));
+    for (uint32_t count = 1; count <= 3; count++) {
+        const pbmpm_field fields[3] = {count == 1 ? field : PBMPM_MASS, count == 2 ? field : PBMPM_MATERIAL, field};
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_publish(good.world, fields, count));
+    }
+    snapshot_expect_same(&before, good.world, "a field that is none");
+}
+
+static void test_fields_that_are_none(void)
+{
+    check_field((pbmpm_field)(PBMPM_PRESSURE + 1));
+    for (int i = 0; i < NO_VALUES; i++)
+        check_field((pbmpm_field)no_value[i]);
+    OK(pbmpm_world_step_begin(good.world, 0.001f)); /* the fields that are in view meanwhile are another list */
+    for (int i = 0; i < NO_VALUES; i++) {
+        pbmpm_view view = {.size = sizeof view};
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_view(good.world, (pbmpm_field)no_value[i], &view));
+    }
+    OK(pbmpm_world_step_end(good.world, 1));
+}
+
+static void test_names_of_values_that_are_none(void)
+{
+    for (int i = 0; i < NO_VALUES; i++) {
+        TEST_ASSERT_EQUAL_STRING("unknown result", pbmpm_result_name((pbmpm_result)no_value[i]));
+        TEST_ASSERT_EQUAL_STRING("unknown", pbmpm_isa_name((pbmpm_isa)no_value[i]));
+        TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)no_value[i]));
+    }
+}
+
+static pbmpm_result use_force(const void *structure)
+{
+    pbmpm_force_id force;
+    const pbmpm_result result = pbmpm_force_create(good.world, structure, &force);
+    if (result == PBMPM_OK)
+        OK(pbmpm_force_destroy(good.world, force));
+    return result;
+}
+
+static pbmpm_result use_emitter(const void *structure)
+{
+    pbmpm_emitter_id emitter;
+    const pbmpm_result result = pbmpm_emitter_create(good.world, structure, &emitter);
+    if (result == PBMPM_OK)
+        OK(pbmpm_emitter_destroy(good.world, emitter));
+    return result;
+}
+
+/* Puts each of no_value[] and the first one past the end at `offset` into a sound structure. */
+static void check_enum(const void *sound, size_t size, size_t offset, int32_t last, use *apply, const char *label)
+{
+    unsigned char copy[512];
+    OK(apply(sound));
+    for (int i = -1; i < NO_VALUES; i++) {
+        const int32_t value = i < 0 ? last + 1 : no_value[i];
+        memcpy(copy, sound, size);
+        memcpy(copy + offset, &value, sizeof value);
+        REFUSED(apply(copy));
+        snapshot_expect_same(&before, good.world, label);
+    }
+}
+#define CHECK_ENUM(sound, member, last, apply) check_enum(&(sound), sizeof(sound), offsetof(__typeof__(sound), member), last, apply, #member)
+
+static void test_enumerations_in_structures(void)
+{
+    const pbmpm_settings settings = default_settings();
+    CHECK_ENUM(settings, solver, PBMPM_SOLVER_CONVERGENT, use_settings);
+    CHECK_ENUM(settings, pressure, PBMPM_PRESSURE_CELLS, use_settings);
+    CHECK_ENUM(settings, integrator, PBMPM_INTEGRATOR_BDF2, use_settings);
+    const pbmpm_material_def material = default_material(PBMPM_ELASTIC);
+    CHECK_ENUM(material, kind, PBMPM_VISCO, use_new_material);
+    CHECK_ENUM(material, kind, PBMPM_VISCO, use_changed_material);
+    CHECK_ENUM(material, strain_policy, PBMPM_STRAIN_DELETE, use_new_material);
+    CHECK_ENUM(material, elastic_model, PBMPM_NEO_HOOKEAN, use_new_material);
+    const pbmpm_shape shape = box_shape(0.2f, 0.2f, 0, 0.05f, 0.05f, 0.05f);
+    CHECK_ENUM(shape, kind, PBMPM_BAKED, use_query_shape);
+    CHECK_ENUM(shape, kind, PBMPM_BAKED, use_removal_shape);
+    CHECK_ENUM(shape, kind, PBMPM_BAKED, use_collider_shape);
+    pbmpm_collider_def collider;
+    OK(pbmpm_collider_def_init(&collider, sizeof collider));
+    CHECK_ENUM(collider, friction, PBMPM_FRICTION_SLIP, use_collider);
+    pbmpm_force_def force;
+    OK(pbmpm_force_def_init(&force, sizeof force));
+    force.enabled = 0; /* a change of what acts would wake */
+    CHECK_ENUM(force, kind, PBMPM_FORCE_GRAB, use_force);
+    CHECK_ENUM(force, falloff, PBMPM_FALLOFF_INVERSE_SQUARE, use_force);
+    CHECK_ENUM(force, shape.kind, PBMPM_BAKED, use_force);
+    pbmpm_emitter_def emitter;
+    OK(pbmpm_emitter_def_init(&emitter, sizeof emitter));
+    emitter.material = good.material;
+    CHECK_ENUM(emitter, region, PBMPM_EMIT_DISC, use_emitter);
+    CHECK_ENUM(emitter, shape.kind, PBMPM_BAKED, use_emitter);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -390,5 +496,8 @@ int main(void)
     RUN_TEST(test_shapes_of_fills);
     RUN_TEST(test_colliders);
     RUN_TEST(test_poses);
+    RUN_TEST(test_fields_that_are_none);
+    RUN_TEST(test_names_of_values_that_are_none);
+    RUN_TEST(test_enumerations_in_structures);
     return UNITY_END();
 }
