@@ -128,13 +128,14 @@ void lookup_visit(const Lookup *lookup, LookupTest *test, LookupRows *rows, void
 
 typedef struct Line {
     const Lookup *lookup;
+    const Particles *particles;
     double start[3], inverse[3]; /* 1 / direction; infinite along axes that it does not move along */
     double from, margin;
     double nearest; /* so far */
 } Line;
 
-/* When the line is in a widened box for the first time at or after `from`, or INFINITY. */
-static double entry_of(const Line *line, const LookupBox *box)
+/* When the line is in a widened box for the first time at or after `from`, or INFINITY; and when it leaves it. */
+static double entry_of(const Line *line, const LookupBox *box, double *left)
 {
     double enter = line->from, leave = INFINITY;
     for (int a = 0; a < line->lookup->dimension; a++) {
@@ -147,24 +148,44 @@ static double entry_of(const Line *line, const LookupBox *box)
         enter = fmax(enter, fmin(one, other));
         leave = fmin(leave, fmax(one, other));
     }
+    *left = leave;
     return enter <= leave ? enter : INFINITY;
+}
+
+/* The box around a stretch of spray may be kilometres of nothing. Where the way through it is longer than its particles would be in a row, one
+ * per cell, the line enters with the first of their cells, else with the box. */
+static void enter_stretch(Line *line, uint32_t b, double entry, double left)
+{
+    const Particles *p = line->particles;
+    const uint32_t first = b * STRETCH, last = first + STRETCH < line->lookup->rows ? first + STRETCH : line->lookup->rows;
+    if (left - entry <= (last - first) + 2.0 * line->margin) {
+        line->nearest = entry;
+        return;
+    }
+    for (uint32_t row = first; row < last && line->nearest > line->from; row++) {
+        LookupBox cell = {{0}, {0}};
+        for (int a = 0; a < line->lookup->dimension; a++) cell.low[a] = cell.high[a] = p->cell[a][row];
+        line->nearest = fmin(line->nearest, entry_of(line, &cell, &left));
+    }
 }
 
 static void enter_box(Line *line, int level, uint32_t b)
 {
     const Lookup *lookup = line->lookup;
-    const double entry = entry_of(line, boxes_of(lookup, level) + b);
+    double left;
+    const double entry = entry_of(line, boxes_of(lookup, level) + b, &left);
     if (!(entry < line->nearest)) return;
     if (level == 0) {
-        line->nearest = entry;
+        enter_stretch(line, b, entry, left);
         return;
     }
     for (uint32_t i = b * FAN; i < (b + 1) * FAN && i < lookup->count[level - 1]; i++) enter_box(line, level - 1, i);
 }
 
-double lookup_entry(const Lookup *lookup, const double start[3], const double direction[3], double from, double margin)
+double lookup_entry(const Lookup *lookup, const Particles *particles, const double start[3], const double direction[3], double from,
+                    double margin)
 {
-    Line line = {.lookup = lookup, .from = from, .margin = margin, .nearest = INFINITY};
+    Line line = {.lookup = lookup, .particles = particles, .from = from, .margin = margin, .nearest = INFINITY};
     for (int a = 0; a < lookup->dimension; a++) {
         line.start[a] = start[a];
         line.inverse[a] = 1.0 / direction[a];

@@ -34,8 +34,9 @@ typedef void LookupRows(const LookupBox *box, uint32_t begin, uint32_t end, void
 /* Visits the stretches of interest in storage order. */
 void lookup_visit(const Lookup *lookup, LookupTest *test, LookupRows *rows, void *context);
 
-/* The smallest t >= `from` at which start + t direction (in cells) is nearer than `margin` to a particle's cell along every axis, or
- * a little less; INFINITY if there is none. */
-double lookup_entry(const Lookup *lookup, const double start[3], const double direction[3], double from, double margin);
+/* The smallest t >= `from` at which start + t direction (cells; of length 1) is nearer than `margin` to a particle's cell along every axis, or a
+ * little less: no more cells than a stretch has rows. INFINITY if there is none. `particles` are those that it was made for. */
+double lookup_entry(const Lookup *lookup, const Particles *particles, const double start[3], const double direction[3], double from,
+                    double margin);
 
 #endif

@@ -249,12 +249,12 @@ static double first_crossing(Line *line, double first, double last)
     line->from = line->to = -INFINITY;
     for (;;) {
         if (!(i * SAMPLE <= line->to)) {
-            const double entry = lookup_entry(&line->world->lookup, line->start, line->direction, i * SAMPLE, CELL_REACH);
+            const double entry = lookup_entry(&line->world->lookup, &line->world->particles, line->start, line->direction, i * SAMPLE, CELL_REACH);
             if (!(entry <= last) || isinf(entry)) return INFINITY;
             i = fmax(i, floor(entry / SAMPLE));
             look_at(line, (i - 1.0) * SAMPLE, i * SAMPLE + PATCH_LENGTH);
         }
-        if (i * SAMPLE > last) return INFINITY;
+        if (i * SAMPLE > last || i + 1.0 == i) return INFINITY; /* or so far that samples cannot be told apart */
         if (filling_at(line, i * SAMPLE) >= line->level) break;
         i += 1.0;
     }
@@ -279,6 +279,20 @@ typedef struct HeightsJob {
     float *heights;
 } HeightsJob;
 
+/* Moves the start by whole samples to where the line passes the origin, so that t counts finely wherever the point was. Returns how far along
+ * the line the start is then. Exact along an axis: fmod is, and so is the multiple of SAMPLE that it leaves. */
+static double start_near_origin(Line *line)
+{
+    double along = 0.0, now = 0.0;
+    for (int a = 0; a < line->world->def.dimension; a++) along += line->start[a] * line->direction[a];
+    const double whole = along - fmod(along, SAMPLE);
+    for (int a = 0; a < line->world->def.dimension; a++) {
+        line->start[a] -= whole * line->direction[a];
+        now += line->start[a] * line->direction[a];
+    }
+    return now;
+}
+
 static void find_heights(void *context, int32_t begin, int32_t end)
 {
     const HeightsJob *job = context;
@@ -287,12 +301,9 @@ static void find_heights(void *context, int32_t begin, int32_t end)
     Line line = {.world = job->world, .level = job->level};
     for (size_t a = 0; a < d; a++) line.direction[a] = -job->up[a];
     for (size_t i = (size_t)begin; i < (size_t)end; i++) {
-        double along = 0.0;
-        for (size_t a = 0; a < d; a++) {
-            line.start[a] = (double)job->points[i * d + a] / dx;
-            along += line.start[a] * job->up[a];
-        }
-        const double top = lookup_entry(&job->world->lookup, line.start, line.direction, -INFINITY, CELL_REACH);
+        for (size_t a = 0; a < d; a++) line.start[a] = (double)job->points[i * d + a] / dx;
+        const double along = -start_near_origin(&line);
+        const double top = lookup_entry(&job->world->lookup, &job->world->particles, line.start, line.direction, -INFINITY, CELL_REACH);
         const double t = top < INFINITY ? first_crossing(&line, floor(top / SAMPLE) - 1.0, INFINITY) : INFINITY;
         job->heights[i] = (float)((along - t) * dx);
     }

@@ -110,7 +110,7 @@ static void test_nothing_to_visit(void)
     scatter(&random, 3, 0, false);
     lookup_visit(&lookup, near_ball, note_rows, &ball);
     TEST_ASSERT_EQUAL_UINT32(0, ball.visited);
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, ball.centre, (double[3]){1, 0, 0}, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, ball.centre, (double[3]){1, 0, 0}, 0.0, 2.0)));
 }
 
 /* ---- Lines ---- */
@@ -146,7 +146,7 @@ static void test_lines_enter_no_later_than_cells(void)
             const double from = k % 3 ? 0.0 : -INFINITY;
             double first = INFINITY;
             for (uint32_t row = 0; row < particles.count; row++) first = fmin(first, entry_of_cell(row, start, direction, from, 2.0));
-            const double entry = lookup_entry(&lookup, start, direction, from, 2.0);
+            const double entry = lookup_entry(&lookup, &particles, start, direction, from, 2.0);
             TEST_ASSERT_TRUE(entry >= from);
             if (!(entry <= first + 1e-9)) TEST_FAIL_MESSAGE("a line meets a cell before it enters a box");
         }
@@ -162,12 +162,26 @@ static void test_a_line_through_a_single_box(void)
     for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{10.0 + i, 0, 0}, {0}, 1.0f, 0}, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
     const double along[3] = {1, 0, 0}, back[3] = {-1, 0, 0}, start[3] = {0, 0, 0}, beside[3] = {0, 2.5, 0}, behind[3] = {30, 0, 0};
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, start, along, 0.0, 2.0) == 8.0);
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, start, along, 12.5, 2.0) == 12.5);
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, start, along, 21.5, 2.0)));
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, start, back, 0.0, 2.0)));
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, beside, along, 0.0, 2.0)));
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, behind, back, -INFINITY, 2.0) == 9.0);
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 8.0);
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 12.5, 2.0) == 12.5);
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, along, 21.5, 2.0)));
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, back, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, beside, along, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, behind, back, -INFINITY, 2.0) == 9.0);
+}
+
+/* Between particles far from each other a box is empty: the line enters at the next of them. */
+static void test_a_line_through_an_empty_box(void)
+{
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 2, CAPACITY));
+    for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{20000.0 * i, 0, 0}, {0}, 1.0f, 0}, 1);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
+    const double along[3] = {1, 0, 0}, start[3] = {0, 0, 0}, above[3] = {0, 2.5, 0};
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 0.0);
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 2.5, 2.0) == 19998.0);
+    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 100002.5, 2.0) == 119998.0);
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, along, 180002.5, 2.0)));
+    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, above, along, 0.0, 2.0)));
 }
 
 /* ---- Life ---- */
@@ -202,6 +216,7 @@ int main(void)
     RUN_TEST(test_nothing_to_visit);
     RUN_TEST(test_lines_enter_no_later_than_cells);
     RUN_TEST(test_a_line_through_a_single_box);
+    RUN_TEST(test_a_line_through_an_empty_box);
     RUN_TEST(test_boxes_are_made_once_per_generation);
     RUN_TEST(test_without_memory_the_next_question_tries_again);
     return UNITY_END();

@@ -1,0 +1,131 @@
+/* Calls about what is far away, long or immense come back soon: their work is bounded by what they can touch. */
+#include <math.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "scenes.h"
+
+void setUp(void)
+{
+    alarm(120); /* a call that never returns ends the program */
+}
+
+void tearDown(void)
+{
+    pbmpm_shutdown();
+    alarm(0);
+}
+
+/* ---- how long ---- */
+
+/* [s] of this processor's time. Each limit is some ten times what is needed, and a small part of what it was before. */
+static double used(void)
+{
+    return (double)clock() / CLOCKS_PER_SEC;
+}
+
+#define WITHIN(limit, call)                                                                                             \
+    do {                                                                                                                \
+        const double begin = used();                                                                                    \
+        call;                                                                                                           \
+        TEST_ASSERT_TRUE_MESSAGE(used() - begin < (limit), #call " took too long");                                     \
+    } while (0)
+
+/* ---- queries ---- */
+
+static pbmpm_world_id particles_at(int32_t dimension, const float *positions, uint32_t count)
+{
+    const pbmpm_world_def def = default_world(dimension, 0.1f, count);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particles_def many;
+    OK(pbmpm_particles_def_init(&many, sizeof many));
+    many.material = create_material(world, PBMPM_LIQUID);
+    many.count = count;
+    many.positions = positions;
+    OK(pbmpm_particles_add(world, &many, NULL));
+    return world;
+}
+
+/* A line has the same matter on it wherever on it its point is. */
+static void test_heights_over_points_far_away(void)
+{
+    static const float particle[2] = {0.1f, 0.4f}, up[2] = {0, 1}, left[2] = {-1, 0};
+    static const float far[] = {0.0f, 100.0f, 1e6f, -1e9f, 9e14f, 5e14f, -5e14f, 1e20f, 3e38f, -3e38f};
+    enum { FAR = sizeof far / sizeof *far };
+    const double halved = 0.1 * 0.25 / 4096 + 1e-7; /* [m] the last halving, and rounding to float */
+    const pbmpm_world_id world = particles_at(2, particle, 1);
+    float over[2 * FAR], beside[2 * FAR], heights[FAR];
+    for (int i = 0; i < FAR; i++) {
+        over[2 * i] = particle[0];
+        over[2 * i + 1] = far[i];
+        beside[2 * i] = far[i];
+        beside[2 * i + 1] = particle[1];
+    }
+    OK(pbmpm_query_heights(world, over, FAR, up, 0.09375f, heights));
+    for (int i = 0; i < FAR; i++)
+        TEST_ASSERT_DOUBLE_WITHIN(halved, 0.45, heights[i]);
+    OK(pbmpm_query_heights(world, beside, FAR, left, 0.09375f, heights));
+    for (int i = 0; i < FAR; i++)
+        TEST_ASSERT_DOUBLE_WITHIN(halved, -0.05, heights[i]);
+}
+
+/* Along other directions nobody knows where such a line passes; the answer comes all the same. */
+static void test_crooked_lines_far_away(void)
+{
+    static const float far[] = {1e6f, -1e9f, 5e14f, -3e15f, 7e17f, 1e22f, 3e38f, -3e38f};
+    enum { FAR = sizeof far / sizeof *far };
+    uint32_t stream = 3;
+    float positions[3 * 64], points[3 * FAR], heights[FAR];
+    for (int i = 0; i < 3 * 64; i++)
+        positions[i] = random_float(&stream, -1e4f, 1e4f);
+    const pbmpm_world_id world = particles_at(3, positions, 64);
+    for (int round = 0; round < 200; round++) {
+        float direction[3];
+        for (int a = 0; a < 3; a++)
+            direction[a] = round % 8 == a ? 0.0f : random_float(&stream, -1, 1);
+        for (int i = 0; i < 3 * FAR; i++)
+            points[i] = i % 3 == round % 3 ? far[i / 3] : far[random_next(&stream) % FAR];
+        OK(pbmpm_query_heights(world, points, FAR, direction, 0.01f, heights));
+        pbmpm_ray ray;
+        pbmpm_ray_hit hit = {.size = sizeof hit};
+        OK(pbmpm_ray_init(&ray, sizeof ray));
+        for (int a = 0; a < 3; a++) {
+            ray.origin[a] = points[a];
+            ray.direction[a] = direction[a];
+        }
+        OK(pbmpm_query_ray(world, &ray, &hit));
+    }
+}
+
+/* The box around two particles far from each other is empty. */
+static void test_lines_through_emptiness(void)
+{
+    static const float pair[4] = {0, 0, 0, 20000};
+    const pbmpm_world_id world = particles_at(2, pair, 2);
+    pbmpm_ray ray;
+    pbmpm_ray_hit hit = {.size = sizeof hit};
+    float points[2 * 64], heights[64];
+    OK(pbmpm_ray_init(&ray, sizeof ray));
+    ray.level = 0.09375f;
+    ray.origin[1] = 19990;
+    WITHIN(0.2, for (int i = 0; i < 200; i++) OK(pbmpm_query_ray(world, &ray, &hit)));
+    TEST_ASSERT_EQUAL_INT32(1, hit.hit);
+    TEST_ASSERT_FLOAT_WITHIN(0.001f, 0.05f, hit.position[1]);
+    for (int i = 0; i < 64; i++) {
+        points[2 * i] = 0.05f + 0.001f * (float)(i % 2); /* the filling there is less than the level */
+        points[2 * i + 1] = 7;
+    }
+    WITHIN(0.2, OK(pbmpm_query_heights(world, points, 64, (const float[2]){0, 1}, 0.25f, heights)));
+    for (int i = 0; i < 64; i++)
+        TEST_ASSERT_TRUE(isinf(heights[i]));
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_heights_over_points_far_away);
+    RUN_TEST(test_crooked_lines_far_away);
+    RUN_TEST(test_lines_through_emptiness);
+    return UNITY_END();
+}
