@@ -1,5 +1,6 @@
 #include "edit.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "inspect.h"
@@ -97,7 +98,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
 
 /* ---- Filling shapes ---- */
 
-/* A box of points may hold a shape that fills little of it; beyond this a fill is a mistake. */
+/* The part of a lattice that is looked at holds a shape that may fill little of it; beyond this a fill is a mistake. */
 static const double LATTICE_LIMIT = 4.0 * PBMPM_MAX_PARTICLES;
 
 /* A lattice centred on the shape, so that a symmetric shape gets a symmetric filling. Lengths in metres. */
@@ -105,36 +106,54 @@ typedef struct Lattice {
     Solid solid;
     double first[3];
     double spacing;
-    uint32_t size[3];
+    uint64_t size[3];
+    uint64_t begin[3], end[3]; /* of it, where particles may be */
+    bool whole;                /* all points there are where particles may be */
 } Lattice;
+
+static double lattice_coordinate(const Lattice *lattice, int axis, uint64_t i) { return lattice->first[axis] + (double)i * lattice->spacing; }
+
+/* Leaves the points of an axis that are in the domain, or, since jitter moves them, those that may be in range. */
+static void clip_lattice(const World *world, Lattice *lattice, int a)
+{
+    const Domain *domain = &world->domain;
+    const double limit = (double)CELL_LIMIT * (double)world->def.cell_size, size = (double)lattice->size[a];
+    const double low = domain->enabled ? domain->low[a] : -limit, high = domain->enabled ? domain->high[a] : limit;
+    const double begin = floor((low - lattice->first[a]) / lattice->spacing) - 1.0, end = ceil((high - lattice->first[a]) / lattice->spacing) + 2.0;
+    lattice->begin[a] = (uint64_t)fmin(fmax(begin, 0.0), size);
+    lattice->end[a] = (uint64_t)fmin(fmax(end, (double)lattice->begin[a]), size);
+    if (!domain->enabled) lattice->whole = lattice->whole && begin < 0.0 && end > size;
+    while (domain->enabled && lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->begin[a]), low, high))
+        lattice->begin[a]++;
+    while (domain->enabled && lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->end[a] - 1), low, high))
+        lattice->end[a]--;
+}
 
 static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice *lattice)
 {
     double low[3], high[3], points = 1.0;
     *lattice = (Lattice){.solid = solid_among(&def->shape, world->def.dimension, &world->baked),
                          .spacing = (double)world->def.cell_size / (double)def->particles_per_axis,
-                         .size = {1, 1, 1}};
+                         .size = {1, 1, 1},
+                         .end = {1, 1, 1},
+                         .whole = true};
     solid_bounds(&lattice->solid, low, high);
     for (int a = 0; a < world->def.dimension; a++) {
         const double size = fmax(1.0, floor((high[a] - low[a]) / lattice->spacing + 0.5));
-        points *= size;
-        if (points > LATTICE_LIMIT) return false;
-        lattice->size[a] = (uint32_t)size;
+        lattice->size[a] = (uint64_t)size;
         lattice->first[a] = 0.5 * (low[a] + high[a]) - 0.5 * (size - 1.0) * lattice->spacing;
+        clip_lattice(world, lattice, a);
+        points *= (double)(lattice->end[a] - lattice->begin[a]);
     }
-    return true;
+    return points <= LATTICE_LIMIT;
 }
 
-/* The jittered lattice point, or false if it is not in the shape or not in the domain. Jitter never leaves the domain. */
-static bool lattice_point(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, const uint32_t index[3], double point[3])
+/* Moves a lattice point at random. False: it is out of range then. Jitter never leaves the domain. */
+static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, const uint64_t index[3], double point[3])
 {
-    double normal[3];
     const Domain *domain = &world->domain;
-    for (int a = 0; a < 3; a++) point[a] = lattice->first[a] + index[a] * lattice->spacing;
-    if (solid_distance(&lattice->solid, point, normal) > 1e-6 * lattice->spacing) return false;
-    const uint64_t number = ((uint64_t)index[2] * lattice->size[1] + index[1]) * lattice->size[0] + index[0];
+    const uint64_t number = (index[2] * lattice->size[1] + index[1]) * lattice->size[0] + index[0];
     for (int a = 0; a < world->def.dimension; a++) {
-        if (domain->enabled && !in_range(point[a], domain->low[a], domain->high[a])) return false;
         point[a] += (double)def->jitter * lattice->spacing * scatter_number(def->seed, number * 3 + (uint64_t)a);
         if (domain->enabled) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
     }
@@ -142,30 +161,85 @@ static bool lattice_point(const World *world, const Lattice *lattice, const pbmp
     return domain->enabled || position_is_valid(world, place);
 }
 
-/* Visits the lattice; appends if `generation` is not 0; returns how many points count. */
-static uint64_t walk_lattice(World *world, const Lattice *lattice, const pbmpm_fill_def *def, uint32_t generation)
+static double lattice_distance(const Lattice *lattice, const uint64_t index[3], double point[3])
 {
-    const double dx = (double)world->def.cell_size, per_cell = lattice->spacing / dx;
-    const double volume = world->def.dimension == 3 ? per_cell * per_cell * per_cell : per_cell * per_cell;
-    const double density = (double)world->materials.def[def->material.index].density;
-    uint64_t count = 0;
-    for (uint32_t k = 0; k < lattice->size[2]; k++) {
-        for (uint32_t j = 0; j < lattice->size[1]; j++) {
-            for (uint32_t i = 0; i < lattice->size[0]; i++) {
-                double point[3];
-                if (!lattice_point(world, lattice, def, (uint32_t[3]){i, j, k}, point)) continue;
-                count++;
-                if (generation == 0) continue;
-                NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
-                for (int a = 0; a < world->def.dimension; a++) {
-                    particle.position[a] = point[a] / dx;
-                    particle.velocity[a] = def->velocity[a];
-                }
-                particles_append(&world->particles, &particle, generation);
-            }
+    double normal[3];
+    for (int a = 0; a < 3; a++) point[a] = lattice_coordinate(lattice, a, index[a]);
+    return solid_distance(&lattice->solid, point, normal);
+}
+
+/* A point counts up to this far outside of the shape [spacings]. */
+static const double LATTICE_EDGE = 1e-6;
+
+/* How many points from this one on along a row lie outside of the shape: its distance changes by no more than the way. */
+static uint64_t outside_from(const Lattice *lattice, const double point[3], double distance)
+{
+    const double least = lattice->solid.grid ? solid_least(&lattice->solid, point) : distance;
+    return 1 + (uint64_t)fmax(0.0, least / lattice->spacing - 2.0 * LATTICE_EDGE);
+}
+
+static uint64_t count_row(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, uint64_t index[3], int along)
+{
+    const bool leaps = lattice->whole && !lattice->solid.grid; /* distances of a grid err */
+    uint64_t count = 0, step;
+    for (index[along] = lattice->begin[along]; index[along] < lattice->end[along]; index[along] += step) {
+        double point[3];
+        const double distance = lattice_distance(lattice, index, point);
+        step = 1;
+        if (distance > LATTICE_EDGE * lattice->spacing) {
+            step = outside_from(lattice, point, distance);
+        } else if (leaps) {
+            const uint64_t inside = 1 + (uint64_t)fmax(0.0, -distance / lattice->spacing), left = lattice->end[along] - index[along];
+            step = inside < left ? inside : left;
+            count += step;
+        } else {
+            count += jitter_point(world, lattice, def, index, point);
         }
     }
     return count;
+}
+
+/* Counts along the longest rows: of the others there are fewest. */
+static uint64_t count_points(const World *world, const Lattice *lattice, const pbmpm_fill_def *def)
+{
+    int along = 0;
+    for (int a = 1; a < 3; a++)
+        if (lattice->end[a] - lattice->begin[a] > lattice->end[along] - lattice->begin[along]) along = a;
+    const int b = (along + 1) % 3, c = (along + 2) % 3;
+    uint64_t index[3], count = 0;
+    for (index[b] = lattice->begin[b]; index[b] < lattice->end[b]; index[b]++)
+        for (index[c] = lattice->begin[c]; index[c] < lattice->end[c]; index[c]++) count += count_row(world, lattice, def, index, along);
+    return count;
+}
+
+static void append_point(World *world, const pbmpm_fill_def *def, double volume, const double point[3], uint32_t generation)
+{
+    const double density = (double)world->materials.def[def->material.index].density;
+    NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
+    for (int a = 0; a < world->def.dimension; a++) {
+        particle.position[a] = point[a] / (double)world->def.cell_size;
+        particle.velocity[a] = def->velocity[a];
+    }
+    particles_append(&world->particles, &particle, generation);
+}
+
+/* In the order of the lattice. */
+static void append_points(World *world, const Lattice *lattice, const pbmpm_fill_def *def, uint32_t generation)
+{
+    const double per_cell = lattice->spacing / (double)world->def.cell_size;
+    const double volume = world->def.dimension == 3 ? per_cell * per_cell * per_cell : per_cell * per_cell;
+    uint64_t index[3], step;
+    for (index[2] = lattice->begin[2]; index[2] < lattice->end[2]; index[2]++)
+        for (index[1] = lattice->begin[1]; index[1] < lattice->end[1]; index[1]++)
+            for (index[0] = lattice->begin[0]; index[0] < lattice->end[0]; index[0] += step) {
+                double point[3];
+                const double distance = lattice_distance(lattice, index, point);
+                step = 1;
+                if (distance > LATTICE_EDGE * lattice->spacing)
+                    step = outside_from(lattice, point, distance);
+                else if (jitter_point(world, lattice, def, index, point))
+                    append_point(world, def, volume, point, generation);
+            }
 }
 
 static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
@@ -189,13 +263,14 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     if (checked != PBMPM_OK) return checked;
     Lattice lattice;
     if (!make_lattice(world, def, &lattice))
-        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points");
-    const uint64_t count = walk_lattice(world, &lattice, def, 0);
+        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points in the domain");
+    const uint64_t count = count_points(world, &lattice, def);
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
-    checked = count ? world_make_room_for(world, def->material.index) : PBMPM_OK;
+    if (count == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: no point of its lattice is inside of it and of the domain");
+    checked = world_make_room_for(world, def->material.index);
     if (checked != PBMPM_OK) return checked;
-    walk_lattice(world, &lattice, def, generation);
+    append_points(world, &lattice, def, generation);
     world_touch(world);
     return PBMPM_OK;
 }

@@ -120,6 +120,84 @@ static void test_lines_through_emptiness(void)
         TEST_ASSERT_TRUE(isinf(heights[i]));
 }
 
+/* ---- fills ---- */
+
+static pbmpm_fill_def fill_of(pbmpm_world_id world, pbmpm_shape shape)
+{
+    pbmpm_fill_def fill;
+    OK(pbmpm_fill_def_init(&fill, sizeof fill));
+    fill.material = create_material(world, PBMPM_LIQUID);
+    fill.shape = shape;
+    return fill;
+}
+
+/* Of a shape that is much larger than the domain only what is inside of the domain is looked at. */
+static void test_fills_beyond_the_domain(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        pbmpm_world_def def = default_world(dimension, 0.05f, 130000);
+        def.domain_enabled = 1;
+        for (int a = 0; a < 3; a++)
+            def.domain_min[a] = -0.3f, def.domain_max[a] = 0.7f;
+        const pbmpm_world_id world = create_world(&def);
+        const float half = dimension == 2 ? 400 : 12;
+        uint32_t huge = 0, fitting = 0;
+        pbmpm_fill_def fill = fill_of(world, box_shape(0, 0, 0, half, half, half));
+        WITHIN(0.5, OK(pbmpm_particles_fill(world, &fill, &huge)));
+        for (int a = 0; a < 3; a++) /* a multiple of the spacing around the same centre: the same lattice */
+            fill.shape.half_extents[a] = 0.8f;
+        OK(pbmpm_particles_fill(world, &fill, &fitting));
+        TEST_ASSERT_EQUAL_UINT32(fitting, huge);
+        TEST_ASSERT_EQUAL_UINT32(dimension == 2 ? 1600 : 64000, huge);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
+/* Without a domain there is no room for them, and that is found without counting one by one. */
+static void test_fills_beyond_all_room(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        const pbmpm_world_def def = default_world(dimension, 0.1f, 1000);
+        const pbmpm_world_id world = create_world(&def);
+        pbmpm_shape shapes[] = {box_shape(0, 0, 0, 400, 400, 400), sphere_shape(0, 0, 0, 400), sphere_shape(0, 0, 0, 400)};
+        const double share[][2] = {{1, 1}, {0.785398163, 0.523598776}}; /* of the box around them: pi / 4 and pi / 6 */
+        shapes[2].kind = PBMPM_CAPSULE;
+        shapes[2].radius = 200;
+        shapes[2].half_extents[0] = 100;
+        for (int k = 0; k < 3; k++) {
+            pbmpm_fill_def fill = fill_of(world, shapes[k]);
+            uint32_t needed = 0;
+            if (dimension == 3)
+                for (int a = 0; a < 3; a++)
+                    fill.shape.half_extents[a] /= 16, fill.shape.radius /= a == 0 ? 16 : 1;
+            const double points = dimension == 2 ? 16000.0 * 16000 : 1e9;
+            WITHIN(dimension == 2 ? 0.3 : 5.0, EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(world, &fill, &needed)));
+            if (k < 2)
+                TEST_ASSERT_DOUBLE_WITHIN(1e-3 * points, share[k][dimension - 2] * points, needed);
+        }
+        TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
+/* A lattice of which no point counts is a mistake of the caller's. */
+static void test_fills_of_nothing(void)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 1000);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    uint32_t added = 9;
+    pbmpm_fill_def fill = fill_of(world, box_shape(3, 0.5f, 0, 0.5f, 0.5f, 0.5f));
+    const uint64_t before = world_hash(world);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &added));
+    TEST_ASSERT_EQUAL_UINT32(0, added);
+    TEST_ASSERT_EQUAL_HEX64(before, world_hash(world));
+    fill.shape.position[0] = 1.4f; /* reaches in */
+    OK(pbmpm_particles_fill(world, &fill, &added));
+    TEST_ASSERT_TRUE(added > 0);
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_particles_fill(world, &(pbmpm_fill_def){.size = sizeof fill}, &added));
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -127,5 +205,8 @@ int main(void)
     RUN_TEST(test_heights_over_points_far_away);
     RUN_TEST(test_crooked_lines_far_away);
     RUN_TEST(test_lines_through_emptiness);
+    RUN_TEST(test_fills_beyond_the_domain);
+    RUN_TEST(test_fills_beyond_all_room);
+    RUN_TEST(test_fills_of_nothing);
     return UNITY_END();
 }

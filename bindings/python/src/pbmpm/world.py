@@ -288,6 +288,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             How many particles were added.
 
         Raises:
+            InvalidArgumentError: no point of the lattice is inside of the shape and of the domain.
             CapacityError: there is no room and nothing was added; message and event say how many the shape needs.
         """
         definition = initialised("pbmpm_fill_def")
