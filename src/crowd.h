@@ -4,7 +4,10 @@
 
 #include "world.h"
 
-enum { CROWD_WIDE = 2 }; /* nodes to either side of a particle's own that count */
+enum {
+    CROWD_WIDE = 2,            /* nodes to either side of a particle's own that count */
+    CROWD_RIM = CROWD_WIDE + 3 /* outside of the domain: two that do not know all of their particles, and one that is closed; and what rounding takes */
+};
 
 typedef struct Crowd {
     int32_t low[3];

@@ -10,7 +10,7 @@
 #include "scatter.h"
 #include "world.h"
 
-/* Of the bounds of an emitter; with its float per node that is 16 MB. */
+/* Of the bounds of an emitter; with its float per node that is 16 MB. A way in one part of a step that adds as many nodes is a jump. */
 static const double CELLS_MAX = 4194304.0;
 
 /* How far from the origin an emitter may stand [cells]: its particles appear up to PBMPM_MAX_CELLS_PER_SUBSTEP further. */
@@ -26,9 +26,6 @@ pbmpm_emitter_def emitter_defaults(void)
                                .particles_per_axis = 2.0f,
                                .fill_limit = 1.0f};
 }
-
-/* A way in one part of a step with more nodes around it is a jump. */
-static const double WAY_NODES_MAX = 33554432.0;
 
 /* ---- Checking ---- */
 
@@ -330,7 +327,7 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
 
 /* ---- Whether there is space ---- */
 
-/* The nodes that particles which appear in this part can touch. */
+/* The nodes that particles which appear in this part can touch: in the domain, and as far out of it as to see that its walls are closed. */
 static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, float dt)
 {
     const double dx = (double)world->def.cell_size, parts = world->settings.substeps;
@@ -345,8 +342,14 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
         solid_bounds(&nozzle.solid, low[end], high[end]);
     }
     for (int a = 0; a < world->def.dimension; a++) {
-        crowd.low[a] = (int32_t)floor(fmin(low[0][a], low[1][a]) / dx - reach);
-        crowd.size[a] = (int32_t)ceil(fmax(high[0][a], high[1][a]) / dx + reach) - crowd.low[a] + 1;
+        double first = fmin(low[0][a], low[1][a]) / dx - reach, last = fmax(high[0][a], high[1][a]) / dx + reach;
+        if (world->domain.enabled) {
+            const double inmost = world->domain.low[a] / dx, outmost = world->domain.high[a] / dx;
+            first = fmin(fmax(first, inmost - CROWD_RIM), outmost);
+            last = fmax(fmin(last, outmost + CROWD_RIM), inmost);
+        }
+        crowd.low[a] = (int32_t)floor(first);
+        crowd.size[a] = (int32_t)fmax(ceil(last) - floor(first) + 1.0, 1.0);
     }
     return crowd;
 }
@@ -462,6 +465,17 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
     tell_refusals(world, emitter, due - emitted, part);
 }
 
+/* Where the way adds more nodes than there are at its end, and too many, there is none. */
+static void jump_if_far(const World *world, Emitter *emitter, Crowd *crowd, int part, float dt)
+{
+    Emitter there = *emitter;
+    arrive(&there);
+    const Crowd end = crowd_bounds(world, &there, part, dt);
+    if (crowd_nodes(crowd) <= crowd_nodes(&end) + CELLS_MAX) return;
+    *emitter = there;
+    *crowd = end;
+}
+
 pbmpm_result emitters_prepare(World *world, int part, float dt)
 {
     Emitters *emitters = &world->emitters;
@@ -471,10 +485,7 @@ pbmpm_result emitters_prepare(World *world, int part, float dt)
         const pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
         if (room != PBMPM_OK) return room;
         Crowd crowd = crowd_bounds(world, emitter, part, dt);
-        if (emitter->moving && crowd_nodes(&crowd) > WAY_NODES_MAX) {
-            arrive(emitter);
-            crowd = crowd_bounds(world, emitter, part, dt);
-        }
+        if (emitter->moving && crowd_nodes(&crowd) > CELLS_MAX) jump_if_far(world, emitter, &crowd, part, dt);
         if (crowd_nodes(&crowd) > 1e9 || !array_reserve(&world->memory, &emitters->crowd, (size_t)crowd_nodes(&crowd), sizeof(float)))
             return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", crowd_nodes(&crowd));
     }

@@ -88,7 +88,7 @@ PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id 
 PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def);
 
 /** Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
- *  motion. A way of more than 2^25 nodes per substep is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
+ *  motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, const float position[3], const float rotation[4]);
 
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */

@@ -198,6 +198,61 @@ static void test_fills_of_nothing(void)
     EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_particles_fill(world, &(pbmpm_fill_def){.size = sizeof fill}, &added));
 }
 
+/* ---- emitters ---- */
+
+/* Half as many particles as there is room for are due in a step of 0.01 s. */
+static pbmpm_emitter_id spring(pbmpm_world_id world, int32_t dimension)
+{
+    pbmpm_emitter_def def;
+    pbmpm_emitter_id emitter;
+    OK(pbmpm_emitter_def_init(&def, sizeof def));
+    def.material = create_material(world, PBMPM_LIQUID);
+    def.shape = sphere_shape(1, 1, 1, 0.2f);
+    def.rate = dimension == 2 ? 100 * 500 * 0.0025f : 100 * 500 * 0.000125f;
+    OK(pbmpm_emitter_create(world, &def, &emitter));
+    return emitter;
+}
+
+static void test_an_emitter_that_is_moved_far_away(void)
+{
+    static const float places[][2] = {{700, 450}, {450, 700}, {-700, 1}, {700, 700}};
+    for (int k = 0; k < 4; k++) {
+        const pbmpm_world_def def = default_world(2, 0.1f, 1000);
+        const pbmpm_world_id world = papers_world(&def);
+        const pbmpm_emitter_id emitter = spring(world, 2);
+        OK(pbmpm_emitter_move(world, emitter, (const float[3]){places[k][0], places[k][1], 0}, NULL));
+        WITHIN(0.15, OK(pbmpm_world_step(world, 0.01f)));
+        TEST_ASSERT_TRUE(world_count(world) > 0);
+        TEST_ASSERT_TRUE(world_stats(world).memory_bytes < 30000000);
+        pbmpm_emitter_def now = {.size = sizeof now};
+        OK(pbmpm_emitter_get(world, emitter, &now));
+        TEST_ASSERT_TRUE(now.shape.position[0] == places[k][0] && now.shape.position[1] == places[k][1]);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
+/* However far the matter may fly, nothing of it comes out of the domain. */
+static void test_an_emitter_in_immense_gravity(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        pbmpm_world_def def = default_world(dimension, 0.1f, 1000);
+        def.domain_enabled = 1;
+        for (int a = 0; a < 3; a++)
+            def.domain_max[a] = 2;
+        const pbmpm_world_id world = papers_world(&def);
+        pbmpm_settings settings = default_settings();
+        settings.solver = PBMPM_SOLVER_PAPER;
+        settings.gravity[1] = -4e6f;
+        settings.max_displacement = 64;
+        settings.substeps = 16;
+        OK(pbmpm_world_set_settings(world, &settings));
+        spring(world, dimension);
+        WITHIN(0.15, OK(pbmpm_world_step(world, 0.16f)));
+        TEST_ASSERT_TRUE(world_count(world) > 0);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -208,5 +263,7 @@ int main(void)
     RUN_TEST(test_fills_beyond_the_domain);
     RUN_TEST(test_fills_beyond_all_room);
     RUN_TEST(test_fills_of_nothing);
+    RUN_TEST(test_an_emitter_that_is_moved_far_away);
+    RUN_TEST(test_an_emitter_in_immense_gravity);
     return UNITY_END();
 }

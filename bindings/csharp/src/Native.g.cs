@@ -1685,9 +1685,9 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
-        /// one lattice cell. Lattice points outside the domain box are left out; with a CAPACITY error nothing is added and `added`
-        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY;
-        /// OUT_OF_MEMORY (as above).</summary>
+        /// one lattice cell. Lattice points outside the domain box are left out, and cost nothing; with a CAPACITY error nothing is added and `added`
+        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
+        /// domain, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
 
@@ -1865,7 +1865,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def);
 
         /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
-        /// motion. A way of more than 2^25 nodes per substep is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        /// motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_move(WorldId world, EmitterId emitter, Float3* position, Float4* rotation);
 
