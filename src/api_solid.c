@@ -58,8 +58,10 @@ pbmpm_result pbmpm_baked_inspect(const void *data, uint64_t size, pbmpm_baked_in
     const void *values;
     REQUIRE(data);
     REQUIRE_SIZE(info);
+    const uint32_t float_mode = float_mode_enter_from_host();
     const pbmpm_result result = distance_grid_read(data, size, &grid, &values);
     if (result == PBMPM_OK) *info = baked_describe(&grid);
+    float_mode_leave_to_host(float_mode);
     return result;
 }
 

@@ -1,7 +1,9 @@
 /* Baked solids through the public interface: the life of a solid, and hollows that hold matter. */
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <xmmintrin.h>
 
 #include "rules.h"
 #include "solids.h"
@@ -286,6 +288,86 @@ static void test_fast_matter_passes_beside_a_bump(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.15, -2.5 + 0.1 + 60.0 * 5 / 60, fly(world, -2.5f, 0.55f, 60, 5));
 }
 
+/* ---- Damaged bytes ---- */
+
+static uint64_t mix_words(uint64_t hash, const void *data, size_t bytes)
+{
+    for (size_t i = 0; i < bytes; i += 4) {
+        uint32_t word;
+        memcpy(&word, (const char *)data + i, sizeof word);
+        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+enum { CHECKSUM = 64 }; /* its place in the header; see src/distance_grid.c */
+
+/* Puts the checksum right, so that what comes after it is looked at. */
+static void mend(void *data, uint64_t bytes)
+{
+    uint64_t sum = 0;
+    memcpy((char *)data + CHECKSUM, &sum, sizeof sum);
+    sum = mix_words(0x243f6a8885a308d3u, data, bytes);
+    memcpy((char *)data + CHECKSUM, &sum, sizeof sum);
+}
+
+/* Both calls judge the bytes alike, whatever the caller's floating-point mode: here every exception traps. */
+static void check_judgement(pbmpm_world_id world)
+{
+    enum { ALL_TRAP = 0 };
+    pbmpm_baked_info inspected = {.size = sizeof inspected}, loaded = inspected;
+    pbmpm_baked_id id;
+    char message[256];
+    const unsigned own = _mm_getcsr();
+    _mm_setcsr(ALL_TRAP);
+    const pbmpm_result judged = pbmpm_baked_inspect(baked.data, baked.bytes, &inspected);
+    snprintf(message, sizeof message, "%s", pbmpm_last_error());
+    const pbmpm_result created = pbmpm_baked_create(world, baked.data, baked.bytes, &id);
+    const unsigned after = _mm_getcsr();
+    _mm_setcsr(own);
+    TEST_ASSERT_EQUAL_HEX32(ALL_TRAP, after);
+    TEST_ASSERT_EQUAL_STRING(pbmpm_result_name(created), pbmpm_result_name(judged));
+    if (created != PBMPM_OK) {
+        TEST_ASSERT_EQUAL_STRING(pbmpm_last_error(), message);
+        return;
+    }
+    OK(pbmpm_baked_get(world, id, &loaded));
+    TEST_ASSERT_EQUAL_MEMORY(&loaded, &inspected, sizeof loaded);
+    OK(pbmpm_baked_destroy(world, id));
+}
+
+static void test_changed_bytes_are_judged_alike(void)
+{
+    static const uint32_t odd[] = {0x7fc00000, 0x7f800001, 0x7f800000, 0xff800000, 1, 0x80000001, 0x007fffff, 0x80000000, 0, 0x7f7fffff};
+    const pbmpm_world_id world = open_world(2, 100);
+    uint32_t stream = 5, judged = 0;
+    bake_ball(2, 1.5);
+    unsigned char *byte = baked.data;
+    unsigned char *kept = malloc(baked.bytes);
+    TEST_ASSERT_NOT_NULL(kept);
+    memcpy(kept, byte, baked.bytes);
+    for (uint64_t i = 0; i < baked.bytes; i++)
+        for (int bit = 0; bit < 8; bit++, judged++) {
+            memcpy(byte, kept, baked.bytes);
+            byte[i] ^= (unsigned char)(1 << bit);
+            mend(byte, baked.bytes);
+            check_judgement(world);
+        }
+    for (uint64_t i = 0; i < baked.bytes; i += 4)
+        for (size_t k = 0; k < sizeof odd / sizeof *odd; k++, judged++) {
+            memcpy(byte, kept, baked.bytes);
+            memcpy(byte + i, &odd[k], sizeof odd[k]);
+            if (random_next(&stream) % 8 != 0)
+                mend(byte, baked.bytes);
+            check_judgement(world);
+        }
+    memcpy(byte, kept, baked.bytes);
+    check_judgement(world); /* the sound one */
+    free(kept);
+    TEST_ASSERT_TRUE(judged > 20000);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -300,5 +382,6 @@ int main(void)
     RUN_TEST(test_a_turning_container_keeps_its_contents);
     RUN_TEST(test_fast_matter_stops_at_the_far_wall);
     RUN_TEST(test_fast_matter_passes_beside_a_bump);
+    RUN_TEST(test_changed_bytes_are_judged_alike);
     return UNITY_END();
 }
