@@ -400,14 +400,14 @@ pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def
 {
     REQUIRE_SIZE(def);
     HOLD(world);
-    LET_GO(edit_add(w, def, registry_next_generation(), ids));
+    LET_GO(edit_add(w, def, registry_next_particle_generation(), ids));
 }
 
 pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added)
 {
     REQUIRE_SIZE(def);
     HOLD(world);
-    LET_GO(edit_fill(w, def, registry_next_generation(), added));
+    LET_GO(edit_fill(w, def, registry_next_particle_generation(), added));
 }
 
 pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count)

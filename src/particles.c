@@ -145,6 +145,15 @@ pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag)
     }
 }
 
+void particles_keep_fields(Particles *p, Memory *memory, int count)
+{
+    while (p->field_count > count) {
+        const Field *field = &p->field[--p->field_count];
+        for (int c = 0; c < particles_components(p, field->class); c++) *field->component[c] = NULL;
+        memory_give(memory, field->base, field_bytes(p, field->class));
+    }
+}
+
 const Field *particles_field(const Particles *p, FieldTag tag)
 {
     for (int i = 0; i < p->field_count; i++)

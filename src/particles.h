@@ -85,11 +85,20 @@ pbmpm_result particles_enable_pressure(Particles *p, Memory *memory);
 /* Makes room for any field that worlds get only when they need it; UNSUPPORTED for another tag. */
 pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag);
 
+/* Takes the newest fields away again: `count` of them stay. */
+void particles_keep_fields(Particles *p, Memory *memory, int count);
+
 /* The field, or null if the particles do not have it. */
 const Field *particles_field(const Particles *p, FieldTag tag);
 
 /* The class of any field that there can be, or -1. */
 int particles_class(uint32_t tag);
+
+/* Whether a field holds real numbers. */
+static inline bool particles_is_real(FieldTag tag)
+{
+    return tag != FIELD_CELL && tag != FIELD_MATERIAL && tag != FIELD_STATUS && tag != FIELD_ID;
+}
 
 /* Sets a field to what it is in new particles: 0, F to the identity. */
 void particles_rest(Particles *p, const Field *field);

@@ -16,18 +16,22 @@ typedef struct Slot {
 
 static Slot slots[PBMPM_MAX_WORLDS];
 static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER;
-static atomic_uint last_generation;
+static atomic_uint last_generation, last_particle_generation;
 
-uint32_t registry_next_generation(void)
+static uint32_t next_of(atomic_uint *last)
 {
-    uint32_t generation = atomic_fetch_add(&last_generation, 1) + 1;
-    return generation ? generation : registry_next_generation();
+    const uint32_t generation = atomic_fetch_add(last, 1) + 1;
+    return generation ? generation : next_of(last);
 }
 
-void registry_skip_generations(uint32_t last)
+uint32_t registry_next_generation(void) { return next_of(&last_generation); }
+
+uint32_t registry_next_particle_generation(void) { return next_of(&last_particle_generation); }
+
+void registry_skip_particle_generations(uint32_t last)
 {
-    unsigned seen = atomic_load(&last_generation);
-    while (seen < last && !atomic_compare_exchange_weak(&last_generation, &seen, last)) continue;
+    unsigned seen = atomic_load(&last_particle_generation);
+    while (seen < last && !atomic_compare_exchange_weak(&last_particle_generation, &seen, last)) continue;
 }
 
 pbmpm_result registry_add(World *world, pbmpm_world_id *id)

@@ -84,6 +84,8 @@ static inline SleepBlock *sleep_list_block(const SleepList *list, uint32_t i) { 
 
 /* Room for `blocks` in all lists together, and for what can become of `pieces` until the next substep. */
 bool sleep_reserve(Sleep *sleep, Memory *memory, uint32_t blocks, uint32_t pieces);
+/* The same for another state, which is to follow: what sleeps now is forgotten. On failure nothing has changed. */
+bool sleep_renew(Sleep *sleep, Memory *memory, uint32_t blocks, uint32_t pieces);
 void sleep_free(Sleep *sleep, Memory *memory);
 
 /* Off: nothing sleeps. Memory stays. */

@@ -48,12 +48,36 @@ SleepBlock *sleep_list_find(const SleepList *list, const int32_t place[3])
 
 /* Until the next substep blocks only go from one list to the other. Each time that some are taken out the pieces become at most one more, and
  * there is one block less to take out. */
+static size_t most_pieces(uint32_t blocks, uint32_t pieces) { return 2 * ((size_t)pieces + 2 * (size_t)blocks) + 4; }
+
 bool sleep_reserve(Sleep *sleep, Memory *memory, uint32_t blocks, uint32_t pieces)
 {
-    const size_t most = 2 * ((size_t)pieces + 2 * (size_t)blocks) + 4;
+    const size_t most = most_pieces(blocks, pieces);
     return sleep_list_reserve(&sleep->asleep, memory, blocks) && sleep_list_reserve(&sleep->active, memory, blocks) &&
            array_grow(memory, &sleep->piece, most, sizeof(SleepPiece), sleep->pieces * sizeof(SleepPiece)) &&
            array_reserve(memory, &sleep->piece_scratch, most, sizeof(SleepPiece));
+}
+
+bool sleep_renew(Sleep *sleep, Memory *memory, uint32_t blocks, uint32_t pieces)
+{
+    Sleep other = {0};
+    Array *const mine[] = {&sleep->asleep.block, &sleep->asleep.slot, &sleep->active.block, &sleep->active.slot, &sleep->piece, &sleep->piece_scratch};
+    Array *const room[] = {&other.asleep.block, &other.asleep.slot, &other.active.block, &other.active.slot, &other.piece, &other.piece_scratch};
+    bool enough = true;
+    const size_t most = most_pieces(blocks, pieces) * sizeof(SleepPiece), slots = slots_for(blocks) * sizeof(uint32_t);
+    const size_t needed[] = {blocks * sizeof(SleepBlock), slots, blocks * sizeof(SleepBlock), slots, most, most};
+    for (int i = 0; i < 6; i++) enough = enough && mine[i]->bytes >= needed[i];
+    if (enough) return true;
+    if (!sleep_reserve(&other, memory, blocks, pieces)) {
+        sleep_free(&other, memory);
+        return false;
+    }
+    sleep_end(sleep);
+    for (int i = 0; i < 6; i++) {
+        array_free(memory, mine[i]);
+        *mine[i] = *room[i];
+    }
+    return true;
 }
 
 void sleep_free(Sleep *sleep, Memory *memory)

@@ -1,4 +1,5 @@
 /* Where the particles of blocks that sleep stand among the others. */
+#include <math.h>
 #include <string.h>
 
 #include "world.h"
@@ -151,6 +152,14 @@ void sleep_settle(World *world)
     sleep->stirred = false;
 }
 
+static bool is_finite(const Particles *p, const Field *field, uint32_t row)
+{
+    for (int c = 0; c < particles_components(p, field->class); c++)
+        if (!isfinite(((const float *)*field->component[c])[row])) return false;
+    return true;
+}
+
+/* Rows of a block, with nothing in them that a step would have to delete: nobody looks at what sleeps. */
 static bool is_in(const World *world, const int32_t place[3], uint32_t begin, uint32_t count)
 {
     const Particles *p = &world->particles;
@@ -161,6 +170,9 @@ static bool is_in(const World *world, const int32_t place[3], uint32_t begin, ui
         sleep_place(&world->sleep, cell, p->dimension, there);
         if (memcmp(there, place, sizeof there) != 0) return false;
     }
+    for (int i = 0; i < p->field_count; i++)
+        for (uint32_t row = begin; row < begin + count && particles_is_real(p->field[i].tag); row++)
+            if (!is_finite(p, &p->field[i], row)) return false;
     return true;
 }
 

@@ -1,5 +1,6 @@
 #include "snapshot.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "result.h"
@@ -197,8 +198,12 @@ static void save_counters(const World *world, SnapshotOut *out)
 
 static pbmpm_result check_counters(World *world, SnapshotIn in)
 {
+    Counters counters;
     (void)world;
-    return in.bytes == sizeof(Counters) ? PBMPM_OK : snapshot_malformed();
+    if (in.bytes != sizeof counters || !snapshot_take(&in, &counters, sizeof counters)) return snapshot_malformed();
+    const bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
+                      isfinite(counters.simulated_seconds + counters.slow_dt + counters.slow_iterations) && isfinite(counters.credit);
+    return fits ? PBMPM_OK : snapshot_malformed();
 }
 
 static void load_counters(World *world, SnapshotIn in)
@@ -282,16 +287,16 @@ static void load_colliders(World *world, SnapshotIn in)
 
 /* ---- The list ---- */
 
-static const SnapshotSection made_section = {1, save_made, check_made, load_nothing};
-static const SnapshotSection materials_section = {2, save_materials, check_materials, load_nothing};
-static const SnapshotSection settings_section = {3, save_settings, check_settings, load_settings};
-static const SnapshotSection counters_section = {4, save_counters, check_counters, load_counters};
-static const SnapshotSection colliders_section = {5, save_colliders, check_colliders, load_colliders};
+static const SnapshotSection made_section = {1, save_made, check_made, NULL, load_nothing};
+static const SnapshotSection materials_section = {2, save_materials, check_materials, NULL, load_nothing};
+static const SnapshotSection settings_section = {3, save_settings, check_settings, NULL, load_settings};
+static const SnapshotSection counters_section = {4, save_counters, check_counters, NULL, load_counters};
+static const SnapshotSection colliders_section = {5, save_colliders, check_colliders, NULL, load_colliders};
 
-/* Particles come last: their check makes memory ready, when all else is known to fit. */
+/* Particles and their sleep take memory. Sleep comes last: what it has now is lost when it makes room. */
 static const SnapshotSection *const sections[] = {&made_section,      &materials_section, &settings_section, &counters_section,
                                                   &colliders_section, &emitters_section,  &drains_section,   &forces_section,
-                                                  &flow_section,      &sleep_section,     &particles_section};
+                                                  &flow_section,      &particles_section, &sleep_section};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }
@@ -389,6 +394,17 @@ static pbmpm_result find_payloads(const char *snapshot, const Header *header, Sn
     return at == header->bytes ? PBMPM_OK : snapshot_malformed();
 }
 
+/* Each section takes all or nothing, so what is to be given back are the fields of the particles. */
+static pbmpm_result reserve_all(World *world, const SnapshotIn found[SECTIONS])
+{
+    const int fields = world->particles.field_count;
+    pbmpm_result result = PBMPM_OK;
+    for (int i = 0; i < SECTIONS && result == PBMPM_OK; i++)
+        if (sections[i]->reserve) result = sections[i]->reserve(world, found[i]);
+    if (result != PBMPM_OK) particles_keep_fields(&world->particles, &world->memory, fields);
+    return result;
+}
+
 pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes)
 {
     Header header;
@@ -396,6 +412,7 @@ pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes
     pbmpm_result result = check_header(snapshot, bytes, &header);
     if (result == PBMPM_OK) result = find_payloads(snapshot, &header, found);
     for (int i = 0; i < SECTIONS && result == PBMPM_OK; i++) result = sections[i]->check(world, found[i]);
+    if (result == PBMPM_OK) result = reserve_all(world, found);
     if (result != PBMPM_OK) return result;
     for (int i = 0; i < SECTIONS; i++) sections[i]->load(world, found[i]);
     sleep_check_rows(world);

@@ -38,9 +38,11 @@ typedef struct SnapshotIn {
 typedef struct SnapshotSection {
     uint32_t tag; /* never used again for something else */
     void (*save)(const World *world, SnapshotOut *out);
-    /* Whether the payload may be loaded into this world. Changes nothing but scratch memory, and memory that is made ready.
+    /* Whether the payload may be loaded into this world. Changes nothing but scratch memory.
      * Checksums have been compared: what is wrong here is foreign or made up, and must do no harm. */
     pbmpm_result (*check)(World *world, SnapshotIn in);
+    /* Takes the memory that it needs, all or none of it, when all sections were checked; null: it needs none. */
+    pbmpm_result (*reserve)(World *world, SnapshotIn in);
     void (*load)(World *world, SnapshotIn in);
 } SnapshotSection;
 

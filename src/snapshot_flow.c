@@ -207,7 +207,7 @@ static void load_flow(World *world, SnapshotIn in)
     world->flow = saved.flow;
 }
 
-const SnapshotSection emitters_section = {7, save_emitters, check_emitters, load_emitters};
-const SnapshotSection drains_section = {8, save_drains, check_drains, load_drains};
-const SnapshotSection forces_section = {9, save_forces, check_forces, load_forces};
-const SnapshotSection flow_section = {10, save_flow, check_flow, load_flow};
+const SnapshotSection emitters_section = {7, save_emitters, check_emitters, NULL, load_emitters};
+const SnapshotSection drains_section = {8, save_drains, check_drains, NULL, load_drains};
+const SnapshotSection forces_section = {9, save_forces, check_forces, NULL, load_forces};
+const SnapshotSection flow_section = {10, save_flow, check_flow, NULL, load_flow};

@@ -160,6 +160,8 @@ static bool values_fit(const World *world, const Reading *reading)
     return true;
 }
 
+static bool generation_fits(uint32_t generation) { return generation > 0 && generation <= REGISTRY_STORED_GENERATION_MAX; }
+
 /* Used and free indices together are all that were ever touched, each once. */
 static bool identifiers_fit(World *world, const Reading *reading)
 {
@@ -171,18 +173,24 @@ static bool identifiers_fit(World *world, const Reading *reading)
     for (uint32_t i = 0; i < contents->touched; i++) {
         const bool live = i < contents->count;
         const uint32_t index = live ? u32_at(ids, 2 * (uint64_t)i) : u32_at(freed, i - contents->count);
-        if (index >= contents->touched || mark[index] || (live && u32_at(ids, 2 * (uint64_t)i + 1) == 0)) return false;
+        if (index >= contents->touched || mark[index] || (live && !generation_fits(u32_at(ids, 2 * (uint64_t)i + 1)))) return false;
         mark[index] = 1;
     }
     return true;
 }
 
-static pbmpm_result make_room(World *world, const Reading *reading)
+static pbmpm_result reserve_particles(World *world, SnapshotIn in)
 {
-    for (uint32_t i = 0; i < reading->contents.fields; i++) {
-        if (particles_field(&world->particles, reading->field[i].tag)) continue;
-        const pbmpm_result result = particles_enable(&world->particles, &world->memory, reading->field[i].tag);
-        if (result != PBMPM_OK) return result;
+    Particles *p = &world->particles;
+    Reading reading;
+    if (!read_contents(in, &reading)) return snapshot_malformed(); /* never: it was checked */
+    const int before = p->field_count;
+    for (uint32_t i = 0; i < reading.contents.fields; i++) {
+        if (particles_field(p, reading.field[i].tag)) continue;
+        const pbmpm_result result = particles_enable(p, &world->memory, reading.field[i].tag);
+        if (result == PBMPM_OK) continue;
+        particles_keep_fields(p, &world->memory, before);
+        return result;
     }
     return PBMPM_OK;
 }
@@ -195,7 +203,7 @@ static pbmpm_result check_particles(World *world, SnapshotIn in)
         return fail(PBMPM_ERROR_CAPACITY, "the snapshot's %u particles have used %u identifiers; this world has room for %u",
                     reading.contents.count, reading.contents.touched, world->particles.capacity);
     if (!fields_fit(world, &reading) || !identifiers_fit(world, &reading) || !values_fit(world, &reading)) return snapshot_malformed();
-    return make_room(world, &reading);
+    return PBMPM_OK;
 }
 
 /* ---- Loading ---- */
@@ -214,7 +222,7 @@ static void load_identifiers(Particles *p, const Reading *reading)
     memcpy(p->free_slot + never_used, free_indices(reading), contents->freed * sizeof *p->free_slot);
     p->free_count = p->capacity - p->count;
     p->rows_valid = false;
-    registry_skip_generations(newest);
+    registry_skip_particle_generations(newest);
 }
 
 static void load_particles(World *world, SnapshotIn in)
@@ -239,4 +247,4 @@ static void load_particles(World *world, SnapshotIn in)
     particles_changed(p);
 }
 
-const SnapshotSection particles_section = {6, save_particles, check_particles, load_particles};
+const SnapshotSection particles_section = {6, save_particles, check_particles, reserve_particles, load_particles};

@@ -1,4 +1,5 @@
 /* Who sleeps, in a snapshot. A world without sleeping saves nothing. */
+#include <math.h>
 #include <string.h>
 
 #include "result.h"
@@ -49,13 +50,24 @@ static bool pieces_fit(const Contents *contents, SnapshotIn in)
     return covered == contents->rows;
 }
 
+/* Where particles may be, and the place of a grid's anchor beside the lowest of them. */
+static bool block_fits(const World *world, const SleepBlock *block)
+{
+    const int32_t most = (CELL_LIMIT + 1) / K_BLOCK_AXIS + 2;
+    for (int a = 0; a < 3; a++)
+        if (block->place[a] < -most || block->place[a] > most || (a >= world->def.dimension && block->place[a] != 0)) return false;
+    const float sum = block->quiet + fabsf(block->gained[0]) + fabsf(block->gained[1]) + fabsf(block->gained[2]);
+    return isfinite(sum) && isfinite(block->liquid_volume) && isfinite(block->liquid_mass);
+}
+
 /* Stages in the order of a grid; nothing is asleep among the active, and nothing else among those that are. */
-static bool stages_fit(const Contents *contents, SnapshotIn in)
+static bool blocks_fit(const World *world, const Contents *contents, SnapshotIn in)
 {
     SleepStage last = SLEEP_LEAVING;
     for (uint32_t i = 0; i < contents->asleep + contents->active; i++) {
         SleepBlock block;
         snapshot_take(&in, &block, sizeof block);
+        if (!block_fits(world, &block)) return false;
         if (i < contents->asleep) {
             if (block.stage != SLEEP_ASLEEP || block.rows == 0) return false;
             continue;
@@ -73,14 +85,22 @@ static pbmpm_result check_sleep(World *world, SnapshotIn in)
     if (!snapshot_take(&in, &contents, sizeof contents)) return snapshot_malformed();
     const uint64_t blocks = (uint64_t)contents.asleep + contents.active, capacity = world->particles.capacity;
     bool fits = contents.rows <= capacity && contents.asleep <= capacity && contents.active <= capacity && contents.pieces <= capacity &&
-                in.bytes - in.at == blocks * sizeof(SleepBlock) + contents.pieces * (uint64_t)sizeof(SleepPiece) && contents.dt > 0.0;
+                in.bytes - in.at == blocks * sizeof(SleepBlock) + contents.pieces * (uint64_t)sizeof(SleepPiece) && contents.dt > 0.0 && isfinite(contents.dt) &&
+                contents.still_rows <= capacity - contents.rows && contents.still_blocks <= capacity;
     for (int a = 0; a < 3; a++) fits = fits && contents.phase[a] >= 0 && contents.phase[a] < K_BLOCK_AXIS;
-    if (!fits || !stages_fit(&contents, in)) return snapshot_malformed();
+    if (!fits || !blocks_fit(world, &contents, in)) return snapshot_malformed();
     SnapshotIn pieces = in;
     pieces.at += blocks * sizeof(SleepBlock);
-    if (!pieces_fit(&contents, pieces)) return snapshot_malformed();
-    if (sleep_reserve(&world->sleep, &world->memory, (uint32_t)blocks, contents.pieces)) return PBMPM_OK;
-    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the sleep of %llu blocks", (unsigned long long)blocks);
+    return pieces_fit(&contents, pieces) ? PBMPM_OK : snapshot_malformed();
+}
+
+static pbmpm_result reserve_sleep(World *world, SnapshotIn in)
+{
+    Contents contents;
+    if (!snapshot_take(&in, &contents, sizeof contents)) return PBMPM_OK;
+    const uint32_t blocks = contents.asleep + contents.active;
+    if (sleep_renew(&world->sleep, &world->memory, blocks, contents.pieces)) return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the sleep of %u blocks", blocks);
 }
 
 static void load_sleep(World *world, SnapshotIn in)
@@ -108,4 +128,4 @@ static void load_sleep(World *world, SnapshotIn in)
     sleep_list_index(&sleep->active);
 }
 
-const SnapshotSection sleep_section = {11, save_sleep, check_sleep, load_sleep};
+const SnapshotSection sleep_section = {11, save_sleep, check_sleep, reserve_sleep, load_sleep};

@@ -1,10 +1,13 @@
 /* Snapshots that are sound by their checksum and false all the same: made up, or of a later version. Nothing in them may lead a step
  * astray. */
 #include <float.h>
+#include <math.h>
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unity.h>
 
+#include "books.h"
 #include "edit.h"
 #include "inspect.h"
 #include "random.h"
@@ -19,7 +22,10 @@ static pbmpm_material_id water;
 static char *snapshot, *forged;
 static uint64_t bytes;
 
-static void open_world(int dimension)
+static Books books;
+
+/* Without particles; a liquid, an elastic material and a collider. */
+static void make_world(int dimension)
 {
     pbmpm_world_def def = world_def_defaults();
     pbmpm_material_def liquid = material_defaults(), elastic = material_defaults();
@@ -29,25 +35,53 @@ static void open_world(int dimension)
     def.dimension = dimension;
     def.particle_capacity = 1000;
     def.thread_count = 1;
+    def.allocator = books_memory(&books, 0).allocator;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &world));
     elastic.kind = PBMPM_ELASTIC;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &liquid, registry_next_generation(), &water));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &elastic, registry_next_generation(), &jelly));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&world->particles, &world->memory));
     ball.shape.kind = PBMPM_SPHERE;
     ball.kinematic = 1;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &ball, NULL, registry_next_generation(), &id));
-    for (int i = 0; i < 60; i++) {
-        const NewParticle particle = {{i % 5 + 0.25, i % 7 - 0.25, i % 3}, {1, 0, 0}, 125.0f, i % 2 ? water.index : jelly.index};
-        particles_append(&world->particles, &particle, registry_next_generation());
-    }
-    world->particles.status[7] = world->particles.status[30] = K_REMOVED;
-    particles_compact(&world->particles, 0);
+}
+
+static void save_world(void)
+{
     bytes = snapshot_size(world);
     snapshot = malloc(bytes);
     forged = malloc(bytes);
     snapshot_save(world, snapshot);
     memcpy(forged, snapshot, bytes);
+}
+
+static void open_world(int dimension)
+{
+    make_world(dimension);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&world->particles, &world->memory));
+    for (int i = 0; i < 60; i++) {
+        const NewParticle particle = {{i % 5 + 0.25, i % 7 - 0.25, i % 3}, {1, 0, 0}, 125.0f, i % 2 ? water.index : water.index + 1};
+        particles_append(&world->particles, &particle, registry_next_generation());
+    }
+    world->particles.status[7] = world->particles.status[30] = K_REMOVED;
+    particles_compact(&world->particles, 0);
+    save_world();
+}
+
+/* Matter at rest without gravity, most of which sleeps. */
+static void open_sleepers(void)
+{
+    make_world(2);
+    world->settings.sleeping = 1;
+    world->settings.sleep_time = 0.0f;
+    world->settings.sleep_speed = 1e9f;
+    world->settings.solver = PBMPM_SOLVER_DUAL;
+    for (int i = 0; i < 900; i++) {
+        const NewParticle particle = {{i % 30 * 0.5, i / 30 * 0.5, 0}, {0}, 250.0f, water.index};
+        particles_append(&world->particles, &particle, registry_next_generation());
+    }
+    for (int step = 0; step < 6; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+    TEST_ASSERT_TRUE(world->sleep.rows > 0 && world->sleep.pieces > 0);
+    save_world();
 }
 
 static void close_world(void)
@@ -57,6 +91,8 @@ static void close_world(void)
     snapshot = forged = NULL;
     if (world) world_destroy(world);
     world = NULL;
+    TEST_ASSERT_EQUAL_UINT64(0, books.live_blocks);
+    books = (Books){0};
 }
 
 void setUp(void) {}
@@ -225,14 +261,139 @@ static void test_random_forgeries_do_no_harm(void)
     }
 }
 
+/* ---- Sleep ---- */
+
+enum { SLEEP_TAG = 11, SLEEP_CONTENTS = 56, STILL_ROWS_AT = 24, ASLEEP_AT = 32, DT_AT = 48 };
+
+static uint64_t find_block(uint32_t i) { return find_section(SLEEP_TAG) + 16 + SLEEP_CONTENTS + i * sizeof(SleepBlock); }
+
+static void test_false_sleep(void)
+{
+    static const uint32_t places[] = {0x7fffffffu, 0x80000000u, 0x20000000u, 0xdfffffffu, PBMPM_MAX_CELL, 0u - PBMPM_MAX_CELL};
+    open_sleepers();
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
+    TEST_ASSERT_TRUE(world->sleep.rows > 0);
+    const uint64_t contents = find_section(SLEEP_TAG) + 16;
+    const uint32_t asleep = read_u32(contents + ASLEEP_AT), active = read_u32(contents + ASLEEP_AT + 4);
+    TEST_ASSERT_EQUAL_UINT64(read_u64(contents - 8), SLEEP_CONTENTS + (asleep + active) * sizeof(SleepBlock) + read_u32(contents + ASLEEP_AT + 8) * sizeof(SleepPiece));
+    for (uint32_t which = 0; which < 2; which++) {
+        const uint64_t block = find_block(which ? asleep : 0);
+        if (which && active == 0) break;
+        for (int a = 0; a < 3; a++)
+            for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
+                write_u32(block + 4 * (uint64_t)a, places[i]);
+                expect_foreign_and_unchanged("the place of a block");
+            }
+        write_u32(block + 8, 1);
+        expect_foreign_and_unchanged("a place beside the plane");
+        write_u32(block + offsetof(SleepBlock, quiet), 0x7fc00000u);
+        expect_foreign_and_unchanged("a time that is NaN");
+        write_u32(block + offsetof(SleepBlock, gained) + 4, 0x7f800000u);
+        expect_foreign_and_unchanged("an infinite velocity");
+        write_u32(block + offsetof(SleepBlock, liquid_mass), 0xff800000u);
+        expect_foreign_and_unchanged("an infinite mass");
+    }
+    write_u32(contents + STILL_ROWS_AT, 5000);
+    expect_foreign_and_unchanged("more rows than there is room for");
+    write_u64(contents + DT_AT, 0x7ff0000000000000u);
+    expect_foreign_and_unchanged("an endless substep");
+}
+
+/* What is not finite is for the next step to find, and that does not look at who sleeps. */
+static void test_sleepers_that_are_not_finite_wake(void)
+{
+    static const uint32_t tags[] = {FIELD_VELOCITY, FIELD_AFFINE};
+    for (int i = 0; i < 2; i++) {
+        open_sleepers();
+        const uint32_t count = world->particles.count;
+        write_u32(find_field(tags[i]), 0x7fc00000u);
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
+        TEST_ASSERT_EQUAL_UINT32(0, world->sleep.rows);
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+        TEST_ASSERT_TRUE(world->particles.count >= count - 1);
+        for (uint32_t row = 0; row < world->particles.count; row++)
+            TEST_ASSERT_TRUE(isfinite(world->particles.velocity[0][row]) && isfinite(world->particles.affine[0][row]));
+        close_world();
+    }
+}
+
+static void test_false_counters(void)
+{
+    static const uint64_t wrong[] = {0x7ff8000000000000u, 0x7ff0000000000000u, 0xbff0000000000000u};
+    open_world(2);
+    const uint64_t counters = find_section(4) + 16;
+    for (uint64_t field = 3; field < 6; field++)
+        for (int i = 0; i < 3; i++) {
+            write_u64(counters + 8 * field, wrong[i]);
+            expect_foreign_and_unchanged("a time or a number of iterations that cannot be");
+        }
+    write_u64(counters + 56, wrong[0]);
+    expect_foreign_and_unchanged("an energy that is NaN");
+}
+
+/* ---- Memory ---- */
+
+/* Whichever piece of memory is missing, the world stays as it was: no field more, no byte more. */
+static void test_without_memory_nothing_changes(void)
+{
+    open_sleepers();
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable(&world->particles, &world->memory, FIELD_DEFORMATION));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable(&world->particles, &world->memory, FIELD_PAST_AFFINE));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable(&world->particles, &world->memory, FIELD_PAST_DT));
+    free(snapshot);
+    free(forged);
+    save_world();
+    world_destroy(world);
+    make_world(2);
+    const uint64_t used = world->memory.used, hash = inspect_hash(world), blocks = books.live_blocks;
+    const int fields = world->particles.field_count;
+    uint64_t failures = 0;
+    pbmpm_result result;
+    do {
+        books.fail_at = books.calls + failures + 1;
+        result = snapshot_restore(world, snapshot, bytes);
+        if (result == PBMPM_OK) break;
+        failures++;
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, result);
+        TEST_ASSERT_EQUAL_UINT64(used, world->memory.used);
+        TEST_ASSERT_EQUAL_UINT64(blocks, books.live_blocks);
+        TEST_ASSERT_EQUAL_INT(fields, world->particles.field_count);
+        TEST_ASSERT_TRUE(!world->particles.deformation[0] && !world->particles.pressure && !world->particles.past_affine[0] && !world->particles.past_dt);
+        TEST_ASSERT_EQUAL_HEX64(hash, inspect_hash(world));
+    } while (failures < 100);
+    books.fail_at = 0;
+    TEST_ASSERT_TRUE(failures >= 10 && failures < 100); /* four fields and six lists of who sleeps */
+    TEST_ASSERT_TRUE(world->sleep.rows > 0);
+    const uint64_t warm = books.calls; /* the same again takes nothing */
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, snapshot_restore(world, snapshot, bytes));
+    TEST_ASSERT_EQUAL_UINT64(warm, books.calls);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+}
+
+/* ---- Generations ---- */
+
+/* Numbers near the end of their range would soon begin anew, and stale identifiers be taken for live ones. */
+static void test_generations_near_the_end_of_their_range(void)
+{
+    open_world(2);
+    const uint32_t own = registry_next_generation();
+    write_u32(find_field(FIELD_ID) + 4, UINT32_MAX);
+    expect_foreign_and_unchanged("the last generation");
+    write_u32(find_field(FIELD_ID) + 4, UINT32_MAX - 1000);
+    expect_foreign_and_unchanged("one of the last generations");
+    write_u32(find_field(FIELD_ID) + 4, 0x80000000u);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
+    TEST_ASSERT_TRUE(registry_next_generation() < own + 1000); /* those of worlds, materials and all else go on */
+}
+
 /* Later identifiers must not repeat those of a snapshot from another process. */
 static void test_generations_of_a_snapshot_are_not_given_again(void)
 {
     open_world(2);
-    const uint32_t far = registry_next_generation() + 1000;
+    const uint32_t far = registry_next_particle_generation() + 1000;
     write_u32(find_field(FIELD_ID) + 4, far);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
-    TEST_ASSERT_TRUE(registry_next_generation() > far);
+    TEST_ASSERT_TRUE(registry_next_particle_generation() > far);
 }
 
 int main(void)
@@ -242,7 +403,12 @@ int main(void)
     RUN_TEST(test_what_steps_remember_comes_back);
     RUN_TEST(test_other_versions_and_sections);
     RUN_TEST(test_false_particles);
+    RUN_TEST(test_false_sleep);
+    RUN_TEST(test_sleepers_that_are_not_finite_wake);
+    RUN_TEST(test_false_counters);
+    RUN_TEST(test_without_memory_nothing_changes);
     RUN_TEST(test_random_forgeries_do_no_harm);
     RUN_TEST(test_generations_of_a_snapshot_are_not_given_again);
+    RUN_TEST(test_generations_near_the_end_of_their_range);
     return UNITY_END();
 }
