@@ -8,6 +8,7 @@
 #include "inspect.h"
 #include "result.h"
 #include "step.h"
+#include "thread.h"
 
 enum { FIELDS = INSPECT_FIELDS };
 
@@ -27,6 +28,7 @@ struct Background {
 
     bool begun; /* from a begin to its end */
     float dt;
+    uint32_t host_mode; /* floating point, of the thread that began it */
     pbmpm_result result;
     char message[256];
 
@@ -119,6 +121,7 @@ static void *thread_main(void *context)
 {
     Background *background = context;
     while (wait_for_step(background)) {
+        float_mode_leave(background->host_mode); /* what functions of the host find */
         const uint32_t mode = float_mode_enter_from_host();
         copy_fields(background);
         enter_stage(background, STEPPING);
@@ -150,7 +153,7 @@ static pbmpm_result start_thread(Background *background)
     if (background->has_thread) return PBMPM_OK;
     pthread_mutex_init(&background->lock, NULL);
     pthread_cond_init(&background->changed, NULL);
-    background->has_thread = pthread_create(&background->thread, NULL, thread_main, background) == 0;
+    background->has_thread = thread_start(&background->thread, thread_main, background);
     if (background->has_thread) return PBMPM_OK;
     pthread_cond_destroy(&background->changed);
     pthread_mutex_destroy(&background->lock);
@@ -205,6 +208,7 @@ pbmpm_result background_begin(World *world, float dt)
     background->count = world->particles.count;
     background->generation = world->generation;
     background->dt = dt;
+    background->host_mode = float_mode_of_host();
     background->begun = true;
     enter_stage(background, COPYING);
     return PBMPM_OK;

@@ -84,6 +84,8 @@ void float_mode_leave_to_host(uint32_t old)
     float_mode_leave(old);
 }
 
+uint32_t float_mode_of_host(void) { return host_mode; }
+
 uint32_t float_mode_lend(void)
 {
     const uint32_t ours = _mm_getcsr();

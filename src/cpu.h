@@ -18,6 +18,7 @@ void float_mode_leave(uint32_t old);
  * from inside run in it: float_mode_lend() before, float_mode_take_back() with its result after. */
 uint32_t float_mode_enter_from_host(void);
 void float_mode_leave_to_host(uint32_t old);
+uint32_t float_mode_of_host(void);
 uint32_t float_mode_lend(void);
 void float_mode_take_back(uint32_t lent);
 

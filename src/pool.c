@@ -6,6 +6,7 @@
 
 #include "cpu.h"
 #include "result.h"
+#include "thread.h"
 
 /* How long a thread looks for work or for the end of it before it sleeps: some 20 microseconds. */
 enum { SPIN_ROUNDS = 400 };
@@ -118,7 +119,7 @@ pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *ho
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
     while (!hooks->enqueue && pool->started < threads - 1) {
-        if (pthread_create(&pool->worker[pool->started], NULL, worker_main, pool) != 0) {
+        if (!thread_start(&pool->worker[pool->started], worker_main, pool)) {
             pool_destroy(memory, pool, true);
             *out = NULL;
             return fail(PBMPM_ERROR_THREAD, "could not start thread %d of %d", pool->started + 2, threads);

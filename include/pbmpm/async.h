@@ -30,7 +30,8 @@ extern "C" {
  * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
  * begins a step has neither.
  *
- * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world.
+ * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world,
+ * in the floating-point mode of the thread that began the step. Threads of the library block all signals but faults.
  * After a fork the step goes on in the parent. The child cannot know how far it was: there, destroying the world gives no
  * memory back. */
 

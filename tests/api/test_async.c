@@ -1,9 +1,12 @@
 /* Steps in the background: the same results, the last state in view meanwhile, and a safe end whatever happens. */
+#include <dirent.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+#include <xmmintrin.h>
 
 #include "calls.h"
 #include "solvers.h"
@@ -282,6 +285,133 @@ static void test_memory_is_as_documented(void)
     check_memory(3, 36);
 }
 
+/* ---- the host's functions, and its signals ---- */
+
+static pthread_t own_thread;
+static unsigned wanted_mode;
+static int calls_elsewhere, wrong_modes; /* calls from the step's thread */
+
+enum { STICKY_FLAGS = 0x3f };
+
+static void note_mode(void)
+{
+    if (pthread_equal(pthread_self(), own_thread))
+        return;
+    calls_elsewhere++;
+    wrong_modes += (_mm_getcsr() & ~(unsigned)STICKY_FLAGS) != wanted_mode;
+}
+
+static void *noting_allocate(size_t size, size_t alignment, void *user)
+{
+    (void)user;
+    note_mode();
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void noting_release(void *memory, size_t size, void *user)
+{
+    (void)size;
+    (void)user;
+    note_mode();
+    free(memory);
+}
+
+static void *noting_enqueue(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    (void)user;
+    note_mode();
+    for (int32_t i = 0; i < count; i++)
+        task(i, context);
+    return NULL;
+}
+
+static void noting_finish(void *handle, void *user)
+{
+    (void)handle;
+    (void)user;
+    note_mode();
+}
+
+static void noting_log(const char *message, void *user)
+{
+    (void)message;
+    (void)user;
+    note_mode();
+}
+
+/* They find the mode of the thread that began the step, as in a step that waits. */
+static void test_functions_of_the_host_run_in_its_mode(void)
+{
+    static const unsigned modes[] = {0x1f80, 0x5f80, 0x1f80, 0x9fc0}; /* the usual one; rounding up; the usual one; that of the kernels */
+    const unsigned own = _mm_getcsr();
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.allocator = (pbmpm_allocator){noting_allocate, noting_release, NULL};
+    def.tasks = (pbmpm_task_hooks){noting_enqueue, noting_finish, NULL};
+    def.thread_count = 2;
+    own_thread = pthread_self();
+    calls_elsewhere = wrong_modes = 0;
+    OK(pbmpm_set_log_callback(noting_log, NULL));
+    const pbmpm_world_id world = create_world(&def);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, 0, 0, 0.7f, 0.7f, 0), (const float[3]){0, 0, 0});
+    for (int i = 0; i < 4; i++) {
+        wanted_mode = modes[i];
+        const int before = calls_elsewhere;
+        _mm_setcsr(wanted_mode);
+        const pbmpm_result begun = pbmpm_world_step_begin(world, 0.01f);
+        _mm_setcsr(own);
+        OK(begun);
+        OK(pbmpm_world_step_end(world, 1));
+        TEST_ASSERT_TRUE(calls_elsewhere > before);
+    }
+    OK(pbmpm_world_destroy(world));
+    OK(pbmpm_set_log_callback(NULL, NULL));
+    TEST_ASSERT_EQUAL_INT(0, wrong_modes);
+}
+
+/* The signals that a thread of this process blocks. */
+static unsigned long long blocked_by(const char *thread)
+{
+    char path[300], line[200];
+    unsigned long long blocked = 0;
+    snprintf(path, sizeof path, "/proc/self/task/%s/status", thread);
+    FILE *file = fopen(path, "r");
+    TEST_ASSERT_NOT_NULL(file);
+    while (fgets(line, sizeof line, file))
+        sscanf(line, "SigBlk: %llx", &blocked);
+    fclose(file);
+    return blocked;
+}
+
+/* The host's handlers run on the host's threads. Faults are left to whose they are. */
+static void test_threads_of_the_library_take_no_signals(void)
+{
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS};
+    unsigned long long all = 0x7fffffff & ~(1ull << (SIGKILL - 1)) & ~(1ull << (SIGSTOP - 1));
+    int others = 0;
+    sigset_t before, after;
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++)
+        all &= ~(1ull << (faults[i] - 1));
+    pthread_sigmask(SIG_SETMASK, NULL, &before);
+    const pbmpm_world_id world = tank_2d(three_threads, NULL);
+    OK(pbmpm_world_step_begin(world, 0.01f));
+    OK(pbmpm_world_step_end(world, 1));
+    pthread_sigmask(SIG_SETMASK, NULL, &after);
+    for (int signal = 1; signal < 32; signal++)
+        TEST_ASSERT_EQUAL_INT(sigismember(&before, signal), sigismember(&after, signal));
+    DIR *threads = opendir("/proc/self/task");
+    TEST_ASSERT_NOT_NULL(threads);
+    for (struct dirent *entry; (entry = readdir(threads));) {
+        if (entry->d_name[0] == '.' || atol(entry->d_name) == getpid())
+            continue;
+        others++;
+        TEST_ASSERT_EQUAL_HEX64(all, blocked_by(entry->d_name) & 0x7fffffff);
+    }
+    closedir(threads);
+#ifndef __SANITIZE_THREAD__ /* which has a thread of its own */
+    TEST_ASSERT_EQUAL_INT(3, others);
+#endif
+}
+
 /* ---- what is refused ---- */
 
 static bool is_allowed(const char *name)
@@ -455,6 +585,8 @@ int main(void)
     RUN_TEST(test_views_expire_at_the_begin_and_at_the_end);
     RUN_TEST(test_only_published_fields_are_in_view);
     RUN_TEST(test_memory_is_as_documented);
+    RUN_TEST(test_functions_of_the_host_run_in_its_mode);
+    RUN_TEST(test_threads_of_the_library_take_no_signals);
     RUN_TEST(test_other_calls_are_refused_while_a_step_runs);
     RUN_TEST(test_bad_arguments_begin_nothing);
     RUN_TEST(test_failure_of_the_step_is_its_ends);
