@@ -44,6 +44,13 @@ pbmpm_result api_let_go(const Hold *held, pbmpm_result result)
     return result;
 }
 
+pbmpm_result api_unknown_size(const char *call, const char *structure, const char *remedy, uint32_t size, size_t known)
+{
+    if (size == 0) return fail(PBMPM_ERROR_UNSUPPORTED, "%s: %s.size is 0: %s first", call, structure, remedy);
+    return fail(PBMPM_ERROR_UNSUPPORTED, "%s: %s.size is %u, and this version has %zu: %s, with the headers of this library", call, structure, size,
+                known, remedy);
+}
+
 pbmpm_result api_init_structure(void *structure, size_t size, const void *defaults, size_t known)
 {
     if (!structure) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "the structure to fill is null");
@@ -127,7 +134,7 @@ pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *worl
 {
     REQUIRE(world);
     *world = (pbmpm_world_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_world_def_init);
     const uint32_t float_mode = float_mode_enter_from_host();
     const pbmpm_result result = create_world(def, world);
     float_mode_leave_to_host(float_mode);
@@ -160,7 +167,7 @@ pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *sett
 
 pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings)
 {
-    REQUIRE_SIZE(settings);
+    REQUIRE_FILLED(settings, pbmpm_settings_init);
     HOLD(world);
     const char *problem = settings_problem(settings, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
@@ -218,7 +225,7 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
 {
     REQUIRE(material);
     *material = (pbmpm_material_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_material_def_init);
     HOLD(world);
     const pbmpm_result usable = material_kind_usable(def->kind);
     if (usable != PBMPM_OK) LET_GO(usable);
@@ -250,7 +257,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
 
 pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_material_def_init);
     HOLD(world);
     const char *problem = material_problem(def);
     if (problem) LET_GO(api_invalid(problem));
@@ -297,7 +304,7 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
 {
     REQUIRE(collider);
     *collider = (pbmpm_collider_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_collider_def_init);
     HOLD(world);
     const char *problem = collider_problem(def, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
@@ -372,7 +379,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
 
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
 {
-    REQUIRE_SIZE(shape);
+    REQUIRE_FILLED(shape, pbmpm_shape_init);
     REQUIRE(count);
     if (capacity) REQUIRE(ids);
     HOLD(world);
@@ -398,14 +405,14 @@ pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size)
 
 pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_particles_def_init);
     HOLD(world);
     LET_GO(edit_add(w, def, registry_next_particle_generation(), ids));
 }
 
 pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_fill_def_init);
     HOLD(world);
     LET_GO(edit_fill(w, def, registry_next_particle_generation(), added));
 }
@@ -419,7 +426,7 @@ pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_i
 
 pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *shape, uint32_t *removed)
 {
-    REQUIRE_SIZE(shape);
+    REQUIRE_FILLED(shape, pbmpm_shape_init);
     HOLD(world);
     LET_GO(edit_remove_in(w, shape, removed));
 }

@@ -8,10 +8,20 @@
 #define REQUIRE(pointer)                                                                                                \
     if (!(pointer)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s: " #pointer " is null", __func__)
 
+/* A structure that the call writes: the caller says how large it is. */
 #define REQUIRE_SIZE(structure)                                                                                         \
     REQUIRE(structure);                                                                                                 \
     if ((structure)->size != sizeof *(structure))                                                                       \
-        return fail(PBMPM_ERROR_UNSUPPORTED, "%s: the size in " #structure " is not known to this version", __func__)
+        return api_unknown_size(__func__, #structure, "set it to its sizeof", (structure)->size, sizeof *(structure))
+
+/* One that it reads: it was filled by a function of its own. */
+#define REQUIRE_FILLED(structure, init)                                                                                 \
+    REQUIRE(structure);                                                                                                 \
+    if ((structure)->size != sizeof *(structure))                                                                       \
+        return api_unknown_size(__func__, #structure, "fill it by " #init "()", (structure)->size, sizeof *(structure))
+
+/* Refuses a structure; `remedy` says what was probably forgotten. */
+pbmpm_result api_unknown_size(const char *call, const char *structure, const char *remedy, uint32_t size, size_t known);
 
 /* A world that a call holds, in the floating-point mode of the kernels. */
 typedef struct Hold {

@@ -29,7 +29,7 @@ pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def 
 {
     REQUIRE(emitter);
     *emitter = (pbmpm_emitter_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_emitter_def_init);
     HOLD(world);
     const pbmpm_result checked = check_emitter(w, def);
     if (checked != PBMPM_OK) LET_GO(checked);
@@ -59,7 +59,7 @@ pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, p
 
 pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_emitter_def_init);
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
@@ -113,7 +113,7 @@ pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def
 {
     REQUIRE(drain);
     *drain = (pbmpm_drain_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_drain_def_init);
     HOLD(world);
     const pbmpm_result checked = check_drain(w, def);
     if (checked != PBMPM_OK) LET_GO(checked);
@@ -145,7 +145,7 @@ pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_d
 
 pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_drain_def_init);
     HOLD(world);
     Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
@@ -175,7 +175,7 @@ pbmpm_result pbmpm_kill_bounds_init(pbmpm_kill_bounds *bounds, size_t size)
 
 pbmpm_result pbmpm_world_set_kill_bounds(pbmpm_world_id world, const pbmpm_kill_bounds *bounds)
 {
-    REQUIRE_SIZE(bounds);
+    REQUIRE_FILLED(bounds, pbmpm_kill_bounds_init);
     HOLD(world);
     const char *problem = kill_bounds_problem(bounds, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
@@ -223,7 +223,7 @@ pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def
 {
     REQUIRE(force);
     *force = (pbmpm_force_id){0, 0};
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_force_def_init);
     HOLD(world);
     const char *problem = force_problem(def, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
@@ -256,7 +256,7 @@ pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_f
 
 pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_force_def_init);
     HOLD(world);
     Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());

@@ -30,21 +30,21 @@ static pbmpm_result bake(const pbmpm_mesh_def *def, bool hull, void *buffer, uin
 
 pbmpm_result pbmpm_bake_mesh(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_mesh_def_init);
     REQUIRE(bytes);
     return bake(def, false, buffer, capacity, bytes);
 }
 
 pbmpm_result pbmpm_bake_hull(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_mesh_def_init);
     REQUIRE(bytes);
     return bake(def, true, buffer, capacity, bytes);
 }
 
 pbmpm_result pbmpm_bake_heights(const pbmpm_heights_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_FILLED(def, pbmpm_heights_def_init);
     REQUIRE(bytes);
     const uint32_t float_mode = float_mode_enter_from_host();
     const pbmpm_result result = bake_heights(def, buffer, capacity, bytes);

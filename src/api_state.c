@@ -69,7 +69,7 @@ pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
 pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)
 {
     if (shape) {
-        REQUIRE_SIZE(shape);
+        REQUIRE_FILLED(shape, pbmpm_shape_init);
     }
     HOLD(world);
     const char *problem = shape ? shape_problem_among(shape, w->def.dimension, &w->baked) : NULL;
@@ -94,7 +94,7 @@ pbmpm_result pbmpm_ray_init(pbmpm_ray *ray, size_t size)
 pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_region_share *shares, uint32_t capacity,
                                 uint32_t *count)
 {
-    REQUIRE_SIZE(shape);
+    REQUIRE_FILLED(shape, pbmpm_shape_init);
     REQUIRE(count);
     if (capacity) REQUIRE(shares);
     HOLD(world);
@@ -130,7 +130,7 @@ pbmpm_result pbmpm_query_heights(pbmpm_world_id world, const float *points, uint
 
 pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_ray_hit *hit)
 {
-    REQUIRE_SIZE(ray);
+    REQUIRE_FILLED(ray, pbmpm_ray_init);
     REQUIRE_SIZE(hit);
     HOLD(world);
     const char *problem = query_ray_problem(w, ray);

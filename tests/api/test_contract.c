@@ -366,6 +366,61 @@ static void test_every_length_of_step_in_the_range_is_taken(void)
     }
 }
 
+/* ---- definitions that nobody filled ---- */
+
+static void expect_hint(pbmpm_result result, const char *call, const char *hint)
+{
+    char line[400];
+    snprintf(line, sizeof line, "%s says \"%s\"; wanted: %s", call, pbmpm_last_error(), hint);
+    TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_ERROR_UNSUPPORTED", pbmpm_result_name(result), line);
+    TEST_ASSERT_TRUE_MESSAGE(strstr(pbmpm_last_error(), call) && strstr(pbmpm_last_error(), hint), line);
+}
+#define EXPECT_HINT(hint, name, ...) expect_hint(name(__VA_ARGS__), #name, hint)
+#define ZERO(type) (&(type){0})
+
+/* Who forgot to fill a definition is told by what. */
+static void test_zeroed_definitions_are_told_what_fills_them(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_world_id other;
+    pbmpm_material_id material;
+    pbmpm_collider_id collider;
+    pbmpm_emitter_id emitter;
+    pbmpm_drain_id drain;
+    pbmpm_force_id force;
+    pbmpm_ray_hit hit = {.size = sizeof hit};
+    uint32_t count;
+    uint64_t bytes;
+    memset(&material, 0, sizeof material), memset(&emitter, 0, sizeof emitter), memset(&drain, 0, sizeof drain), memset(&force, 0, sizeof force);
+    EXPECT_HINT("pbmpm_world_def_init()", pbmpm_world_create, ZERO(pbmpm_world_def), &other);
+    EXPECT_HINT("pbmpm_settings_init()", pbmpm_world_set_settings, world, ZERO(pbmpm_settings));
+    EXPECT_HINT("pbmpm_material_def_init()", pbmpm_material_create, world, ZERO(pbmpm_material_def), &material);
+    EXPECT_HINT("pbmpm_material_def_init()", pbmpm_material_set, world, material, ZERO(pbmpm_material_def));
+    EXPECT_HINT("pbmpm_collider_def_init()", pbmpm_collider_create, world, ZERO(pbmpm_collider_def), &collider);
+    EXPECT_HINT("pbmpm_particles_def_init()", pbmpm_particles_add, world, ZERO(pbmpm_particles_def), NULL);
+    EXPECT_HINT("pbmpm_fill_def_init()", pbmpm_particles_fill, world, ZERO(pbmpm_fill_def), NULL);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_particles_remove_in, world, ZERO(pbmpm_shape), NULL);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_query_shape, world, ZERO(pbmpm_shape), NULL, 0, &count);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_query_region, world, ZERO(pbmpm_shape), NULL, 0, &count);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_world_wake, world, ZERO(pbmpm_shape));
+    EXPECT_HINT("pbmpm_ray_init()", pbmpm_query_ray, world, ZERO(pbmpm_ray), &hit);
+    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_create, world, ZERO(pbmpm_emitter_def), &emitter);
+    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_set, world, emitter, ZERO(pbmpm_emitter_def));
+    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_create, world, ZERO(pbmpm_drain_def), &drain);
+    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_set, world, drain, ZERO(pbmpm_drain_def));
+    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_create, world, ZERO(pbmpm_force_def), &force);
+    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_set, world, force, ZERO(pbmpm_force_def));
+    EXPECT_HINT("pbmpm_kill_bounds_init()", pbmpm_world_set_kill_bounds, world, ZERO(pbmpm_kill_bounds));
+    EXPECT_HINT("pbmpm_mesh_def_init()", pbmpm_bake_mesh, ZERO(pbmpm_mesh_def), NULL, 0, &bytes);
+    EXPECT_HINT("pbmpm_mesh_def_init()", pbmpm_bake_hull, ZERO(pbmpm_mesh_def), NULL, 0, &bytes);
+    EXPECT_HINT("pbmpm_heights_def_init()", pbmpm_bake_heights, ZERO(pbmpm_heights_def), NULL, 0, &bytes);
+    EXPECT_HINT("sizeof", pbmpm_world_get_stats, world, ZERO(pbmpm_stats));
+    EXPECT_HINT("sizeof", pbmpm_particles_view, world, PBMPM_POSITION, ZERO(pbmpm_view));
+    pbmpm_settings other_size = default_settings();
+    other_size.size -= 4;
+    EXPECT_HINT("headers", pbmpm_world_set_settings, world, &other_size);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -392,5 +447,6 @@ int main(void)
     RUN_TEST(test_third_component_is_ignored_in_2d);
     RUN_TEST(test_origin_changes_no_result);
     RUN_TEST(test_every_length_of_step_in_the_range_is_taken);
+    RUN_TEST(test_zeroed_definitions_are_told_what_fills_them);
     return UNITY_END();
 }
