@@ -1,21 +1,21 @@
 #include "registry.h"
 
-#include <pthread.h>
 #include <stdatomic.h>
 #include <unistd.h>
 
 #include "background.h"
 #include "result.h"
 
-/* A slot lives forever, so an identifier can be looked at without a lock whatever became of its world. */
+/* A slot lives forever, so an identifier can be looked at without a lock whatever became of its world. There is no lock at all: one that another
+ * thread has while a process forks stays locked in the child. */
 typedef struct Slot {
-    atomic_uint generation; /* of the world in it; 0: free */
-    atomic_bool held;       /* a thread is inside a call */
+    atomic_bool taken;      /* by a world, or by one that comes or goes */
+    atomic_uint generation; /* of the world in it; 0: none */
+    atomic_int holder;      /* the process of which a thread is inside a call; 0: none is */
     World *world;
 } Slot;
 
 static Slot slots[PBMPM_MAX_WORLDS];
-static pthread_mutex_t adding = PTHREAD_MUTEX_INITIALIZER;
 static atomic_uint last_generation, last_particle_generation;
 
 static uint32_t next_of(atomic_uint *last)
@@ -36,34 +36,45 @@ void registry_skip_particle_generations(uint32_t last)
 
 pbmpm_result registry_add(World *world, pbmpm_world_id *id)
 {
-    pbmpm_result result = PBMPM_ERROR_CAPACITY;
-    pthread_mutex_lock(&adding);
-    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS && result != PBMPM_OK; i++) {
-        if (atomic_load(&slots[i].generation) != 0 || atomic_load(&slots[i].held)) continue;
+    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
+        if (atomic_load(&slots[i].taken) || atomic_exchange(&slots[i].taken, true)) continue;
         *id = (pbmpm_world_id){i, registry_next_generation()};
         slots[i].world = world;
         atomic_store(&slots[i].generation, id->generation);
-        result = PBMPM_OK;
+        return PBMPM_OK;
     }
-    pthread_mutex_unlock(&adding);
-    return result == PBMPM_OK ? result : fail(result, "there are already %d worlds", PBMPM_MAX_WORLDS);
+    return fail(PBMPM_ERROR_CAPACITY, "there are already %d worlds", PBMPM_MAX_WORLDS);
+}
+
+/* False: a thread of this process has it. What a thread of the parent had when the process forked is `orphaned`: nobody will give it back. */
+static bool hold(Slot *slot, bool *orphaned)
+{
+    const int self = getpid();
+    int before = 0;
+    *orphaned = false;
+    if (atomic_compare_exchange_strong(&slot->holder, &before, self)) return true;
+    if (before == self) return false;
+    *orphaned = atomic_compare_exchange_strong(&slot->holder, &before, self);
+    return *orphaned;
 }
 
 pbmpm_result registry_enter(pbmpm_world_id id, World **world)
 {
+    bool orphaned;
     if (id.index >= PBMPM_MAX_WORLDS || id.generation == 0 || atomic_load(&slots[id.index].generation) != id.generation)
         return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
     Slot *slot = &slots[id.index];
-    if (atomic_exchange(&slot->held, true)) return fail(PBMPM_ERROR_BUSY, "another thread is using this world");
+    if (!hold(slot, &orphaned)) return fail(PBMPM_ERROR_BUSY, "another thread is using this world");
     if (atomic_load(&slot->generation) != id.generation) { /* destroyed in the meantime */
-        atomic_store(&slot->held, false);
+        atomic_store(&slot->holder, 0);
         return fail(PBMPM_ERROR_INVALID_ID, "no such world: it has just been destroyed");
     }
     *world = slot->world;
+    (*world)->frozen = (*world)->frozen || orphaned;
     return PBMPM_OK;
 }
 
-void registry_leave(pbmpm_world_id id) { atomic_store(&slots[id.index].held, false); }
+void registry_leave(pbmpm_world_id id) { atomic_store(&slots[id.index].holder, 0); }
 
 pbmpm_result registry_remove(pbmpm_world_id id, World **world)
 {
@@ -71,6 +82,7 @@ pbmpm_result registry_remove(pbmpm_world_id id, World **world)
     if (result != PBMPM_OK) return result;
     atomic_store(&slots[id.index].generation, 0);
     registry_leave(id);
+    atomic_store(&slots[id.index].taken, false);
     return PBMPM_OK;
 }
 

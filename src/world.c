@@ -138,7 +138,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 void world_destroy(World *world)
 {
     const bool here = world->owner == getpid();
-    if (!here && background_is_stepping(world)) return; /* the fork froze a step: nobody knows what it has given back */
+    if (!here && (world->frozen || background_is_stepping(world))) return; /* nobody knows what the frozen call has given back */
     background_stop(world, here);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);

@@ -88,6 +88,7 @@ typedef struct World {
     Domain domain;
     Memory memory;
     pid_t owner; /* process that created it; threads do not survive a fork */
+    bool frozen; /* by a fork in the middle of a call of the parent's */
     Pool *pool;
     const Kernels *kernels;
 

@@ -32,8 +32,8 @@ extern "C" {
  *
  * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world,
  * in the floating-point mode of the thread that began the step. Threads of the library block all signals but faults.
- * After a fork the step goes on in the parent. The child cannot know how far it was: there, destroying the world gives no
- * memory back. */
+ * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
+ * world gives no memory back. */
 
 /** Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
  *  MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs

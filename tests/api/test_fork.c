@@ -1,5 +1,8 @@
 /* A process that forks: in the child a world can be destroyed and nothing else; the parent does not notice. */
+#include <pthread.h>
+#include <stdatomic.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -99,11 +102,114 @@ static void test_fork_with_threads(void)
     check_fork(4);
 }
 
+/* ---- while other threads are inside of the library ---- */
+
+static atomic_int armed, held, released; /* the next allocation waits until it is released */
+
+static void *slow_allocate(size_t size, size_t alignment, void *user)
+{
+    (void)user;
+    if (atomic_load(&armed)) {
+        atomic_store(&held, 1);
+        while (!atomic_load(&released))
+            usleep(100);
+    }
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void slow_release(void *memory, size_t size, void *user)
+{
+    (void)size;
+    (void)user;
+    free(memory);
+}
+
+static void use_slow_memory(pbmpm_world_def *def, void *user)
+{
+    (void)user;
+    def->allocator = (pbmpm_allocator){slow_allocate, slow_release, NULL};
+}
+
+static void *step_once(void *user)
+{
+    const target *ids = user;
+    return pbmpm_world_step(ids->world, 0.001f) == PBMPM_OK ? NULL : user;
+}
+
+/* The fork froze a step in the child; it goes on in the parent. */
+static void test_fork_while_another_thread_steps(void)
+{
+    target ids = target_create(use_slow_memory, NULL);
+    pthread_t thread;
+    void *failed = NULL;
+    OK(pbmpm_world_step(ids.world, 0.001f));
+    set_solver(ids.world, PBMPM_SOLVER_DUAL); /* which takes memory in its first step */
+    atomic_store(&armed, 1);
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread, NULL, step_once, &ids));
+    while (!atomic_load(&held))
+        usleep(100);
+    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids.world));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(every_call_but_destroy, &ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(destroy_twice, &ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(shut_down, &ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(make_a_world_of_its_own, &ids));
+    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids.world)); /* nothing of that was felt here */
+    atomic_store(&released, 1);
+    pthread_join(thread, &failed);
+    TEST_ASSERT_NULL(failed);
+    OK(pbmpm_world_destroy(ids.world));
+}
+
+static atomic_int enough;
+
+static void *create_and_destroy(void *user)
+{
+    pbmpm_world_def def;
+    pbmpm_world_id world;
+    pbmpm_world_def_init(&def, sizeof def);
+    def.particle_capacity = 1;
+    def.dimension = 2;
+    def.thread_count = 1;
+    while (!atomic_load(&enough))
+        if (pbmpm_world_create(&def, &world) != PBMPM_OK || pbmpm_world_destroy(world) != PBMPM_OK)
+            return user;
+    return NULL;
+}
+
+/* Slots that are taken make the search for a free one long, so that forks fall into it. */
+static void test_forks_while_other_threads_create_worlds(void)
+{
+    enum { TAKEN = 150, CREATORS = 2, FORKS = 400 };
+    pthread_t thread[CREATORS];
+    pbmpm_world_id taken[TAKEN];
+    const target nothing = {.world = {0, 0}};
+    const pbmpm_world_def def = default_world(2, 0.1f, 1);
+    int answer = 0, failures = 0, user = 0;
+    for (int i = 0; i < TAKEN; i++)
+        taken[i] = create_world(&def);
+    for (int i = 0; i < CREATORS; i++)
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread[i], NULL, create_and_destroy, &user));
+    for (int i = 0; i < FORKS && answer == 0; i++)
+        answer = answer_of(make_a_world_of_its_own, &nothing);
+    atomic_store(&enough, 1);
+    for (int i = 0; i < CREATORS; i++) {
+        void *failed;
+        pthread_join(thread[i], &failed);
+        failures += failed != NULL;
+    }
+    for (int i = 0; i < TAKEN; i++)
+        OK(pbmpm_world_destroy(taken[i]));
+    TEST_ASSERT_EQUAL_INT(0, answer);
+    TEST_ASSERT_EQUAL_INT(0, failures);
+}
+
 int main(void)
 {
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_fork_with_one_thread);
     RUN_TEST(test_fork_with_threads);
+    RUN_TEST(test_fork_while_another_thread_steps);
+    RUN_TEST(test_forks_while_other_threads_create_worlds);
     return UNITY_END();
 }
