@@ -64,6 +64,13 @@ pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
     LET_GO(background_end(w, wait != 0));
 }
 
+pbmpm_result pbmpm_world_step_done(pbmpm_world_id world, int32_t *done)
+{
+    REQUIRE(done);
+    HOLD_STEPPING(world);
+    LET_GO(background_done(w, done));
+}
+
 /* ---- sleep.h ---- */
 
 pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)

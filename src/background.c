@@ -214,16 +214,28 @@ pbmpm_result background_begin(World *world, float dt)
     return PBMPM_OK;
 }
 
+static pbmpm_result no_step(void) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "no step is under way: none was begun"); }
+
+pbmpm_result background_done(World *world, int32_t *done)
+{
+    Background *background = world->background;
+    if (!background_is_stepping(world)) return no_step();
+    pthread_mutex_lock(&background->lock);
+    *done = background->stage == DONE;
+    pthread_mutex_unlock(&background->lock);
+    return PBMPM_OK;
+}
+
 pbmpm_result background_end(World *world, bool wait)
 {
     Background *background = world->background;
-    if (!background_is_stepping(world)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "no step is under way: none was begun");
+    if (!background_is_stepping(world)) return no_step();
     pthread_mutex_lock(&background->lock);
     while (wait && background->stage != DONE) pthread_cond_wait(&background->changed, &background->lock);
     const bool done = background->stage == DONE;
     if (done) background->stage = IDLE;
     pthread_mutex_unlock(&background->lock);
-    if (!done) return fail(PBMPM_ERROR_BUSY, "the step is not done yet");
+    if (!done) return result_pass_on(PBMPM_ERROR_BUSY, "the step is not done yet"); /* an answer, not a failure to log */
     background->begun = false;
     return background->result == PBMPM_OK ? PBMPM_OK : result_pass_on(background->result, background->message);
 }

@@ -15,6 +15,7 @@ bool background_is_stepping(const World *world);
 /* `dt` is valid. */
 pbmpm_result background_begin(World *world, float dt);
 pbmpm_result background_end(World *world, bool wait);
+pbmpm_result background_done(World *world, int32_t *done);
 
 /* Of the state that the step began with. */
 pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view);

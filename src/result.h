@@ -7,7 +7,7 @@
 /* Stores the message for pbmpm_last_error(), tells the log callback, and returns `result`. */
 pbmpm_result fail(pbmpm_result result, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/* Stores the message of a failure that another thread has told about already, and returns `result`. */
+/* Stores a message without telling the log callback, which knows already or need not know, and returns `result`. */
 pbmpm_result result_pass_on(pbmpm_result result, const char *text);
 
 const char *result_message(void);

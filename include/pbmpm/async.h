@@ -13,7 +13,8 @@ extern "C" {
  * what pbmpm_world_step() would have: results do not depend on how a step was made. From the begin to an end that did not
  * give BUSY the world takes these calls only, and answers all others with BUSY:
  *
- *   pbmpm_world_step_end()        waits, or looks whether the step is done;
+ *   pbmpm_world_step_end()        waits, or ends the step if it is done;
+ *   pbmpm_world_step_done()       looks whether it is;
  *   pbmpm_particles_view()        of a published field: the state that the step began with;
  *   pbmpm_particles_count()       of that state;
  *   pbmpm_world_generation()      of those views;
@@ -47,9 +48,14 @@ PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_fie
 PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);
 
 /** Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
- *  done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+ *  done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY. */
 PBMPM_API pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait);
+
+/** Whether the step that was begun is done, so that pbmpm_world_step_end() will not wait: *done is then 1, else 0. Ends nothing and waits
+ *  for nothing; made to be asked in each frame.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null; no step is under way), BUSY, FORKED: *done is as before. */
+PBMPM_API pbmpm_result pbmpm_world_step_done(pbmpm_world_id world, int32_t *done);
 
 #ifdef __cplusplus
 }

@@ -285,6 +285,13 @@ static pbmpm_result call_step_end(const target *ids)
     return pbmpm_world_step_end(ids->world, 1);
 }
 
+static pbmpm_result call_step_done(const target *ids)
+{
+    int32_t done;
+    const pbmpm_result begun = pbmpm_world_step_begin(ids->world, 0.001f), result = pbmpm_world_step_done(ids->world, &done);
+    return begun == PBMPM_OK ? pbmpm_world_step_end(ids->world, 1) : result;
+}
+
 static pbmpm_result call_particles_remove(const target *ids)
 {
     return pbmpm_particles_remove(ids->world, &ids->particle, 1);
@@ -474,6 +481,7 @@ const world_call world_calls[] = {
     {"pbmpm_world_publish", call_publish, 0},
     {"pbmpm_world_step_begin", call_step_begin, 0},
     {"pbmpm_world_step_end", call_step_end, 0},
+    {"pbmpm_world_step_done", call_step_done, 0},
     {"pbmpm_particles_remove", call_particles_remove, USES_PARTICLE},
     {"pbmpm_particles_remove_in", call_particles_remove_in, 0},
     {"pbmpm_emitter_create", call_emitter_create, USES_MATERIAL},

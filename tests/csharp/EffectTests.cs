@@ -209,6 +209,10 @@ static class EffectTests
             Expect.Refused(Result.ErrorBusy, () => world.Step(Scenes.Frame), "a step meanwhile");
             world.EndStep();
             world.BeginStep(Scenes.Frame);
+            while (!world.IsStepDone) System.Threading.Thread.Yield();
+            Expect.Equal(true, world.TryEndStep(), "the end of a step that is done");
+            world.BeginStep(Scenes.Frame);
+            Run(other, 1);
             while (!world.TryEndStep()) System.Threading.Thread.Yield();
             Expect.Equal(other.StateHash, world.StateHash, "hash");
             Expect.Refused(Result.ErrorInvalidArgument, () => world.EndStep(), "the end of no step");

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import time
+
 import numpy as np
 import pytest
 
@@ -52,6 +54,16 @@ def test_other_calls_are_refused(pool: pbmpm.World) -> None:
         pool.step_end()
     with pytest.raises(pbmpm.InvalidArgumentError, match="dt"):
         pool.step_begin(-1)
+
+
+def test_whether_a_step_is_done(pool: pbmpm.World) -> None:
+    with pytest.raises(pbmpm.InvalidArgumentError, match="none was begun"):
+        pool.step_done()
+    pool.step_begin(0.01)
+    while not pool.step_done():
+        time.sleep(0)
+    assert pool.step_done()
+    assert pool.step_end(wait=False)
 
 
 def test_closing_while_a_step_runs(pool: pbmpm.World) -> None:

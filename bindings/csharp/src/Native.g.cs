@@ -1797,10 +1797,16 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
 
         /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
-        /// done: BUSY, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_end(WorldId world, int wait);
+
+        /// <summary>Whether the step that was begun is done, so that pbmpm_world_step_end() will not wait: *done is then 1, else 0. Ends nothing and waits
+        /// for nothing; made to be asked in each frame.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null; no step is under way), BUSY, FORKED: *done is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_step_done(WorldId world, int* done);
 
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -47,6 +47,18 @@ namespace Pbmpm
             Changed(Methods.pbmpm_world_step_end(Id, 1));
         }
 
+        /// <summary>Whether the step that was begun is done, so that <see cref="EndStep"/> will not wait. Made to be asked in each
+        /// frame.</summary>
+        public bool IsStepDone
+        {
+            get
+            {
+                int done;
+                Done(Methods.pbmpm_world_step_done(Id, &done));
+                return done != 0;
+            }
+        }
+
         /// <summary>Ends the step that was begun if it is done; false if it is still under way.</summary>
         public bool TryEndStep()
         {

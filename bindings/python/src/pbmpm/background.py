@@ -31,6 +31,16 @@ class WorldBackground(WorldPart):
         """Begins a step of `dt` seconds, in (0, 10], and returns. Expires all views."""
         self._call(lib.pbmpm_world_step_begin, dt)
 
+    def step_done(self) -> bool:
+        """Whether the step that was begun is done, so that `step_end()` will not wait. Made to be asked in each frame.
+
+        Raises:
+            InvalidArgumentError: no step was begun.
+        """
+        done = ffi.new("int32_t *")
+        self._call(lib.pbmpm_world_step_done, done)
+        return bool(done[0])
+
     def step_end(self, wait: bool = True) -> bool:
         """Ends a step that was begun. Expires the views that were taken while it ran.
 
