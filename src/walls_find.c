@@ -196,7 +196,7 @@ typedef struct Turn {
  * more is open, and by so much the profile of the normal motion is too high. At sharp edges the Laplacian is none of a curve, and does not count. */
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
-    static const double SMOOTH = 0.7; /* cosine: half of an upright edge */
+    static const double SMOOTH = 0.89; /* cosine of the turn per cell: of a ball with a radius of two cells */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0};
@@ -224,6 +224,13 @@ static Turn turn_of(const Builder *b, const Bound *bound)
     return turn;
 }
 
+/* Matter that is faster than it would be after a fall of one cell, v^2 > 2 g dx, flies on where the wall turns away: a jet contracts. */
+static bool clings(const ContactFrame *frame, const Bound *bound)
+{
+    const float *u = (const float *)frame->grid->node.data + (size_t)bound->node * K_NODE_WIDTH;
+    return (double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) <= 2.0 * frame->fall;
+}
+
 /* The nearest face and others that the node is near to. One by itself has the normal that turns. */
 static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
 {
@@ -236,10 +243,11 @@ static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NOR
         for (int k = 0; k < used; k++) differs = differs && !field_same_way(face, own[k]) && !opposed(face, own[k]);
         if (differs) own[used++] = face;
     }
-    if (used == 1) turn = turn_of(b, bound);
+    const bool turns = used == 1 && clings(b->frame, bound);
+    if (turns) turn = turn_of(b, bound);
     for (int i = 0; i < used; i++) {
         Profile *p = &profile[i];
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(used == 1 ? turn.normal[a] : own[i]->normal[a]);
+        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(turns ? turn.normal[a] : own[i]->normal[a]);
         for (int k = 0; k < i; k++) {
             const double along = dot(p->axis, profile[k].axis);
             for (int a = 0; a < 3; a++) p->axis[a] -= along * profile[k].axis[a];
