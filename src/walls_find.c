@@ -160,6 +160,9 @@ typedef struct Profile {
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
+/* Sine of the least angle between planes that do not count as one, see field_same_way(). */
+static const double LEAST_TURN = 0.31;
+
 /* Whether two faces are nearly back to back. */
 static bool opposed(const Face *a, const Face *b) { return dot(a->normal, b->normal) < -0.95; }
 
@@ -231,29 +234,39 @@ static bool clings(const ContactFrame *frame, const Bound *bound)
     return (double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) <= 2.0 * frame->fall;
 }
 
+/* Its normal without what those before it have of it, of length 1. False: no more is left than planes that count as one differ by. */
+static bool make_upright(Profile *profile, int i)
+{
+    double *axis = profile[i].axis;
+    memcpy(axis, profile[i].normal, sizeof profile[i].axis);
+    for (int k = 0; k < i; k++) {
+        const double along = dot(axis, profile[k].axis);
+        for (int a = 0; a < 3; a++) axis[a] -= along * profile[k].axis[a];
+    }
+    const double length = sqrt(dot(axis, axis));
+    if (length < LEAST_TURN) return false;
+    for (int a = 0; a < 3; a++) axis[a] /= length;
+    return true;
+}
+
 /* The nearest face and others that the node is near to. One by itself has the normal that turns. */
 static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
 {
     const Face *own[NORMALS_MAX];
-    Turn turn = {.bend = 0.0};
     int used = 0;
     for (int i = 0; i < bound->faces && used < b->frame->grid->dimension; i++) {
         const Face *face = &bound->face[i];
+        Profile *p = &profile[used];
         bool differs = i == 0 || face->distance < 1.0;
         for (int k = 0; k < used; k++) differs = differs && !field_same_way(face, own[k]) && !opposed(face, own[k]);
-        if (differs) own[used++] = face;
+        for (int a = 0; a < 3; a++) p->normal[a] = field_rounded(face->normal[a]);
+        if (differs && make_upright(profile, used)) own[used++] = face;
     }
     const bool turns = used == 1 && clings(b->frame, bound);
-    if (turns) turn = turn_of(b, bound);
+    const Turn turn = turns ? turn_of(b, bound) : (Turn){.bend = 0.0};
+    for (int a = 0; a < 3 && turns; a++) profile[0].normal[a] = profile[0].axis[a] = field_rounded(turn.normal[a]);
     for (int i = 0; i < used; i++) {
         Profile *p = &profile[i];
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(turns ? turn.normal[a] : own[i]->normal[a]);
-        for (int k = 0; k < i; k++) {
-            const double along = dot(p->axis, profile[k].axis);
-            for (int a = 0; a < 3; a++) p->axis[a] -= along * profile[k].axis[a];
-        }
-        const double length = sqrt(dot(p->axis, p->axis));
-        for (int a = 0; a < 3; a++) p->axis[a] /= length;
         p->distance = field_rounded(own[i]->distance - turn.bend);
         p->bend = turn.bend;
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
