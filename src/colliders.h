@@ -100,6 +100,7 @@ typedef struct ContactFrame {
     const Grid *grid;
     double cell_size;
     float max_displacement; /* cells */
+    double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const float *gap;            /* Colliders.gap once it is measured; null before */

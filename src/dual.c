@@ -14,14 +14,14 @@ enum { CELL_ARRAYS = 5 };
 
 static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
 
-/* Whether liquids share the world with solids. These then take part in the guess of the pressure, which would push them as if they had no
- * stiffness, and take rounds by themselves. */
+/* Whether bodies share the world with liquid or sand, or these with each other. Solids then take part in the guess of the pressure, which would push them as if they
+ * had no stiffness, and take rounds by themselves. */
 static bool shares_world(const World *world)
 {
-    bool solids = false;
+    bool bodies = false;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        solids = solids || (world->particles.of_material[slot] > 0 && material_is_solid(&world->materials, slot));
-    return solids && solver_holds_liquid(world);
+        bodies = bodies || (world->particles.of_material[slot] > 0 && material_is_solid(&world->materials, slot) && world->materials.kernel[slot].yields != K_SAND);
+    return solver_holds_liquid(world) ? bodies || solver_holds_sand(world) : bodies && solver_holds_sand(world);
 }
 
 /* Steps of the guess before the iterations. It is for liquids and sand: four reach through a pool of some 15 cells. Without gravity it does harm in free flight, where
@@ -445,7 +445,7 @@ double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, dou
 {
     const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     if (def->kind == PBMPM_SAND) return 1.0; /* it remembers what it bears, not strain: see ispc/granular.isph */
-    if (solver_holds_liquid(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
+    if (shares_world(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;
     const double asked = most_asked(asked_per_iteration(world, substep), iterations);

@@ -437,8 +437,7 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
 
 /* ---- Open shares ---- */
 
-/* The integral of the quadratic spline from -1.5 to x. */
-static double spline_below(double x)
+double field_spline_below(double x)
 {
     if (x >= NODE_REACH) return 1.0;
     if (x <= -NODE_REACH) return 0.0;
@@ -454,7 +453,7 @@ static double box_share(const Near *near, const Solid *s, const double point[3])
     double local[3], share = 1.0;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++)
-        share *= spline_below((s->half_extents[a] - local[a]) / near->cell_size) - spline_below((-s->half_extents[a] - local[a]) / near->cell_size);
+        share *= field_spline_below((s->half_extents[a] - local[a]) / near->cell_size) - field_spline_below((-s->half_extents[a] - local[a]) / near->cell_size);
     return share;
 }
 
@@ -473,8 +472,8 @@ double field_open_share(const Near *near, const double point[3], double deepest,
         close++;
     }
     if (least >= NODE_REACH) return 1.0;
-    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point), spline_below(-deepest));
+    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point), field_spline_below(-deepest));
     if (!known) count = field_faces(near, point, NODE_REACH, face);
-    for (int i = 0; i < count; i++) share *= spline_below(fmax((known ? known : face)[i].distance, -deepest));
-    return count > 0 || least > 0.0 ? share : spline_below(-deepest);
+    for (int i = 0; i < count; i++) share *= field_spline_below(fmax((known ? known : face)[i].distance, -deepest));
+    return count > 0 || least > 0.0 ? share : field_spline_below(-deepest);
 }

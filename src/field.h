@@ -61,6 +61,9 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
  * node's spline. */
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other);
 
+/* The integral of the quadratic spline from -1.5 to x: the share of a node's weight that is open, x cells before a plane. */
+double field_spline_below(double x);
+
 /* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. `known`: the planes around it, if the
  * caller has them, `count` of them; else null. */
 double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count);

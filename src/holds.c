@@ -6,7 +6,10 @@
 /* How far from a surface [cells] a node that was put onto it may be, by rounding. */
 static const float TOUCH = 1e-5f;
 
-static bool is_held(const Contact *contact) { return contact->friction == PBMPM_FRICTION_STICK && contact->gap == 0.0f; }
+/* Two particles a cell and axis stand a quarter of a cell inside their body: so near, what they weigh on touches [cells]. */
+static const float TOUCHES = 0.25f;
+
+static bool is_held(const Contact *contact) { return contact->friction == PBMPM_FRICTION_STICK && contact->gap < TOUCHES; }
 
 static float along(const float *vector, const float *normal)
 {

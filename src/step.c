@@ -5,6 +5,7 @@
 #include <math.h>
 
 #include "clock.h"
+#include "depth.h"
 #include "islands.h"
 #include "open_volume.h"
 #include "result.h"
@@ -163,8 +164,13 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
-    *contacts = (ContactFrame){&world->colliders, &world->grid, cell_size, world->settings.max_displacement, NULL,
-                               world->sleep.holds ? world->sleep.held.data : NULL, NULL, by_ratio ? world->materials.kernel : NULL};
+    *contacts = (ContactFrame){.colliders = &world->colliders,
+                               .grid = &world->grid,
+                               .cell_size = cell_size,
+                               .max_displacement = world->settings.max_displacement,
+                               .fall = gravity_fall(world, (double)world->args.dt),
+                               .held = world->sleep.holds ? world->sleep.held.data : NULL,
+                               .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = contacts_measure(contacts, &world->memory, world->pool);

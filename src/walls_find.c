@@ -154,10 +154,14 @@ typedef struct Builder {
 typedef struct Profile {
     double normal[3], axis[3]; /* as it is; orthogonal to those before it */
     double distance, share;    /* share: of the mirror image */
+    double bend;               /* see turn_of() */
     float surface[3];
 } Profile;
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/* Sine of the least angle between planes that do not count as one, see field_same_way(). */
+static const double LEAST_TURN = 0.31;
 
 /* Whether two faces are nearly back to back. */
 static bool opposed(const Face *a, const Face *b) { return dot(a->normal, b->normal) < -0.95; }
@@ -184,14 +188,25 @@ static const Bound *bound_at(const Builder *b, int64_t node)
     return at > 0 && at <= b->bounds ? &b->bound[at - 1] : NULL;
 }
 
-/* The normal that a node has: the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure
- * do work: it drove vortices out of each blunt edge. */
-static void turn_normal(const Builder *b, const Bound *bound, double normal[3])
+/* A wall as the spline of a node sees it. */
+typedef struct Turn {
+    double normal[3];
+    double bend; /* [cells] */
+} Turn;
+
+/* The normal is the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure do work: it
+ * drove vortices out of each blunt edge. The spline's variance is 1/4 per axis, so it sees a curved wall off by an eighth of the distances' Laplacian: by so much
+ * more is open, and by so much the profile of the normal motion is too high. At sharp edges the Laplacian is none of a curve, and does not count. */
+static Turn turn_of(const Builder *b, const Bound *bound)
 {
+    static const double SMOOTH = 0.89; /* cosine of the turn per cell: of a ball with a radius of two cells */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
+    Turn turn = {.bend = 0.0};
     double slope[3] = {0}, length = 0.0;
-    for (int a = 0; a < grid->dimension; a++)
+    for (int a = 0; a < grid->dimension; a++) {
+        double curve = 0.0;
+        bool smooth = true;
         for (int side = -1; side <= 1; side += 2) {
             int way[3] = {0};
             way[a] = side;
@@ -200,36 +215,60 @@ static void turn_normal(const Builder *b, const Bound *bound, double normal[3])
             double distance = face->distance + side * face->normal[a];
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             if (!beside && other != NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
+            smooth = smooth && beside && dot(face->normal, beside->face[0].normal) > SMOOTH;
             slope[a] += side * distance;
+            curve += distance - face->distance;
         }
+        if (smooth) turn.bend += curve / 8.0;
+    }
     for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
     length = sqrt(length);
-    for (int a = 0; a < 3; a++) normal[a] = length > 0.5 ? slope[a] / length : face->normal[a];
+    for (int a = 0; a < 3; a++) turn.normal[a] = length > 0.5 ? slope[a] / length : face->normal[a];
+    return turn;
+}
+
+/* Matter that is faster than it would be after a fall of one cell, v^2 > 2 g dx, flies on where the wall turns away: a jet contracts. */
+static bool clings(const ContactFrame *frame, const Bound *bound)
+{
+    const float *u = (const float *)frame->grid->node.data + (size_t)bound->node * K_NODE_WIDTH;
+    return (double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) <= 2.0 * frame->fall;
+}
+
+/* Its normal without what those before it have of it, of length 1. False: no more is left than planes that count as one differ by. */
+static bool make_upright(Profile *profile, int i)
+{
+    double *axis = profile[i].axis;
+    memcpy(axis, profile[i].normal, sizeof profile[i].axis);
+    for (int k = 0; k < i; k++) {
+        const double along = dot(axis, profile[k].axis);
+        for (int a = 0; a < 3; a++) axis[a] -= along * profile[k].axis[a];
+    }
+    const double length = sqrt(dot(axis, axis));
+    if (length < LEAST_TURN) return false;
+    for (int a = 0; a < 3; a++) axis[a] /= length;
+    return true;
 }
 
 /* The nearest face and others that the node is near to. One by itself has the normal that turns. */
 static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
 {
     const Face *own[NORMALS_MAX];
-    double turned[3];
     int used = 0;
     for (int i = 0; i < bound->faces && used < b->frame->grid->dimension; i++) {
         const Face *face = &bound->face[i];
+        Profile *p = &profile[used];
         bool differs = i == 0 || face->distance < 1.0;
         for (int k = 0; k < used; k++) differs = differs && !field_same_way(face, own[k]) && !opposed(face, own[k]);
-        if (differs) own[used++] = face;
+        for (int a = 0; a < 3; a++) p->normal[a] = field_rounded(face->normal[a]);
+        if (differs && make_upright(profile, used)) own[used++] = face;
     }
-    if (used == 1) turn_normal(b, bound, turned);
+    const bool turns = used == 1 && clings(b->frame, bound);
+    const Turn turn = turns ? turn_of(b, bound) : (Turn){.bend = 0.0};
+    for (int a = 0; a < 3 && turns; a++) profile[0].normal[a] = profile[0].axis[a] = field_rounded(turn.normal[a]);
     for (int i = 0; i < used; i++) {
         Profile *p = &profile[i];
-        for (int a = 0; a < 3; a++) p->normal[a] = p->axis[a] = field_rounded(used == 1 ? turned[a] : own[i]->normal[a]);
-        for (int k = 0; k < i; k++) {
-            const double along = dot(p->axis, profile[k].axis);
-            for (int a = 0; a < 3; a++) p->axis[a] -= along * profile[k].axis[a];
-        }
-        const double length = sqrt(dot(p->axis, p->axis));
-        for (int a = 0; a < 3; a++) p->axis[a] /= length;
-        p->distance = field_rounded(own[i]->distance);
+        p->distance = field_rounded(own[i]->distance - turn.bend);
+        p->bend = turn.bend;
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
         obstacle_motion(own[i]->obstacle, own[i]->foot, b->frame->cell_size, b->frame->max_displacement, p->surface);
         owner[i] = own[i]->obstacle;
@@ -421,6 +460,7 @@ static void add_follower(Builder *b, uint32_t index)
     WallNode *node = (WallNode *)walls->node.data + index;
     node->own_mirror = 0.0f;
     node->open = bound->open;
+    if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
     node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB ? owner[0]->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
