@@ -159,7 +159,7 @@ def test_nothing_is_written_without_being_asked(scene_file: Path, tmp_path: Path
         (("run", "small.json", "--warmup-steps", "30"), "leaves no step"),
         (("run", "small.json", "--nonsense"), "--nonsense"),
         (("run", "bad.json"), "bad.json: fills[0].shape.half_extents"),
-        (("run", "empty.json"), "fills[0]: no particle fits"),
+        (("run", "empty.json"), "no point of its lattice"),
         (("accuracy", "quicksand"), "quicksand"),
         (("accuracy", "column", "--rates", "a"), "not a list of numbers"),
     ],

@@ -155,18 +155,17 @@ class Simulation:
 
     def _fill(self) -> None:
         for index, fill in enumerate(self.scene.fills):
-            added = self.world.fill(
-                shape_of(fill.shape),
-                self.materials[fill.material],
-                particles_per_axis=fill.particles_per_axis,
-                jitter=fill.jitter,
-                seed=fill.seed,
-                velocity=fill.velocity,
-            )
-            if added == 0:
-                raise InputError(
-                    f"{self.scene.name}: fills[{index}]: no particle fits into this shape inside the domain"
+            try:
+                self.world.fill(
+                    shape_of(fill.shape),
+                    self.materials[fill.material],
+                    particles_per_axis=fill.particles_per_axis,
+                    jitter=fill.jitter,
+                    seed=fill.seed,
+                    velocity=fill.velocity,
                 )
+            except pbmpm.InvalidArgumentError as problem:
+                raise InputError(f"{self.scene.name}: fills[{index}]: {problem}") from problem
 
     def _add_obstacles(self) -> None:
         self.colliders: list[pbmpm.Collider] = []
