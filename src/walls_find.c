@@ -610,9 +610,9 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
     const BindJob *job = context;
     const ContactFrame *frame = job->frame;
     for (int32_t block = first; block < end; block++) {
+        if (job->marks[block] == 0) continue;
         Bound *bound = job->bound + job->begin[block];
         Near near;
-        if (job->marks[block] == 0) continue;
         look_near_block(frame, block, &near);
         for (int i = 0; i < frame->grid->block_cells; i++) {
             if (!(job->marks[block] >> i & 1)) continue;
