@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "field.h"
 #include "inspect.h"
 #include "numbers.h"
 #include "result.h"
@@ -109,6 +110,7 @@ typedef struct Lattice {
     uint64_t size[3];
     uint64_t begin[3], end[3]; /* of it, where particles may be */
     bool whole;                /* all points there are where particles may be */
+    const Near *near;          /* obstacles that the shape may overlap; null: none */
 } Lattice;
 
 static double lattice_coordinate(const Lattice *lattice, int axis, uint64_t i) { return lattice->first[axis] + (double)i * lattice->spacing; }
@@ -148,7 +150,30 @@ static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice 
     return points <= LATTICE_LIMIT;
 }
 
-/* Moves a lattice point at random. False: it is out of range then. Jitter never leaves the domain. */
+/* Points that lie on an obstacle are not in it, by rounding [cells]. */
+static const double ON_OBSTACLE = 1e-4;
+
+/* Obstacles where they stand now; matter that is put into them would be pushed out to where there may be no room. */
+static void look_for_obstacles(World *world, Lattice *lattice, Near *near)
+{
+    const ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size};
+    double centre[3] = {0}, reach = 0.0;
+    const Domain none = {.enabled = false};
+    for (int a = 0; a < world->def.dimension; a++) {
+        if (lattice->begin[a] == lattice->end[a]) return;
+        const double low = lattice_coordinate(lattice, a, lattice->begin[a]), high = lattice_coordinate(lattice, a, lattice->end[a] - 1);
+        centre[a] = 0.5 * (low + high);
+        reach += 0.25 * (high - low) * (high - low);
+    }
+    colliders_begin_substep(&world->colliders, &none, world->def.dimension, 0, 1);
+    field_near(near, &frame, centre, sqrt(reach) / frame.cell_size + 1.0, false);
+    near->dimension = world->def.dimension; /* the grid of a new world has none yet */
+    if (near->count == 0) return;
+    lattice->near = near;
+    lattice->whole = false;
+}
+
+/* Moves a lattice point at random. False: it is out of range or in an obstacle then. Jitter never leaves the domain. */
 static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, const uint64_t index[3], double point[3])
 {
     const Domain *domain = &world->domain;
@@ -158,6 +183,7 @@ static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm
         if (domain->enabled) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
     }
     const float place[3] = {(float)point[0], (float)point[1], (float)point[2]};
+    if (lattice->near && field_distance(lattice->near, point) < -ON_OBSTACLE) return false;
     return domain->enabled || position_is_valid(world, place);
 }
 
@@ -262,12 +288,14 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generat
     pbmpm_result checked = check_fill(world, def);
     if (checked != PBMPM_OK) return checked;
     Lattice lattice;
+    Near near;
     if (!make_lattice(world, def, &lattice))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points in the domain");
+    look_for_obstacles(world, &lattice, &near);
     const uint64_t count = count_points(world, &lattice, def);
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
-    if (count == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: no point of its lattice is inside of it and of the domain");
+    if (count == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: no point of its lattice is inside of it and of the domain, and outside of all obstacles");
     checked = world_make_room_for(world, def->material.index);
     if (checked != PBMPM_OK) return checked;
     append_points(world, &lattice, def, generation);

@@ -214,6 +214,28 @@ static void test_fill_leaves_out_what_lies_outside_the_domain(void)
             TEST_ASSERT_TRUE(view_float(&position, i, a) >= 0.0f && view_float(&position, i, a) <= 1.0f);
 }
 
+/* As a stranger fills a pool: over what stands in it. */
+static void test_fill_leaves_out_what_lies_in_obstacles(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        const pbmpm_world_id world = empty_world(dimension);
+        const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+        const float spacing = 0.125f / 2, half = 4 * spacing;
+        pbmpm_fill_def fill;
+        uint32_t added = 0;
+        create_collider(world, box_shape(0, 0, 0, half, half, half), true);
+        OK(pbmpm_fill_def_init(&fill, sizeof fill));
+        fill.material = water;
+        fill.jitter = 0;
+        fill.shape = box_shape(0, 0, 0, 2 * half, 2 * half, 2 * half);
+        OK(pbmpm_particles_fill(world, &fill, &added));
+        TEST_ASSERT_EQUAL_UINT32(dimension == 3 ? 16 * 16 * 16 - 8 * 8 * 8 : 16 * 16 - 8 * 8, added);
+        fill.shape = box_shape(0, 0, 0, 0.5f * half, 0.5f * half, 0.5f * half);
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &added));
+        TEST_ASSERT_EQUAL_UINT32(0, added);
+    }
+}
+
 /* ---- removing ---- */
 
 static void test_remove_by_identifier(void)
@@ -476,6 +498,7 @@ int main(void)
     RUN_TEST(test_fill_depends_on_its_seed_only);
     RUN_TEST(test_fill_without_jitter_is_a_lattice);
     RUN_TEST(test_fill_leaves_out_what_lies_outside_the_domain);
+    RUN_TEST(test_fill_leaves_out_what_lies_in_obstacles);
     RUN_TEST(test_remove_by_identifier);
     RUN_TEST(test_remove_in_a_shape);
     RUN_TEST(test_views_keep_to_one_order);

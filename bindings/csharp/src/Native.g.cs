@@ -1685,9 +1685,9 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
-        /// one lattice cell. Lattice points outside the domain box are left out, and cost nothing; with a CAPACITY error nothing is added and `added`
+        /// one lattice cell. Lattice points outside the domain box, or in an obstacle where it stands now, are left out; with a CAPACITY error nothing is added and `added`
         /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
-        /// domain, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
+        /// domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
 

@@ -277,7 +277,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         """Fills a shape (not a plane) with particles on a jittered lattice.
 
         Args:
-            shape: what to fill; lattice points outside the domain are left out.
+            shape: what to fill; lattice points outside the domain or in an obstacle are left out.
             material: of the particles.
             particles_per_axis: lattice points per cell and axis, in [0.25, 16]; default 2.
             jitter: random offset as a share of the lattice spacing, in [0, 1]; default 0.5.
