@@ -179,7 +179,7 @@ static void *create_and_destroy(void *user)
 /* Slots that are taken make the search for a free one long, so that forks fall into it. */
 static void test_forks_while_other_threads_create_worlds(void)
 {
-#ifdef __SANITIZE_ADDRESS__
+#ifdef PBMPM_SANITIZED
     TEST_IGNORE_MESSAGE("AddressSanitizer's allocator itself hangs in the child of a process whose threads allocate");
 #endif
     enum { TAKEN = 150, CREATORS = 2, FORKS = 400 };
