@@ -412,9 +412,7 @@ static void test_threads_of_the_library_take_no_signals(void)
         TEST_ASSERT_EQUAL_HEX64(all, blocked_by(entry->d_name) & all); /* while a thread begins, libc blocks faults, too */
     }
     closedir(threads);
-#ifndef PBMPM_SANITIZED /* the thread sanitizer has a thread of its own */
-    TEST_ASSERT_EQUAL_INT(3, others);
-#endif
+    TEST_ASSERT_TRUE(others >= 3); /* the thread sanitizer has one of its own */
 }
 
 /* ---- what is refused ---- */
