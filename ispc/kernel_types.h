@@ -150,6 +150,9 @@ struct KernelArgs {
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
     K_PTR(float) fed;           /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
     int32_t may_feed;           /* whether it may give any */
+    K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
+    K_PTR(float) sketch[9];     /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */
+    float held_stiffness;       /* k of liquids in the joint solver; 0: they store energy */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */

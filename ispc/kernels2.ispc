@@ -80,3 +80,9 @@ export void force2(uniform struct KernelArgs *uniform args, uniform int begin, u
 export void force_nodes2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     force_node_blocks(*args, begin, end);
 }
+export void hold_pressure2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    hold_pressure_blocks(*args, begin, end);
+}
+export void end_sketch2(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    end_sketch_blocks(*args, begin, end);
+}

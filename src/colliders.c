@@ -328,6 +328,18 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
     return count;
 }
 
+/* Whether a node stays where it was taken; see joint.h. */
+static bool node_stays(const ContactFrame *frame, int32_t block, int node)
+{
+    return walls_list(frame->staying, (uint32_t)(block * frame->grid->block_cells + node)) && !(frame->solid[block] >> node & 1);
+}
+
+static Contact contact_that_stays(const ContactFrame *frame, int32_t block, int node)
+{
+    const uint16_t obstacle = walls_obstacle(frame->staying, (uint32_t)(block * frame->grid->block_cells + node), (uint16_t)frame->colliders->obstacle_count);
+    return (Contact){.node = (uint16_t)node, .obstacle = obstacle, .friction = PBMPM_FRICTION_STICK, .stays = true};
+}
+
 /* Contacts of one block's nodes; writes them if `out` is not null, and returns their number. */
 static uint32_t contacts_of_block(const ContactFrame *frame, const Around *around, int32_t block, Contact *out)
 {
@@ -340,6 +352,11 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *aroun
         const uint32_t first = count;
         double point[3], normal[3];
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
+        if (node_stays(frame, block, i)) {
+            if (out) out[count] = contact_that_stays(frame, block, i);
+            count++;
+            continue;
+        }
         if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > around->most) continue;
         contacts_node_position(frame, block, i, point);
         count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);

@@ -37,6 +37,7 @@ typedef struct Contact {
     bool active; /* while the primal solver works: see holds_find() */
     uint8_t group; /* of the body's contacts with about this normal, and */
     float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see holds_rub() */
+    bool stays; /* the node goes where `surface` says, see joint.h */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
     float normal[3];
@@ -102,6 +103,8 @@ typedef struct ContactFrame {
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
+    const struct Walls *staying; /* nodes that these list stay where they are taken, see joint.h; null: none */
+    const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, which walls leave to contacts; null: walls leave none */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */

@@ -6,13 +6,14 @@
 #include "depth.h"
 #include "dual_error.h"
 #include "guess.h"
+#include "joint.h"
 #include "result.h"
 #include "rounds.h"
 
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
 enum { CELL_ARRAYS = 5 };
 
-static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS; }
+static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS && !joint_is_chosen(world); }
 
 /* Whether bodies share the world with liquid or sand, or these with each other. Solids then take part in the guess of the pressure, which would push them as if they
  * had no stiffness, and take rounds by themselves. */
@@ -30,6 +31,7 @@ static int guess_iterations(const World *world)
 {
     enum { MOST = 4, MOST_OF_SAND = 3, FEW = 4 };
     const int iterations = world->settings.iterations, most = solver_holds_liquid(world) ? MOST : MOST_OF_SAND;
+    if (joint_is_chosen(world)) return iterations < most ? iterations : most;
     if ((!solver_holds_liquid(world) && !solver_holds_sand(world)) || iterations == 1) return 0;
     if (iterations < FEW && gravity_strength(world) == 0.0) return 0;
     return iterations < most ? iterations : most;
@@ -69,7 +71,7 @@ static double trusted_iterations(const World *world)
     return share * world->settings.iterations;
 }
 
-static bool takes_rounds(const World *world) { return guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
+static bool takes_rounds(const World *world) { return !joint_is_chosen(world) && guess_iterations(world) > 0 && !in_cells(world) && shares_world(world); }
 
 /* Whether solids take part in the guess: sand always, elastic bodies where they share the world with liquid. */
 static bool guesses_solids(const World *world)
@@ -219,6 +221,11 @@ static void guess(World *world, const ContactFrame *contacts, int iterations)
     a->probing = in_cells(world);
     push_guess(world, contacts, kernels->cells_carry);
     a->probing = 0;
+    if (joint_is_chosen(world)) {
+        joint_sketch(world, contacts);
+        solver_over_particles(world, kernels->solids_begin);
+        solver_over_nodes(world, kernels->solids_mean, NULL);
+    }
     const double before = guess_gain(world);
     guess_solve(world, contacts, iterations);
     push_guess(world, contacts, kernels->cells_add);
@@ -239,7 +246,7 @@ static double start(World *world, const ContactFrame *contacts)
     if (cells) {
         solver_over_particles(world, kernels->cells_begin);
         solver_over_nodes(world, kernels->cells_mean, NULL);
-        if (world->args.cell_strain) {
+        if (world->args.cell_strain && !joint_is_chosen(world)) {
             solver_over_particles(world, kernels->solids_begin);
             solver_over_nodes(world, kernels->solids_mean, NULL);
         }
@@ -376,11 +383,10 @@ void dual_set_sand(World *world, uint32_t slot, double c)
     KernelMaterial *material = &world->materials.kernel[slot];
     material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
     material->pascal = (float)fmin(1.0 / c, 1e30);
-    if (world->record.solver == PBMPM_SOLVER_DUAL) material->shear = fminf(material->shear, STIFFEST_SHEAR);
+    if (solver_uses_dual(world)) material->shear = fminf(material->shear, STIFFEST_SHEAR);
 }
 
-/* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */
-static double stiffness_of(const World *world, const pbmpm_material_def *def, double substep)
+double dual_stiffness_of(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double cells = substep / (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
     const double shear = 0.5 * (double)def->young_modulus / (1.0 + poisson);
@@ -393,7 +399,7 @@ static double stiffness_of(const World *world, const pbmpm_material_def *def, do
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
     if (def->kind == PBMPM_SAND) return 1.0;
-    const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
+    const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
@@ -428,7 +434,7 @@ static double most_asked(double each, double iterations)
 
 /* What n iterations ask for is M = (n / 2.5)^2, or most_asked() where that is more, which near n = 1 is thirty times as steep as n. So it is M that may rise by
  * the factor e in the time that a block of 8 cells takes for three of its slowest swings on a floor, each of four ways of its waves through it; they travel
- * n / 5 cells per substep (see stiffness_of()). The energy of a swing that stiffens slowly grows with its frequency (an adiabatic invariant: L. Landau,
+ * n / 5 cells per substep (see dual_stiffness_of()). The energy of a swing that stiffens slowly grows with its frequency (an adiabatic invariant: L. Landau,
  * E. Lifshitz, Mechanics, 1976, section 49), the root of M: by exp(1/6) per swing. Backward Euler takes from it the share (2 pi / T)^2 per substep of the T that a
  * swing has, exp(-4 pi^2 / T) per swing, which is exp(-1/4) at n = 1, T = 160, and more from there on. In one swing it would grow by exp(1/2), in two by as
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
@@ -443,7 +449,7 @@ double dual_stiffened(const World *world, double substep, double iterations)
 
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
-    const double stiffness = stiffness_of(world, def, substep), iterations = trusted_iterations(world);
+    const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     if (def->kind == PBMPM_SAND) return 1.0; /* it remembers what it bears, not strain: see ispc/granular.isph */
     if (shares_world(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);

@@ -27,6 +27,9 @@ Acceleration acceleration_begin(World *world);
 /* Sets args.momentum for the push that follows: 0 after the last iteration. */
 void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
 
+/* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */
+double dual_stiffness_of(const World *world, const pbmpm_material_def *def, double substep);
+
 /* The share of an elastic material's stiffness that the iterations of a substep can hold, and the share that they are asked for. */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);

@@ -126,4 +126,23 @@ static inline uint64_t grid_hash(const int32_t place[3])
     return mixed >> 32;
 }
 
+enum { GRID_NOWHERE = -1 };
+
+/* The node `way` from that at `local` in a node block, or GRID_NOWHERE: at most a block away. */
+static inline int64_t grid_node_beside(const Grid *grid, int32_t block, const int local[3], const int way[3])
+{
+    int at[3], side[3] = {1, 1, grid->dimension == 3 ? 1 : 0};
+    for (int a = 0; a < grid->dimension; a++) {
+        at[a] = local[a] + way[a];
+        if (at[a] < -K_BLOCK_AXIS || at[a] >= 2 * K_BLOCK_AXIS) return GRID_NOWHERE;
+        if (at[a] < 0) side[a] = 0;
+        if (at[a] >= K_BLOCK_AXIS) side[a] = 2;
+        at[a] &= K_BLOCK_AXIS - 1;
+    }
+    if (grid->dimension == 2) at[2] = 0;
+    const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
+    const int32_t other = neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
+    return other < 0 ? GRID_NOWHERE : (int64_t)other * grid->block_cells + (at[2] * K_BLOCK_AXIS + at[1]) * K_BLOCK_AXIS + at[0];
+}
+
 #endif

@@ -22,6 +22,8 @@
     DO(force_first, suffix)                                                                                             \
     DO(force, suffix)                                                                                                   \
     DO(force_nodes, suffix)                                                                                             \
+    DO(hold_pressure, suffix)                                                                                                \
+    DO(end_sketch, suffix)                                                                                               \
     DO(viscous, suffix)                                                                                                 \
     DO(viscous_nodes, suffix)                                                                                          \
     DO(drift, suffix)                                                                                                   \

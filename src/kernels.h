@@ -32,6 +32,8 @@ typedef struct Kernels {
     Kernel *force_first;   /* particle blocks: energies, their gradient and stiffness to nodes */
     Kernel *force;         /* particle blocks: energy and its gradient */
     Kernel *force_nodes;   /* node blocks: sums of the tiles */
+    Kernel *hold_pressure; /* particle blocks: what liquids press with while the primal solver works */
+    Kernel *end_sketch;    /* particle blocks: notes where the sketch has taken solids */
     Kernel *viscous;       /* particle blocks: G2P, viscous stress, P2G */
     Kernel *viscous_nodes; /* node blocks: a stage of viscosity */
     int lanes;             /* particles per gang */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "holds.h"
+#include "joint.h"
 #include "multistep.h"
 #include "primal_solve.h"
 #include "result.h"
@@ -77,8 +78,14 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
     }
     world->args.node_force = p.force;
     world->args.block_energy = state->block_energy.data;
-    world->args.fed = state->fed.data;
+    p.joint = joint_is_chosen(world);
+    world->args.fed = p.joint ? NULL : state->fed.data;
     return p;
+}
+
+const float *primal_gradient(const World *world)
+{
+    return (const float *)world->primal.vectors.data + (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * W;
 }
 
 /* ---- Passes over the nodes ---- */
@@ -569,13 +576,14 @@ static void find_friction(Primal *p)
     holds_group(p->contacts, state->bodies.of_block.data, body);
 }
 
-void primal_solve(World *world, const ContactFrame *contacts)
+/* Up to the iterations. */
+static Primal begin_solve(World *world, const ContactFrame *contacts)
 {
     Primal p = open_solve(world, contacts);
     find_friction(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
-    p.mixed = primal_is_mixed(world);
+    p.mixed = primal_is_mixed(world) && !p.joint;
     primal_over_blocks(&p, start);
     solver_over_particles(world, world->kernels->force_first);
     solver_over_nodes(world, world->kernels->force_nodes, NULL);
@@ -587,16 +595,31 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_note_stiffness(&p);
     multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     primal_choose_start(&p);
+    return p;
+}
+
+void primal_sketch(World *world, const ContactFrame *contacts)
+{
+    Primal p = begin_solve(world, contacts);
+    const uint32_t most = ((uint32_t)world->settings.iterations + 1) / 2;
+    uint32_t passes = 0;
+    while (passes < most && !solver_time_is_up(world) && primal_find_direction(&p) > 0.0 && descend(&p, &passes, most)) {}
+    primal_over_blocks(&p, write_motion);
+}
+
+void primal_solve(World *world, const ContactFrame *contacts)
+{
+    Primal p = begin_solve(world, contacts);
     lead(&p);
     minimise(&p);
-    primal_let_fly(&p);
+    if (!p.joint) primal_let_fly(&p);
     primal_keep_momentum(&p);
     primal_keep_energy(&p);
-    primal_find_kept(&p);
+    if (!p.joint) primal_find_kept(&p);
     forget_past(&p);
-    if (solver_holds_liquid(world) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
+    if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
-    holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
+    holds_book(contacts, p.gradient, p.best, p.joint ? p.node : primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
 }

@@ -46,6 +46,12 @@ static inline float primal_growth(float dilation) { return sqrtf(dilation) / 3.0
 pbmpm_result primal_prepare(World *world);
 void primal_free(World *world);
 
+/* The gradient of the energy where primal_sketch() or primal_solve() ended, per node. */
+const float *primal_gradient(const World *world);
+
+/* Half of the iterations, without checks and impulses: what the joint solver begins with. */
+void primal_sketch(World *world, const ContactFrame *contacts);
+
 void primal_solve(World *world, const ContactFrame *contacts);
 
 /* Before particles move: keeps what primal_calm() needs of them. */

@@ -9,6 +9,7 @@
 #include "dual.h"
 #include "explicit.h"
 #include "guess.h"
+#include "joint.h"
 #include "multistep.h"
 #include "paper.h"
 #include "plastic.h"
@@ -35,7 +36,7 @@ static const double CONTROL_SHARE = 0.2;
 static bool follows_grid(const World *world, uint32_t slot)
 {
     const bool sand = world->materials.kernel[slot].yields == K_SAND;
-    return material_flows(&world->materials.def[slot]) || (sand && world->record.solver == PBMPM_SOLVER_DUAL);
+    return material_flows(&world->materials.def[slot]) || (sand && solver_uses_dual(world));
 }
 
 static void set_volume_control(World *world, float dt)
@@ -54,9 +55,50 @@ static void set_volume_control(World *world, float dt)
 static const double CALM_SPEED = 2.4;
 
 /* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
+static double unit_of(const World *world, const pbmpm_material_def *def, float dt)
+{
+    const double cells = (double)dt / (double)world->def.cell_size;
+    return 4.0 * cells * cells / (double)def->density;
+}
+
+static void set_liquid(World *world, uint32_t slot, float dt, float stiffest)
+{
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    KernelMaterial *material = &world->materials.kernel[slot];
+    const double c = unit_of(world, def, dt);
+    const bool incompressible = def->bulk_modulus == 0.0f;
+    material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
+    if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
+    material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
+    material->rebound_max = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_growth(material->dilation) : FLT_MAX;
+    material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
+    material->pascal = (float)fmin(1.0 / c, 1e30);
+    material->viscous_share = (float)viscosity_share(world, def, (double)dt);
+}
+
+static void set_solid(World *world, uint32_t slot, float dt, bool by_dual)
+{
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    KernelMaterial *material = &world->materials.kernel[slot];
+    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
+    const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
+    double c = unit_of(world, def, dt);
+    material->relaxation = def->relaxation;
+    if (by_dual) {
+        c *= dual_stiffness_cap(world, def, (double)dt);
+        material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
+    } else if (joint_is_chosen(world)) {
+        c *= joint_stiffness_share(world, def, (double)dt);
+    }
+    material->shear = (float)fmin(c * shear, 1e30);
+    material->dilation = (float)fmin(c * lambda, 1e30);
+    if (material->yields == K_SAND) dual_set_sand(world, slot, c);
+    plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
+}
+
 static void set_moduli(World *world, float dt)
 {
-    const double cells = (double)dt / (double)world->def.cell_size, measure = guess_density(world);
+    const double measure = guess_density(world);
     const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_liquid_dilation(world, dt) : FLT_MAX;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
@@ -64,31 +106,21 @@ static void set_moduli(World *world, float dt)
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation;
         if (material_flows(def) || material->yields == K_SAND) material->volume_feedback = follows_grid(world, slot) ? solver_feedback_share(def, dt) : 0.0f;
-        double c = 4.0 * cells * cells / (double)def->density;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID) {
-            const bool incompressible = def->bulk_modulus == 0.0f;
-            material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
-            if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
-            material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
-            material->rebound_max = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_growth(material->dilation) : FLT_MAX;
-            material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
-            material->pascal = (float)fmin(1.0 / c, 1e30);
-            material->viscous_share = (float)viscosity_share(world, def, (double)dt);
-        } else {
-            const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
-            const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
-            if (world->record.solver == PBMPM_SOLVER_DUAL) {
-                c *= dual_stiffness_cap(world, def, (double)dt);
-                material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
-            }
-            material->shear = (float)fmin(c * shear, 1e30);
-            material->dilation = (float)fmin(c * lambda, 1e30);
-            if (material->yields == K_SAND) dual_set_sand(world, slot, c);
-            plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
-        }
+        if (material->kind == K_LIQUID)
+            set_liquid(world, slot, dt, stiffest);
+        else
+            set_solid(world, slot, dt, solver_uses_dual(world));
     }
 }
+
+void solver_set_solids(World *world, bool by_dual)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID) set_solid(world, slot, world->args.dt, by_dual);
+}
+
+
 
 /* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that
  * carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds r times as much and leaps. Made stiffer slowly it
@@ -99,7 +131,7 @@ static void follow_iterations(World *world, float dt)
 {
     static const double GROWTH = 1.04; /* per substep */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = world->record.solver == PBMPM_SOLVER_DUAL ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
+    const double risen = solver_uses_dual(world) ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -142,7 +174,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
                       .flip = world->settings.flip,
-                      .feedback_way = world->record.solver == PBMPM_SOLVER_DUAL ? calm_way : 0.0f,
+                      .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
                       .dt = dt,
                       .cells_per_metre = (float)cells_per_metre,
@@ -239,6 +271,7 @@ static const SolverKind kinds[] = {
     [PBMPM_SOLVER_DUAL] = {dual_prepare, dual_solve},
     [PBMPM_SOLVER_PRIMAL] = {primal_prepare, primal_solve},
     [PBMPM_SOLVER_EXPLICIT] = {explicit_prepare, explicit_solve},
+    [PBMPM_SOLVER_CONVERGENT] = {joint_prepare, joint_solve},
 };
 
 bool solver_holds_liquid(const World *world)
@@ -250,9 +283,13 @@ bool solver_holds_liquid(const World *world)
 
 bool solver_follows_walls(const World *world)
 {
-    const pbmpm_solver solver = world->record.solver;
-    if (solver != PBMPM_SOLVER_DUAL && solver != PBMPM_SOLVER_EXPLICIT) return false;
-    return solver_holds_liquid(world) || (solver == PBMPM_SOLVER_DUAL && world->settings.iterations == 1);
+    if (!solver_uses_dual(world) && world->record.solver != PBMPM_SOLVER_EXPLICIT) return false;
+    return solver_holds_liquid(world) || (solver_uses_dual(world) && world->settings.iterations == 1);
+}
+
+bool solver_uses_dual(const World *world)
+{
+    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == PBMPM_SOLVER_CONVERGENT;
 }
 
 /* Whether there are particles of sand. */
@@ -268,8 +305,8 @@ bool solver_holds_sand(const World *world)
  * 5e4 Pa that hangs into water stretches by 9 cm at 60 Hz x 5, as the converged solution, and by 42 with the dual. */
 pbmpm_solver solver_for(uint32_t matter)
 {
-    const bool by_dual = matter & KIND_SAND || matter == KIND_LIQUID;
-    return by_dual ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    if (matter & KIND_SAND || matter == KIND_LIQUID) return PBMPM_SOLVER_DUAL;
+    return matter & KIND_LIQUID ? PBMPM_SOLVER_CONVERGENT : PBMPM_SOLVER_PRIMAL;
 }
 
 static pbmpm_solver chosen(const World *world)

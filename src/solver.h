@@ -27,6 +27,12 @@ void solver_integrate(World *world, const ContactFrame *contacts);
 
 /* ---- For the solvers ---- */
 
+/* Whether the dual solver works in this substep, alone or with the primal. */
+bool solver_uses_dual(const World *world);
+
+/* Solids get the moduli that the dual solver is asked for, or the primal. */
+void solver_set_solids(World *world, bool by_dual);
+
 /* Runs a kernel over all particle blocks. */
 void solver_over_particles(World *world, Kernel *kernel);
 

@@ -7,6 +7,7 @@
 #include "clock.h"
 #include "depth.h"
 #include "islands.h"
+#include "joint.h"
 #include "open_volume.h"
 #include "result.h"
 #include "solver.h"
@@ -174,11 +175,13 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = contacts_measure(contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = joint_find_solids(world, contacts);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;
     }
     if (result == PBMPM_OK) result = contacts_find(contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = joint_find_contacts(world, contacts);
     if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
     if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
         result = fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the open shares of %d blocks", world->grid.node_blocks);

@@ -38,6 +38,12 @@ static uint32_t place_of(const Walls *walls, uint32_t node)
 
 bool walls_list(const Walls *walls, uint32_t node) { return place_of(walls, node) > 0; }
 
+uint16_t walls_obstacle(const Walls *walls, uint32_t node, uint16_t none)
+{
+    const WallNode *n = (const WallNode *)walls->node.data + place_of(walls, node) - 1;
+    return n->normals > 0 ? n->obstacle[0] : none;
+}
+
 bool walls_hold(const Walls *walls, uint32_t node)
 {
     const uint32_t place = place_of(walls, node);

@@ -518,7 +518,8 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         marks[block] = 0;
         for (int node = 0; node < grid->block_cells; node++)
-            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node))
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node) &&
+                !(job->frame->solid && job->frame->solid[block] >> node & 1))
                 marks[block] |= (uint64_t)1 << node;
     }
 }

@@ -9,6 +9,7 @@
 #include "dual.h"
 #include "guess.h"
 #include "numbers.h"
+#include "joint.h"
 #include "primal.h"
 #include "result.h"
 
@@ -151,6 +152,7 @@ void world_destroy(World *world)
     dual_free(world);
     guess_free(world);
     walls_free(&world->walls, &world->memory);
+    joint_free(world);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);
     islands_free(&world->islands, &world->memory);

@@ -82,6 +82,15 @@ typedef struct PrimalState {
     Multilevel multilevel;
 } PrimalState;
 
+/* What the joint solver keeps. */
+typedef struct JointState {
+    Array solid;                  /* uint64_t per node block: bit n, a solid reaches node n */
+    Array contact, contact_begin; /* of the primal's parts, as those of Colliders */
+    uint32_t contacts;
+    Array base, node;             /* the predictor, and displacements where a part begins */
+    Array particle;               /* held_pressure, then sketch of KernelArgs */
+} JointState;
+
 typedef struct World {
     pbmpm_world_def def;
     pbmpm_settings settings;
@@ -107,6 +116,7 @@ typedef struct World {
     GuessState guess;
     Walls walls;
     PrimalState primal;
+    JointState joint;
     Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see paper.c */
     double slow_iterations; /* follows the iterations down at once and up slowly, see solver.c; 0 before the first substep */

@@ -1,0 +1,216 @@
+#include "joint.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "dual.h"
+#include "primal.h"
+#include "result.h"
+#include "walls.h"
+
+enum { W = K_NODE_WIDTH, BLOCK_GRAIN = 8 };
+
+/* k: with as much as its own mass resists. From 0.1 to 4 floating bodies lay as deep. */
+static const float SHOVED = 1.0f;
+
+/* Most of c (2 mu + lambda) per square of the iterations. What is stiffer is not found among liquid, and light bodies of 1e8 Pa burst at 60 Hz x 5. Weight strains
+ * what is asked for this by less than a hundredth per 20 cells of depth at 60 Hz x 5. */
+static const double STIFFEST = 64.0;
+
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+{
+    const double n = (double)world->settings.iterations;
+    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(world, def, substep));
+}
+
+static size_t nodes_of(const World *world) { return (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells; }
+
+pbmpm_result joint_prepare(World *world)
+{
+    JointState *joint = &world->joint;
+    const size_t d = (size_t)world->def.dimension;
+    if (!array_reserve(&world->memory, &joint->base, nodes_of(world) * W, sizeof(float)) || !array_reserve(&world->memory, &joint->node, nodes_of(world) * W, sizeof(float)) ||
+        !array_reserve(&world->memory, &joint->particle, (1 + d * d) * world->particles.count, sizeof(float)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the joint solver on %d blocks", world->grid.node_blocks);
+    const pbmpm_result result = dual_prepare(world);
+    return result == PBMPM_OK ? primal_prepare(world) : result;
+}
+
+void joint_free(World *world)
+{
+    JointState *joint = &world->joint;
+    Array *arrays[] = {&joint->solid, &joint->contact, &joint->contact_begin, &joint->base, &joint->node, &joint->particle};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
+}
+
+/* ---- Which nodes solids reach ---- */
+
+/* Those that a particle of a cell reaches. */
+static void mark(const Grid *grid, int32_t block, int cell, uint64_t *solid)
+{
+    const int local[3] = {cell & 3, cell >> 2 & 3, cell >> 4}, deep = grid->dimension == 3;
+    int way[3];
+    for (way[2] = -deep; way[2] <= deep; way[2]++)
+        for (way[1] = -1; way[1] <= 1; way[1]++)
+            for (way[0] = -1; way[0] <= 1; way[0]++) {
+                const int64_t node = grid_node_beside(grid, block, local, way);
+                if (node != GRID_NOWHERE) solid[node / grid->block_cells] |= (uint64_t)1 << (node % grid->block_cells);
+            }
+}
+
+pbmpm_result joint_find_solids(World *world, ContactFrame *contacts)
+{
+    const Grid *grid = &world->grid;
+    const uint32_t *block_run = grid->block_run.data;
+    if (!array_reserve(&world->memory, &world->joint.solid, (size_t)grid->node_blocks, sizeof(uint64_t)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the solids of %d blocks", grid->node_blocks);
+    uint64_t *solid = world->joint.solid.data;
+    memset(solid, 0, (size_t)grid->node_blocks * sizeof *solid);
+    for (int32_t block = 0; block < grid->particle_blocks; block++)
+        for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+            if (material_is_solid(&world->materials, grid->run_key[run] >> K_RUN_CELL_BITS)) mark(grid, block, (int)(grid->run_key[run] & K_RUN_CELL_MASK), solid);
+    contacts->solid = solid;
+    return PBMPM_OK;
+}
+
+static bool is_solid(const World *world, int32_t block, size_t node) { return ((const uint64_t *)world->joint.solid.data)[block] >> node & 1; }
+
+/* ---- Contacts of the primal's parts ---- */
+
+/* Puts them in the place of the dual's, or back. */
+static void exchange_contacts(World *world)
+{
+    Colliders *colliders = &world->colliders;
+    JointState *joint = &world->joint;
+    const Array contact = colliders->contact, begin = colliders->contact_begin;
+    const uint32_t contacts = colliders->contacts;
+    colliders->contact = joint->contact;
+    colliders->contact_begin = joint->contact_begin;
+    colliders->contacts = joint->contacts;
+    joint->contact = contact;
+    joint->contact_begin = begin;
+    joint->contacts = contacts;
+}
+
+pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts)
+{
+    ContactFrame frame = *contacts;
+    frame.walls = NULL;
+    frame.staying = &world->walls;
+    exchange_contacts(world);
+    const pbmpm_result result = contacts_find(&frame, &world->memory, world->pool);
+    exchange_contacts(world);
+    return result;
+}
+
+/* Does something to each contact whose node stays. */
+static void for_staying(World *world, void (*act)(const World *world, Contact *contact, size_t at))
+{
+    const uint32_t *begin = world->colliders.contact_begin.data;
+    for (int32_t block = 0; block < world->grid.node_blocks && world->colliders.contacts > 0; block++)
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            Contact *contact = (Contact *)world->colliders.contact.data + i;
+            if (contact->stays) act(world, contact, ((size_t)block * (size_t)world->grid.block_cells + contact->node) * W);
+        }
+}
+
+static void stay_here(const World *world, Contact *contact, size_t at)
+{
+    memcpy(contact->surface, (const float *)world->grid.node.data + at, sizeof contact->surface);
+}
+
+/* ---- The sketch ---- */
+
+typedef void BlockPass(World *world, int32_t block, size_t begin, size_t end);
+
+typedef struct PassJob {
+    World *world;
+    BlockPass *pass;
+} PassJob;
+
+static void run_pass(void *context, int32_t begin, int32_t end)
+{
+    const PassJob *job = context;
+    const size_t floats = (size_t)job->world->grid.block_cells * W;
+    for (int32_t block = begin; block < end; block++) job->pass(job->world, block, (size_t)block * floats, ((size_t)block + 1) * floats);
+}
+
+static void over_blocks(World *world, BlockPass *pass)
+{
+    PassJob job = {world, pass};
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, run_pass, &job);
+}
+
+/* Solids start as they were moving: pressed by the liquid but without their own stress they would be far off. */
+static void start_solids(World *world, int32_t block, size_t begin, size_t end)
+{
+    float *node = world->grid.node.data, *before = world->joint.node.data;
+    memcpy(before + begin, node + begin, (end - begin) * sizeof *node);
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < 3 && is_solid(world, block, (i - begin) / W); c++)
+            node[i + c] = node[i + 3] > 0.0f ? world->args.node_before[i + c] - world->args.gravity[c] : 0.0f;
+}
+
+static void move_predictor(World *world, int32_t block, size_t begin, size_t end)
+{
+    const float *node = world->grid.node.data, *before = world->joint.node.data;
+    float *base = world->grid.node_base.data, *kept = world->joint.base.data;
+    (void)block;
+    memcpy(kept + begin, base + begin, (end - begin) * sizeof *base);
+    for (size_t i = begin; i < end; i++)
+        if (i % W != 3) base[i] += node[i] - before[i];
+}
+
+/* Forces of the primal on nodes that stay, m (u - u*) - gradient, of which the dual knows its own push. */
+static void push_staying(const World *world, Contact *contact, size_t at)
+{
+    const float *u = (const float *)world->grid.node.data + at, *gradient = primal_gradient(world) + at;
+    float *base = (float *)world->grid.node_base.data + at;
+    (void)contact;
+    for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] = u[c] - (gradient[c] + world->args.node_push[at + c]) / base[3];
+}
+
+static void begin_primal(World *world)
+{
+    exchange_contacts(world);
+    for_staying(world, stay_here);
+    solver_set_solids(world, false);
+    solver_over_particles(world, world->kernels->hold_pressure);
+}
+
+void joint_sketch(World *world, const ContactFrame *contacts)
+{
+    over_blocks(world, start_solids);
+    begin_primal(world);
+    primal_sketch(world, contacts);
+    solver_over_particles(world, world->kernels->end_sketch);
+    over_blocks(world, move_predictor);
+    for_staying(world, push_staying);
+    exchange_contacts(world);
+    solver_set_solids(world, true);
+}
+
+/* ---- The substep ---- */
+
+static void bind(World *world)
+{
+    const size_t count = world->particles.count, d = (size_t)world->def.dimension;
+    float *array = world->joint.particle.data;
+    world->args.held_stiffness = SHOVED;
+    world->args.held_pressure = array;
+    for (size_t r = 0; r < d; r++)
+        for (size_t c = 0; c < d; c++) world->args.sketch[r * 3 + c] = array + (1 + r * d + c) * count;
+}
+
+void joint_solve(World *world, const ContactFrame *contacts)
+{
+    const size_t bytes = nodes_of(world) * W * sizeof(float);
+    bind(world);
+    dual_solve(world, contacts);
+    memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
+    memcpy(world->joint.node.data, world->grid.node.data, bytes);
+    world->record.iterations_used = 0;
+    begin_primal(world);
+    walls_clear(&world->walls); /* contacts book what they give */
+    primal_solve(world, contacts);
+}

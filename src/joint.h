@@ -1,0 +1,43 @@
+/* The joint solver: islands of solids and liquid, see islands.h.
+ *
+ * A few iterations of the primal solver do not find the pressure of a pool, and a few of the dual hold little of what solids resist by shear. So each does what it
+ * can, on one grid (a partitioned method: C. Felippa, K. Park, C. Farhat, "Partitioned analysis of coupled mechanical systems", Comput. Methods Appl. Mech. Eng.
+ * 190, 2001):
+ *
+ *     sketch  the primal solves for solids, under the pressures p that liquids start the substep from, to v;
+ *     dual    finds the pressures. Its predictor is v without what p pushes, so it is at v before p changes, and solids resist by what they are strained beside v;
+ *     primal  solves again under the pressures found, from where they lead.
+ *
+ * In the primal's parts a liquid particle has the energy phi = y^2 / (2 k), y = max(0, p - k (tr D - tr D0)), D0 where the part begins: its pressure, and what it
+ * resists being shoved aside with. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
+ * stretches at 60 Hz x 5 as the converged solution does.
+ *
+ * Nodes that solids reach meet obstacles by contacts, in all parts. Nodes at walls that liquid alone reaches obey walls.h in the dual, and stay where it takes them.
+ * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
+#ifndef PBMPM_SRC_JOINT_H
+#define PBMPM_SRC_JOINT_H
+
+#include "solver.h"
+
+/* Whether it is the solver of this substep. */
+static inline bool joint_is_chosen(const World *world) { return world->record.solver == PBMPM_SOLVER_CONVERGENT; }
+
+/* The share of its stiffness that an elastic material among liquid gets. */
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+
+/* Takes memory for the blocks and particles of this substep. */
+pbmpm_result joint_prepare(World *world);
+void joint_free(World *world);
+
+/* Finds the nodes that solids reach, contacts->solid. */
+pbmpm_result joint_find_solids(World *world, ContactFrame *contacts);
+
+/* After the contacts of the dual's part: finds those of the primal's. */
+pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts);
+
+void joint_solve(World *world, const ContactFrame *contacts);
+
+/* In the dual's guess, once liquids have pushed with the pressures that they start from. */
+void joint_sketch(World *world, const ContactFrame *contacts);
+
+#endif
