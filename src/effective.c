@@ -5,6 +5,7 @@
 
 #include "dual.h"
 #include "islands.h"
+#include "joint.h"
 #include "paper.h"
 #include "primal.h"
 #include "solver.h"
@@ -33,12 +34,18 @@ static float bulk_of_liquid(const World *world, pbmpm_solver solver, const pbmpm
     return (float)(def->bulk_modulus == 0.0f ? most : fmin(most, (double)def->bulk_modulus));
 }
 
+/* What `solver` holds of a solid's stiffness. */
+static double share_of(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
+{
+    if (solver == PBMPM_SOLVER_DUAL) return dual_stiffness_share(world, def, substep);
+    return solver == PBMPM_SOLVER_CONVERGENT ? joint_stiffness_share(world, def, substep) : 1.0;
+}
+
 /* Solved by `solver`, among the particles that are counted now. */
 static pbmpm_effective of_material(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
 {
     if (def->kind == PBMPM_LIQUID) return (pbmpm_effective){.bulk_modulus = bulk_of_liquid(world, solver, def, substep), .kinematic_viscosity = def->kinematic_viscosity};
-    const double share = solver == PBMPM_SOLVER_DUAL ? dual_stiffness_share(world, def, substep) : 1.0;
-    const double young = share * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
+    const double young = share_of(world, solver, def, substep) * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
     const double shear = 0.5 * young / (1.0 + poisson), lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
     return (pbmpm_effective){.bulk_modulus = (float)(lambda + 2.0 * shear / world->def.dimension), .young_modulus = (float)young};
 }
@@ -60,7 +67,7 @@ static pbmpm_effective where_it_is(World *world, uint32_t slot, double substep)
     const uint32_t particles = *count;
     if (particles == 0) *count = 1;
     const uint32_t kinds = particles ? islands_kinds(world) : islands_kind(&world->materials, slot);
-    const pbmpm_solver solver = world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(kinds) : world->settings.solver;
+    const pbmpm_solver solver = world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(kinds, world->settings.iterations) : world->settings.solver;
     const pbmpm_effective effective = of_material(world, solver, &world->materials.def[slot], substep);
     *count = particles;
     return effective;

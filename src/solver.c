@@ -301,17 +301,17 @@ bool solver_holds_sand(const World *world)
 }
 
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep; and it reaches through any depth of liquid, which
- * stays incompressible. But solids get no more of their stiffness than its iterations hold: what liquid touches is solved with it by the primal. A jelly of
- * 5e4 Pa that hangs into water stretches by 9 cm at 60 Hz x 5, as the converged solution, and by 42 with the dual. */
-pbmpm_solver solver_for(uint32_t matter)
+ * stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch liquid the two work together, see joint.h; a single
+ * iteration finds no pressure that solids could float on, so there the primal takes all. */
+pbmpm_solver solver_for(uint32_t matter, int iterations)
 {
     if (matter & KIND_SAND || matter == KIND_LIQUID) return PBMPM_SOLVER_DUAL;
-    return matter & KIND_LIQUID ? PBMPM_SOLVER_CONVERGENT : PBMPM_SOLVER_PRIMAL;
+    return matter & KIND_LIQUID && iterations > 1 ? PBMPM_SOLVER_CONVERGENT : PBMPM_SOLVER_PRIMAL;
 }
 
 static pbmpm_solver chosen(const World *world)
 {
-    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(islands_kinds(world)) : world->settings.solver;
+    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(islands_kinds(world), world->settings.iterations) : world->settings.solver;
 }
 
 bool solver_wants_volume(const World *world)

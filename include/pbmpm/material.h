@@ -121,7 +121,8 @@ typedef struct pbmpm_effective {
                               stands for it at the depth of the last step. */
     float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
                               what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
-                              solver of the island that the particles are in now, of several the softest. */
+                              solver of the island that the particles are in now, of several the softest; among liquid at most what makes
+                              its pressure wave travel 4 N cells per substep. */
     float kinematic_viscosity; /**< liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
                                     N dx^2 / (8 dt); without what the transfers add */
     float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */

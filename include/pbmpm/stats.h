@@ -41,8 +41,8 @@ typedef struct pbmpm_stats {
     float lane_occupancy;         /**< share of SIMD lanes that held a particle; 1 is perfect */
     uint64_t deleted_total;       /**< particles deleted by the library since creation (never by calls) */
     uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
-    pbmpm_solver solver;          /**< that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: islands of matter with several. Then
-                                       iterations, residual and error are the largest, and checks that failed the sum */
+    pbmpm_solver solver;          /**< that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: with several. Of several
+                                       islands iterations, residual and error are the largest, and checks that failed the sum */
     pbmpm_stop stop;              /**< what ended its iterations */
     uint32_t iterations_used;     /**< by it; passes that a line search repeats and those that deep sand takes beyond the iterations set count too */
     float residual;               /**< its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver */

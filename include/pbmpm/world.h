@@ -53,25 +53,26 @@ typedef enum pbmpm_solver {
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
     PBMPM_SOLVER_CONVERGENT = 4, /**< default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
-                                      axis): solids alone, and solids with liquid, by the primal; liquid alone, and what sand is in, by the dual. Islands
-                                      that hold the same kinds are solved together, as if nothing else were there. Where the primal solves liquid, it
-                                      is as stiff at most as the weight of the liquid compresses it by 2 % at its depth, or as sound travels N cells per
-                                      substep, whichever is more: see pbmpm_material_effective(). While matter sleeps (settings.sleeping) all
-                                      of the world is one island. */
+                                      axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
+                                      finds the pressures, the primal moves solids under them, before and after. These take about twice as long as
+                                      with one solver. Islands that hold the same kinds are solved together, as if nothing else were there. A
+                                      single iteration leaves solids with liquid to the primal. While matter sleeps (settings.sleeping) all of the
+                                      world is one island. */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 
 /** Where the dual solver keeps the pressure of a liquid. */
 typedef enum pbmpm_pressure {
     PBMPM_PRESSURE_PARTICLES = 0, /**< calm: each particle keeps its volume; damps fine motion the more, the better it is solved */
-    PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless */
+    PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
+                                       PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it. */
     PBMPM_PRESSURE_FORCE32 = 0x7fffffff
 } pbmpm_pressure;
 
 /** How a substep follows from those before it. */
 typedef enum pbmpm_integrator {
     PBMPM_INTEGRATOR_EULER = 0, /**< backward Euler: first order in dt, damps rotation and oscillation */
-    PBMPM_INTEGRATOR_BDF2 = 1,  /**< second order, primal solver only: hardly damps them */
+    PBMPM_INTEGRATOR_BDF2 = 1,  /**< second order: hardly damps them. Where the primal solver works alone */
     PBMPM_INTEGRATOR_FORCE32 = 0x7fffffff
 } pbmpm_integrator;
 

@@ -163,11 +163,11 @@ namespace Pbmpm
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
         /// <summary>default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
-        /// axis): solids alone, and solids with liquid, by the primal; liquid alone, and what sand is in, by the dual. Islands
-        /// that hold the same kinds are solved together, as if nothing else were there. Where the primal solves liquid, it
-        /// is as stiff at most as the weight of the liquid compresses it by 2 % at its depth, or as sound travels N cells per
-        /// substep, whichever is more: see pbmpm_material_effective(). While matter sleeps (settings.sleeping) all
-        /// of the world is one island.</summary>
+        /// axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
+        /// finds the pressures, the primal moves solids under them, before and after. These take about twice as long as
+        /// with one solver. Islands that hold the same kinds are solved together, as if nothing else were there. A
+        /// single iteration leaves solids with liquid to the primal. While matter sleeps (settings.sleeping) all of the
+        /// world is one island.</summary>
         Convergent = 4,
     }
 
@@ -176,7 +176,8 @@ namespace Pbmpm
     {
         /// <summary>calm: each particle keeps its volume; damps fine motion the more, the better it is solved</summary>
         Particles = 0,
-        /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless</summary>
+        /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
+        /// PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it.</summary>
         Cells = 1,
     }
 
@@ -185,7 +186,7 @@ namespace Pbmpm
     {
         /// <summary>backward Euler: first order in dt, damps rotation and oscillation</summary>
         Euler = 0,
-        /// <summary>second order, primal solver only: hardly damps them</summary>
+        /// <summary>second order: hardly damps them. Where the primal solver works alone</summary>
         Bdf2 = 1,
     }
 
@@ -612,7 +613,8 @@ namespace Pbmpm
         public float BulkModulus;
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
         /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
-        /// solver of the island that the particles are in now, of several the softest.</summary>
+        /// solver of the island that the particles are in now, of several the softest; among liquid at most what makes
+        /// its pressure wave travel 4 N cells per substep.</summary>
         public float YoungModulus;
         /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
         /// N dx^2 / (8 dt); without what the transfers add</summary>
@@ -1253,8 +1255,8 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
-        /// <summary>that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: islands of matter with several. Then
-        /// iterations, residual and error are the largest, and checks that failed the sum</summary>
+        /// <summary>that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: with several. Of several
+        /// islands iterations, residual and error are the largest, and checks that failed the sum</summary>
         public Solver Solver;
         /// <summary>what ended its iterations</summary>
         public Stop Stop;

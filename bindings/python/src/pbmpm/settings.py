@@ -24,7 +24,7 @@ class Solver(enum.Enum):
     PRIMAL = ffi.integer_const("PBMPM_SOLVER_PRIMAL")
     #: explicit MLS-MPM, to compare with; liquids need a bulk modulus
     EXPLICIT = ffi.integer_const("PBMPM_SOLVER_EXPLICIT")
-    #: the default: per island of touching matter: liquid by itself and whatever sand touches by the dual, solids, also in liquid, by the primal
+    #: the default: per island of touching matter: liquid by itself and whatever sand touches by the dual, solids by the primal, solids in liquid by both
     CONVERGENT = ffi.integer_const("PBMPM_SOLVER_CONVERGENT")
 
 

@@ -46,7 +46,7 @@ class Stats:
     lane_occupancy: float  #: share of SIMD lanes that held a particle
     deleted_total: int  #: particles deleted by the library since creation
     clamped_total: int  #: times a particle was slowed to max_displacement since creation
-    solver: Solver  #: that the last substep was solved with; CONVERGENT: islands of matter with several
+    solver: Solver  #: that the last substep was solved with; CONVERGENT: with several
     stop: Stop  #: what ended its iterations
     iterations_used: int  #: by it; passes that a line search repeats and those of deep sand beyond the set ones count too
     residual: float  #: its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver
