@@ -5,6 +5,7 @@
 
 #include "concave.h"
 #include "numbers.h"
+#include "reach.h"
 #include "result.h"
 #include "walls.h"
 
@@ -26,6 +27,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     memory_give(memory, colliders->obstacle, OBSTACLES * sizeof(Obstacle));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
+    array_free(memory, &colliders->solid);
     array_free(memory, &colliders->open);
     array_free(memory, &colliders->gap);
     impulses_free(&colliders->impulses, memory);
@@ -331,7 +333,8 @@ static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *aro
 /* Whether a node stays where it was taken; see joint.h. */
 static bool node_stays(const ContactFrame *frame, int32_t block, int node)
 {
-    return walls_list(frame->staying, (uint32_t)(block * frame->grid->block_cells + node)) && !(frame->solid[block] >> node & 1);
+    const uint32_t at = (uint32_t)(block * frame->grid->block_cells + node);
+    return walls_list(frame->staying, at) && !reach_solid(frame, at);
 }
 
 static Contact contact_that_stays(const ContactFrame *frame, int32_t block, int node)
@@ -367,7 +370,11 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *aroun
             if (distance <= around->reach[k]) count += contacts_in_hollow(frame, o, u, point, i, distance, normal, out ? out + count : NULL);
         }
         const bool walled = walls_list(frame->walls, (uint32_t)(block * grid->block_cells + i));
-        for (uint32_t k = first; k < count && out; k++) out[k].walled = walled;
+        const bool rubs = reach_solid(frame, (uint32_t)(block * grid->block_cells + i));
+        for (uint32_t k = first; k < count && out; k++) {
+            out[k].walled = walled;
+            if (!rubs) out[k].coefficient = 0.0f;
+        }
     }
     return count;
 }

@@ -53,6 +53,7 @@ typedef struct Colliders {
     Array contact;       /* Contact */
     Array contact_begin; /* uint32_t per node block, and the end */
     uint32_t contacts;
+    Array solid;         /* uint64_t per node block: see ContactFrame.solid */
     Array open;          /* float per node: the share that is open */
     Array gap;           /* float per node with mass: how far [cells] the next surface is, negative inside; infinite where none is near */
 
@@ -104,7 +105,8 @@ typedef struct ContactFrame {
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
     const struct Walls *staying; /* nodes that these list stay where they are taken, see joint.h; null: none */
-    const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, which walls leave to contacts; null: walls leave none */
+    const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
+    bool apart;                  /* walls leave those nodes to contacts: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */

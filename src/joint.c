@@ -39,41 +39,9 @@ pbmpm_result joint_prepare(World *world)
 void joint_free(World *world)
 {
     JointState *joint = &world->joint;
-    Array *arrays[] = {&joint->solid, &joint->contact, &joint->contact_begin, &joint->base, &joint->node, &joint->particle};
+    Array *arrays[] = {&joint->contact, &joint->contact_begin, &joint->base, &joint->node, &joint->particle};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
 }
-
-/* ---- Which nodes solids reach ---- */
-
-/* Those that a particle of a cell reaches. */
-static void mark(const Grid *grid, int32_t block, int cell, uint64_t *solid)
-{
-    const int local[3] = {cell & 3, cell >> 2 & 3, cell >> 4}, deep = grid->dimension == 3;
-    int way[3];
-    for (way[2] = -deep; way[2] <= deep; way[2]++)
-        for (way[1] = -1; way[1] <= 1; way[1]++)
-            for (way[0] = -1; way[0] <= 1; way[0]++) {
-                const int64_t node = grid_node_beside(grid, block, local, way);
-                if (node != GRID_NOWHERE) solid[node / grid->block_cells] |= (uint64_t)1 << (node % grid->block_cells);
-            }
-}
-
-pbmpm_result joint_find_solids(World *world, ContactFrame *contacts)
-{
-    const Grid *grid = &world->grid;
-    const uint32_t *block_run = grid->block_run.data;
-    if (!array_reserve(&world->memory, &world->joint.solid, (size_t)grid->node_blocks, sizeof(uint64_t)))
-        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the solids of %d blocks", grid->node_blocks);
-    uint64_t *solid = world->joint.solid.data;
-    memset(solid, 0, (size_t)grid->node_blocks * sizeof *solid);
-    for (int32_t block = 0; block < grid->particle_blocks; block++)
-        for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
-            if (material_is_solid(&world->materials, grid->run_key[run] >> K_RUN_CELL_BITS)) mark(grid, block, (int)(grid->run_key[run] & K_RUN_CELL_MASK), solid);
-    contacts->solid = solid;
-    return PBMPM_OK;
-}
-
-static bool is_solid(const World *world, int32_t block, size_t node) { return ((const uint64_t *)world->joint.solid.data)[block] >> node & 1; }
 
 /* ---- Contacts of the primal's parts ---- */
 
@@ -144,10 +112,11 @@ static void over_blocks(World *world, BlockPass *pass)
 /* Solids start as they were moving: pressed by the liquid but without their own stress they would be far off. */
 static void start_solids(World *world, int32_t block, size_t begin, size_t end)
 {
+    const uint64_t *solid = world->colliders.solid.data;
     float *node = world->grid.node.data, *before = world->joint.node.data;
     memcpy(before + begin, node + begin, (end - begin) * sizeof *node);
     for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3 && is_solid(world, block, (i - begin) / W); c++)
+        for (size_t c = 0; c < 3 && solid[block] >> (i - begin) / W & 1; c++)
             node[i + c] = node[i + 3] > 0.0f ? world->args.node_before[i + c] - world->args.gravity[c] : 0.0f;
 }
 

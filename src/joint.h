@@ -29,9 +29,6 @@ double joint_stiffness_share(const World *world, const pbmpm_material_def *def, 
 pbmpm_result joint_prepare(World *world);
 void joint_free(World *world);
 
-/* Finds the nodes that solids reach, contacts->solid. */
-pbmpm_result joint_find_solids(World *world, ContactFrame *contacts);
-
 /* After the contacts of the dual's part: finds those of the primal's. */
 pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts);
 

@@ -9,6 +9,7 @@
 #include "islands.h"
 #include "joint.h"
 #include "open_volume.h"
+#include "reach.h"
 #include "result.h"
 #include "solver.h"
 
@@ -171,11 +172,12 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .max_displacement = world->settings.max_displacement,
                                .fall = gravity_fall(world, (double)world->args.dt),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
+                               .apart = solver == PBMPM_SOLVER_CONVERGENT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = contacts_measure(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = joint_find_solids(world, contacts);
+    if (result == PBMPM_OK && !by_ratio && solver_holds_liquid(world)) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;

@@ -1,10 +1,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "reach.h"
 #include "result.h"
 #include "walls_list.h"
-
-enum { NOWHERE = -1 };
 
 /* ---- Symmetric matrices ---- */
 
@@ -74,21 +73,6 @@ typedef struct Site {
     double point[3];
 } Site;
 
-static int64_t node_beside(const Grid *grid, int32_t block, const int local[3], const int way[3])
-{
-    int at[3], side[3] = {1, 1, grid->dimension == 3 ? 1 : 0};
-    for (int a = 0; a < 3; a++) {
-        at[a] = local[a] + way[a];
-        if (at[a] < -K_BLOCK_AXIS || at[a] >= 2 * K_BLOCK_AXIS) return NOWHERE;
-        if (at[a] < 0) side[a] = 0;
-        if (at[a] >= K_BLOCK_AXIS) side[a] = 2;
-        at[a] &= K_BLOCK_AXIS - 1;
-    }
-    const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
-    const int32_t other = neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
-    return other < 0 ? NOWHERE : (int64_t)other * grid->block_cells + (at[2] * K_BLOCK_AXIS + at[1]) * K_BLOCK_AXIS + at[0];
-}
-
 static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
 
 /* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
@@ -98,7 +82,7 @@ static float wetness(const Site *site, const Face *face)
     for (double before = 0.6; before < 1.5; before += 0.8) {
         int way[3];
         for (int a = 0; a < 3; a++) way[a] = (int)floor((before - face->distance) * face->normal[a] + 0.5);
-        most = fmaxf(most, mass_of(site->frame->grid, node_beside(site->frame->grid, site->block, site->local, way)));
+        most = fmaxf(most, mass_of(site->frame->grid, grid_node_beside(site->frame->grid, site->block, site->local, way)));
     }
     return most;
 }
@@ -210,11 +194,11 @@ static Turn turn_of(const Builder *b, const Bound *bound)
         for (int side = -1; side <= 1; side += 2) {
             int way[3] = {0};
             way[a] = side;
-            const int64_t other = node_beside(grid, bound->block, bound->local, way);
-            const Bound *beside = other == NOWHERE ? NULL : bound_at(b, other);
+            const int64_t other = grid_node_beside(grid, bound->block, bound->local, way);
+            const Bound *beside = other == GRID_NOWHERE ? NULL : bound_at(b, other);
             double distance = face->distance + side * face->normal[a];
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
-            if (!beside && other != NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
+            if (!beside && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
             smooth = smooth && beside && dot(face->normal, beside->face[0].normal) > SMOOTH;
             slope[a] += side * distance;
             curve += distance - face->distance;
@@ -328,9 +312,9 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
             share[k] *= up ? part[a] : 1.0 - part[a];
             for (int j = 0; j < count; j++) off[k][j] += offset[a] * profile[j].normal[a];
         }
-        node[k] = share[k] > 1e-6 ? node_beside(b->frame->grid, bound->block, bound->local, offset) : NOWHERE;
-        if (node[k] == NOWHERE) share[k] = 0.0;
-        const Bound *other = node[k] == NOWHERE ? NULL : bound_at(b, node[k]);
+        node[k] = share[k] > 1e-6 ? grid_node_beside(b->frame->grid, bound->block, bound->local, offset) : GRID_NOWHERE;
+        if (node[k] == GRID_NOWHERE) share[k] = 0.0;
+        const Bound *other = node[k] == GRID_NOWHERE ? NULL : bound_at(b, node[k]);
         if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
         if (other && other->face[0].distance < CLEAR && clear) share[k] = 0.0;
         for (int j = 0; j < count && clear; j++)
@@ -462,7 +446,7 @@ static void add_follower(Builder *b, uint32_t index)
     node->open = bound->open;
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
-    node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB ? owner[0]->coefficient : 0.0f;
+    node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner[0]->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
     walls->rubs = walls->rubs || node->coefficient > 0.0f;
     float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, b->frame->grid->dimension == 3 ? 1.0f : 0.0f};
@@ -507,6 +491,11 @@ static void look_near_block(const ContactFrame *frame, int32_t block, Near *near
     field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SEEN, false);
 }
 
+static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
+{
+    return frame->apart && reach_solid(frame, (uint32_t)(block * frame->grid->block_cells + node));
+}
+
 static bool is_held(const ContactFrame *frame, int32_t block, int node) { return frame->held && frame->held[block] >> node & 1; }
 
 /* Which nodes are at walls, as bits. */
@@ -518,8 +507,7 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         marks[block] = 0;
         for (int node = 0; node < grid->block_cells; node++)
-            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node) &&
-                !(job->frame->solid && job->frame->solid[block] >> node & 1))
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node) && !has_contacts(job->frame, block, node))
                 marks[block] |= (uint64_t)1 << node;
     }
 }

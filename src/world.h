@@ -84,7 +84,6 @@ typedef struct PrimalState {
 
 /* What the joint solver keeps. */
 typedef struct JointState {
-    Array solid;                  /* uint64_t per node block: bit n, a solid reaches node n */
     Array contact, contact_begin; /* of the primal's parts, as those of Colliders */
     uint32_t contacts;
     Array base, node;             /* the predictor, and displacements where a part begins */

@@ -1,0 +1,20 @@
+/* Which nodes solids reach: elastic matter, sand, and what yields.
+ *
+ * There matter rubs at walls. Coulomb's friction is that of dry matter: with the pressure of deep water it would hold it at walls like honey, and a jelly did not
+ * sink in a glass. What holds a liquid back is its viscosity, at walls that it sticks to. With the paper's solver all matter rubs. */
+#ifndef PBMPM_SRC_REACH_H
+#define PBMPM_SRC_REACH_H
+
+#include "colliders.h"
+
+/* Finds frame->solid. */
+pbmpm_result reach_find(ContactFrame *frame, const KernelMaterial *material, Memory *memory);
+
+/* Whether solids reach a node of the grid; of all of them where nobody looked. */
+static inline bool reach_solid(const ContactFrame *frame, uint32_t node)
+{
+    const uint32_t cells = (uint32_t)frame->grid->block_cells;
+    return !frame->solid || (frame->solid[node / cells] >> (node % cells) & 1);
+}
+
+#endif
