@@ -615,11 +615,11 @@ void primal_solve(World *world, const ContactFrame *contacts)
     if (!p.joint) primal_let_fly(&p);
     primal_keep_momentum(&p);
     primal_keep_energy(&p);
-    if (!p.joint) primal_find_kept(&p);
+    primal_find_kept(&p);
     forget_past(&p);
     if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
-    holds_book(contacts, p.gradient, p.best, p.joint ? p.node : primal_kept_motion(&p), p.base, p.slip_min);
+    holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
 }

@@ -101,7 +101,7 @@ uint32_t primal_check_bodies(Primal *p)
         }
         b->touches = b->touches || sum[7] > 0.0;
         if (block >= p->world->grid.particle_blocks) continue;
-        b->after += (double)energy[4 * block] + (double)energy[4 * block + 1];
+        b->after += (double)energy[4 * block] + (p->joint ? 0.0 : (double)energy[4 * block + 1]); /* the dual's liquid stores none */
         b->elastic += (double)energy[4 * block];
         b->liquid += (double)energy[4 * block + 1];
         b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];

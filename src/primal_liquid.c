@@ -128,7 +128,7 @@ void primal_find_kept(Primal *p)
     enum { HALVINGS = 3 };
     if (!solver_holds_liquid(p->world)) return;
     for (int halving = 0; halving <= HALVINGS && !all_can_pay(p); halving++) primal_pull_back_to(p, halving < HALVINGS ? 0.5f : 0.0f);
-    earn(p);
+    if (!p->joint) earn(p);
 }
 
 static float kept_of(const BodySum *body, int axis, float u)
@@ -185,7 +185,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         const BodySum *body = &bodies[of_block[block]];
         if (body->with_liquid && body->kept < 1.0f) calm_block(world, body, block);
-        if (world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
+        if (world->args.fed && world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
     }
 }
 
@@ -194,6 +194,6 @@ void primal_calm(World *world, const ContactFrame *contacts)
     primal_bounce(world, contacts);
     primal_turn(world);
     if (!solver_holds_liquid(world)) return;
-    spend(world);
+    if (world->args.fed) spend(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }

@@ -359,10 +359,11 @@ static void integrate_moving(void *context, int32_t begin, int32_t end)
 
 void solver_integrate(World *world, const ContactFrame *contacts)
 {
-    if (world->record.solver == PBMPM_SOLVER_PRIMAL) primal_before_going(world);
+    const bool by_primal = world->record.solver == PBMPM_SOLVER_PRIMAL || joint_is_chosen(world);
+    if (by_primal) primal_before_going(world);
     if (world->grid.still_blocks > 0)
         pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, integrate_moving, world);
     else
         solver_over_particles(world, world->kernels->integrate);
-    if (world->record.solver == PBMPM_SOLVER_PRIMAL) primal_calm(world, contacts);
+    if (by_primal) primal_calm(world, contacts);
 }
