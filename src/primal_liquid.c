@@ -36,18 +36,20 @@ float primal_liquid_dilation(const World *world, float dt)
 static const double ROUNDING = 1e-6; /* of the energy before, that no velocity has to pay for */
 
 /* The mean displacement that is left alone: primal_keep_momentum() gives that of the predictor to a body that leans on nothing. */
-static double mean_of(const BodySum *body, int axis)
+static double mean_of(const BodySum *body, bool joint, int axis)
 {
-    if (body->touches || !(body->mass > 0.0)) return 0.0;
+    if (!(body->mass > 0.0)) return 0.0;
+    if (joint) return body->moved[axis] / body->mass;
+    if (body->touches) return 0.0;
     return body->leans ? body->moved[axis] / body->mass : body->start[axis];
 }
 
 /* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
-static bool find_share(BodySum *body)
+static bool find_share(BodySum *body, bool joint)
 {
     double kinetic = body->kinetic;
     const double gain = body->after - body->before - body->work;
-    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, joint, c) * mean_of(body, joint, c);
     body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
     return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
 }
@@ -59,8 +61,8 @@ static bool all_can_pay(Primal *p)
     primal_check_bodies(p);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         body[i].kept = 1.0f;
-        body[i].failed = body[i].with_liquid && !find_share(&body[i]);
-        for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], c);
+        body[i].failed = body[i].with_liquid && !find_share(&body[i], p->joint);
+        for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], p->joint, c);
         can = can && !body[i].failed;
     }
     return can;
