@@ -164,8 +164,8 @@ namespace Pbmpm
         Explicit = 3,
         /// <summary>default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
         /// axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
-        /// finds the pressures, the primal moves solids under them, before and after. These take about twice as long as
-        /// with one solver. Islands that hold the same kinds are solved together, as if nothing else were there. A
+        /// finds the pressures, the primal moves solids under them, before and after, which takes half as long again as
+        /// one solver. Islands that hold the same kinds are solved together, as if nothing else were there. A
         /// single iteration leaves solids with liquid to the primal. While matter sleeps (settings.sleeping) all of the
         /// world is one island.</summary>
         Convergent = 4,
@@ -228,7 +228,8 @@ namespace Pbmpm
     /// <summary>What an obstacle does to motion along its surface.</summary>
     public enum Friction : int
     {
-        /// <summary>tangential impulse up to friction_coefficient times the normal impulse</summary>
+        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquids slip: their friction is viscosity, at
+        /// obstacles that they stick to. With the paper's solver they rub like the rest.</summary>
         Coulomb = 0,
         /// <summary>matter moves with the surface and cannot leave it</summary>
         Stick = 1,
