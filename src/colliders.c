@@ -228,7 +228,7 @@ static double reach_of(const ContactFrame *frame, const Obstacle *o, int32_t blo
     double motion = 0.0;
     for (int a = 0; a < 3; a++) motion += fabs((double)surface[a]);
     const double node = ((const float *)frame->grid->node_reach.data)[block] * sqrt((double)frame->grid->dimension);
-    return fmin(node, frame->max_displacement) + motion + (frame->walls ? WAY_MARGIN_AT_WALLS : WAY_MARGIN);
+    return fmin(node, frame->max_displacement) + motion + (frame->walls && !frame->apart ? WAY_MARGIN_AT_WALLS : WAY_MARGIN);
 }
 
 static Contact contact_at(const ContactFrame *frame, const Obstacle *o, const double point[3], int node, double distance,
@@ -337,10 +337,20 @@ static bool node_stays(const ContactFrame *frame, int32_t block, int node)
     return walls_list(frame->staying, at) && !reach_solid(frame, at);
 }
 
-static Contact contact_that_stays(const ContactFrame *frame, int32_t block, int node)
+/* In an edge each wall but the nearest books what it gives along its own normal, the nearest the rest. */
+static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int node, Contact *out)
 {
-    const uint16_t obstacle = walls_obstacle(frame->staying, (uint32_t)(block * frame->grid->block_cells + node), (uint16_t)frame->colliders->obstacle_count);
-    return (Contact){.node = (uint16_t)node, .obstacle = obstacle, .friction = PBMPM_FRICTION_STICK, .stays = true};
+    uint16_t obstacle[3] = {(uint16_t)frame->colliders->obstacle_count};
+    const float *normal[3];
+    const int faces = walls_faces(frame->staying, (uint32_t)(block * frame->grid->block_cells + node), obstacle, normal);
+    uint32_t count = 0;
+    for (int k = faces - 1; k > 0; k--, count++)
+        if (out) {
+            out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[k], .friction = PBMPM_FRICTION_SLIP, .stays = true};
+            memcpy(out[count].normal, normal[k], sizeof out[count].normal);
+        }
+    if (out) out[count] = (Contact){.node = (uint16_t)node, .obstacle = obstacle[0], .friction = PBMPM_FRICTION_STICK, .stays = true};
+    return count + 1;
 }
 
 /* Contacts of one block's nodes; writes them if `out` is not null, and returns their number. */
@@ -356,8 +366,7 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *aroun
         double point[3], normal[3];
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
         if (node_stays(frame, block, i)) {
-            if (out) out[count] = contact_that_stays(frame, block, i);
-            count++;
+            count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
             continue;
         }
         if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > around->most) continue;

@@ -16,7 +16,7 @@ enum { CELL_ARRAYS = 5 };
 static bool in_cells(const World *world) { return world->settings.pressure == PBMPM_PRESSURE_CELLS && !joint_is_chosen(world); }
 
 /* Whether bodies share the world with liquid or sand, or these with each other. Solids then take part in the guess of the pressure, which would push them as if they
- * had no stiffness, and take rounds by themselves. */
+ * had no stiffness, and take rounds by themselves but in the joint solver. */
 static bool shares_world(const World *world)
 {
     bool bodies = false;

@@ -10,11 +10,11 @@
 
 enum { W = K_NODE_WIDTH, BLOCK_GRAIN = 8 };
 
-/* k: with as much as its own mass resists. From 0.1 to 4 floating bodies lay as deep. */
+/* k: as much as its own mass resists. From 0.1 to 4 floating bodies lay as deep. */
 static const float SHOVED = 1.0f;
 
-/* Most of c (2 mu + lambda) per square of the iterations. What is stiffer is not found among liquid, and light bodies of 1e8 Pa burst at 60 Hz x 5. Weight strains
- * what is asked for this by less than a hundredth per 20 cells of depth at 60 Hz x 5. */
+/* Most of c (2 mu + lambda) per square of the iterations. Of what is stiffer the iterations find too little: light bodies of 1e8 Pa burst at 60 Hz x 5. At that rate
+ * 20 cells of water press what is held so by less than a hundredth. */
 static const double STIFFEST = 64.0;
 
 double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
@@ -30,7 +30,7 @@ pbmpm_result joint_prepare(World *world)
     JointState *joint = &world->joint;
     const size_t d = (size_t)world->def.dimension;
     if (!array_reserve(&world->memory, &joint->base, nodes_of(world) * W, sizeof(float)) || !array_reserve(&world->memory, &joint->node, nodes_of(world) * W, sizeof(float)) ||
-        !array_reserve(&world->memory, &joint->particle, (1 + d * d) * world->particles.count, sizeof(float)))
+        !array_reserve(&world->memory, &joint->particle, (1 + d * d) * world->particles.count + K_MAX_GANG, sizeof(float)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the joint solver on %d blocks", world->grid.node_blocks);
     const pbmpm_result result = dual_prepare(world);
     return result == PBMPM_OK ? primal_prepare(world) : result;
@@ -130,7 +130,7 @@ static void move_predictor(World *world, int32_t block, size_t begin, size_t end
         if (i % W != 3) base[i] += node[i] - before[i];
 }
 
-/* Forces of the primal on nodes that stay, m (u - u*) - gradient, of which the dual knows its own push. */
+/* Nodes that stay feel the force m (u - u*) - gradient. The dual knows a part of it: its own push. */
 static void push_staying(const World *world, Contact *contact, size_t at)
 {
     const float *u = (const float *)world->grid.node.data + at, *gradient = primal_gradient(world) + at;
@@ -171,15 +171,26 @@ static void bind(World *world)
         for (size_t c = 0; c < d; c++) world->args.sketch[r * 3 + c] = array + (1 + r * d + c) * count;
 }
 
+/* Both parts are reported as the worse of them. */
+static void report_with(StepRecord *record, const StepRecord *dual)
+{
+    if (record->stop == PBMPM_STOP_ERROR || dual->stop == PBMPM_STOP_TIME) record->stop = dual->stop;
+    record->iterations_used = dual->iterations_used > record->iterations_used ? dual->iterations_used : record->iterations_used;
+    record->residual = fmax(record->residual, dual->residual);
+    record->predicted_error = fmax(record->predicted_error, dual->predicted_error);
+}
+
 void joint_solve(World *world, const ContactFrame *contacts)
 {
     const size_t bytes = nodes_of(world) * W * sizeof(float);
     bind(world);
     dual_solve(world, contacts);
+    const StepRecord dual = world->record;
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     memcpy(world->joint.node.data, world->grid.node.data, bytes);
     world->record.iterations_used = 0;
     begin_primal(world);
     walls_clear(&world->walls); /* contacts book what they give */
     primal_solve(world, contacts);
+    report_with(&world->record, &dual);
 }

@@ -1,15 +1,15 @@
 /* The joint solver: islands of solids and liquid, see islands.h.
  *
- * A few iterations of the primal solver do not find the pressure of a pool, and a few of the dual hold little of what solids resist by shear. So each does what it
- * can, on one grid (a partitioned method: C. Felippa, K. Park, C. Farhat, "Partitioned analysis of coupled mechanical systems", Comput. Methods Appl. Mech. Eng.
- * 190, 2001):
+ * A few iterations of the primal solver do not find the pressure of a pool. A few of the dual hold little of what solids resist by shear. So each does what it can,
+ * on one grid (a partitioned method: C. Felippa, K. Park, C. Farhat, "Partitioned analysis of coupled mechanical systems", Comput. Methods Appl. Mech. Eng. 190,
+ * 2001):
  *
  *     sketch  the primal solves for solids, under the pressures p that liquids start the substep from, to v;
- *     dual    finds the pressures. Its predictor is v without what p pushes, so it is at v before p changes, and solids resist by what they are strained beside v;
+ *     dual    finds the pressures. It starts at v: its predictor is v less the push of p. Solids resist what strains them beside v;
  *     primal  solves again under the pressures found, from where they lead.
  *
- * In the primal's parts a liquid particle has the energy phi = y^2 / (2 k), y = max(0, p - k (tr D - tr D0)), D0 where the part begins: its pressure, and what it
- * resists being shoved aside with. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
+ * In the primal's parts a liquid particle has the energy phi = y^2 / (2 k) with y = max(0, p - k (tr D - tr D0)). D0 is its D where the part begins, and k what it
+ * resists with where solids shove it aside. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
  * stretches at 60 Hz x 5 as the converged solution does.
  *
  * Nodes that solids reach meet obstacles by contacts, in all parts. Nodes at walls that liquid alone reaches obey walls.h in the dual, and stay where it takes them.

@@ -577,9 +577,10 @@ static void find_friction(Primal *p)
 }
 
 /* Up to the iterations. */
-static Primal begin_solve(World *world, const ContactFrame *contacts)
+static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketches)
 {
     Primal p = open_solve(world, contacts);
+    p.sketches = sketches;
     find_friction(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
@@ -600,7 +601,7 @@ static Primal begin_solve(World *world, const ContactFrame *contacts)
 
 void primal_sketch(World *world, const ContactFrame *contacts)
 {
-    Primal p = begin_solve(world, contacts);
+    Primal p = begin_solve(world, contacts, true);
     const uint32_t most = ((uint32_t)world->settings.iterations + 1) / 2;
     uint32_t passes = 0;
     while (passes < most && !solver_time_is_up(world) && primal_find_direction(&p) > 0.0 && descend(&p, &passes, most)) {}
@@ -609,7 +610,7 @@ void primal_sketch(World *world, const ContactFrame *contacts)
 
 void primal_solve(World *world, const ContactFrame *contacts)
 {
-    Primal p = begin_solve(world, contacts);
+    Primal p = begin_solve(world, contacts, false);
     lead(&p);
     minimise(&p);
     if (!p.joint) primal_let_fly(&p);

@@ -122,7 +122,7 @@ uint32_t primal_check_bodies(Primal *p)
     return failed;
 }
 
-/* A mean motion may lead through a floor; a liquid that touches something starts from standing still. */
+/* A mean motion may lead through a floor; a liquid that touches something starts from standing still, or where the dual has ended. */
 static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
@@ -136,7 +136,7 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = p->joint ? ((const float *)p->world->joint.node.data)[i] : body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
+        const float start = p->joint && body->with_liquid ? ((const float *)p->world->joint.node.data)[i] : body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
         p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     holds_project(p->contacts, p->node, block, block + 1);
@@ -220,7 +220,7 @@ void primal_find_leaning(Primal *p)
     memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
         if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
-    if (!p->joint) primal_widen_gaps(p); /* bodies with liquid have no wider ones, and the dual needs the spare array */
+    if (!p->sketches) primal_widen_gaps(p); /* the dual needs the spare array */
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *body = primal_body_of(p, block);
         body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);

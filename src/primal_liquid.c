@@ -7,7 +7,8 @@
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
- * A solution that gained more than its kinetic energy is first moved towards the body's start. */
+ * A solution that gained more than its kinetic energy is first moved towards the body's start. In the joint solver it is always the mean that is left alone, and the
+ * start is where the dual has ended. */
 #include <float.h>
 #include <math.h>
 

@@ -77,7 +77,7 @@ typedef struct Primal {
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
-    bool joint;                             /* the dual has solved for both, see joint.h */
+    bool joint, sketches;                   /* the dual solves too, see joint.h, and has not yet */
     float share;                            /* of the step that is tried */
     double mass, energy, trial_energy, slope_before, slope_after;
     double total[SUMS];                     /* what the last pass added up */

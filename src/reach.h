@@ -1,7 +1,7 @@
 /* Which nodes solids reach: elastic matter, sand, and what yields.
  *
- * There matter rubs at walls. Coulomb's friction is that of dry matter: with the pressure of deep water it would hold it at walls like honey, and a jelly did not
- * sink in a glass. What holds a liquid back is its viscosity, at walls that it sticks to. With the paper's solver all matter rubs. */
+ * There matter rubs at walls. Coulomb's friction is that of dry matter. Fed with the pressure of deep water, it held the water at walls like honey: a jelly
+ * did not sink in a glass. What holds a liquid back is its viscosity, at walls that it sticks to. With the paper's solver all matter rubs. */
 #ifndef PBMPM_SRC_REACH_H
 #define PBMPM_SRC_REACH_H
 

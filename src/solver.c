@@ -120,8 +120,6 @@ void solver_set_solids(World *world, bool by_dual)
         if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID) set_solid(world, slot, world->args.dt, by_dual);
 }
 
-
-
 /* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that
  * carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds r times as much and leaps. Made stiffer slowly it
  * rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is (1 - 1/r) of what it held, whatever r is. Slowly: by

@@ -38,10 +38,14 @@ static uint32_t place_of(const Walls *walls, uint32_t node)
 
 bool walls_list(const Walls *walls, uint32_t node) { return place_of(walls, node) > 0; }
 
-uint16_t walls_obstacle(const Walls *walls, uint32_t node, uint16_t none)
+int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3])
 {
     const WallNode *n = (const WallNode *)walls->node.data + place_of(walls, node) - 1;
-    return n->normals > 0 ? n->obstacle[0] : none;
+    for (int k = 0; k < n->normals; k++) {
+        obstacle[k] = n->obstacle[k];
+        normal[k] = n->normal[k];
+    }
+    return n->normals;
 }
 
 bool walls_hold(const Walls *walls, uint32_t node)

@@ -43,8 +43,8 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
 
 /* Whether a node of the grid is listed, and whether its normal part follows others: then it has no contact of its own. `walls` may be null. */
 bool walls_list(const Walls *walls, uint32_t node);
-/* The obstacle that a listed node is nearest to, or `none`. */
-uint16_t walls_obstacle(const Walls *walls, uint32_t node, uint16_t none);
+/* The obstacles that a listed node is at, the nearest first, and their normals there. Returns their number. */
+int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3]);
 bool walls_hold(const Walls *walls, uint32_t node);
 
 /* Makes the displacements of the nodes admissible. In between contacts of nodes farther off are obeyed. `linear`: for responses, without the walls' own motion,
