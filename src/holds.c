@@ -413,7 +413,11 @@ double holds_work(const ContactFrame *frame, const float *gradient, const float 
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
         float slip[3];
-        if (!contact->active || (contact->stays && !is_held(contact))) continue; /* one contact counts all of a node that stays */
+        if (contact->stays) { /* its surface is its own motion: what walls do to all of them is the sum, with its sign */
+            work += is_held(contact) ? (double)along(gradient + node, contact->surface) : 0.0;
+            continue;
+        }
+        if (!contact->active) continue;
         const float rub = contact->limit > 0.0f ? rub_of(contact, slip_of(contact, u + node, slip), least) : 0.0f;
         const float rubbed = rub > 0.0f ? rub * along(slip, contact->surface) : 0.0f;
         work += fmax(0.0, (double)(along(gradient + node, contact->surface) - rubbed));

@@ -89,8 +89,7 @@ void holds_scale_booked(const ContactFrame *frame, int32_t block, double factor)
 double holds_rubbed(const ContactFrame *frame, const float *u, float least, int32_t block);
 
 /* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are
- * their own surfaces, and what walls press is counted where it drives them and not where it brakes. That is more than walls do. But without it, what transfers
- * take from waves would never come back by growth: a wave in a tank with a float died in 10 s, not by a fifth, and a heavy block sank 0.9 cells later. */
+ * their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
 double holds_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 
 /* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
