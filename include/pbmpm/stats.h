@@ -48,7 +48,7 @@ typedef struct pbmpm_stats {
     float residual;               /**< its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver */
     float predicted_error;        /**< root mean square distance of its displacements from the converged ones [cells], as predicted
                                        from the residual; 0 where residual is */
-    uint32_t energy_checks_failed; /**< primal: bodies of the last substep whose unfinished solution would have gained energy
+    uint32_t energy_checks_failed; /**< primal, alone or with the dual: bodies of the last substep whose unfinished solution would have gained energy
                                         and was replaced */
     uint32_t particles_asleep;     /**< particles that the last substep did not move because they sleep */
     uint32_t blocks_asleep;        /**< blocks that took no part in it; particle_blocks counts those that did */

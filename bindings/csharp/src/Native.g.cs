@@ -714,7 +714,7 @@ namespace Pbmpm
         public Float3 DomainMin;
         /// <summary>upper corner; at least 4 cells above domain_min per axis; default 1</summary>
         public Float3 DomainMax;
-        /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0</summary>
+        /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0. Liquids slip, see pbmpm_friction.</summary>
         public float DomainFriction;
         /// <summary>both functions null (default): the C library's</summary>
         public Allocator Allocator;
@@ -1268,7 +1268,7 @@ namespace Pbmpm
         /// <summary>root mean square distance of its displacements from the converged ones [cells], as predicted
         /// from the residual; 0 where residual is</summary>
         public float PredictedError;
-        /// <summary>primal: bodies of the last substep whose unfinished solution would have gained energy
+        /// <summary>primal, alone or with the dual: bodies of the last substep whose unfinished solution would have gained energy
         /// and was replaced</summary>
         public uint EnergyChecksFailed;
         /// <summary>particles that the last substep did not move because they sleep</summary>
