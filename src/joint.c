@@ -171,13 +171,11 @@ static void bind(World *world)
         for (size_t c = 0; c < d; c++) world->args.sketch[r * 3 + c] = array + (1 + r * d + c) * count;
 }
 
-/* Both parts are reported as the worse of them. */
-static void report_with(StepRecord *record, const StepRecord *dual)
+/* What ended both; residual and error are the primal's, for it goes on from what the dual left of solids. */
+static void note_dual(StepRecord *record, const StepRecord *dual)
 {
     if (record->stop == PBMPM_STOP_ERROR || dual->stop == PBMPM_STOP_TIME) record->stop = dual->stop;
     record->iterations_used = dual->iterations_used > record->iterations_used ? dual->iterations_used : record->iterations_used;
-    record->residual = fmax(record->residual, dual->residual);
-    record->predicted_error = fmax(record->predicted_error, dual->predicted_error);
 }
 
 void joint_solve(World *world, const ContactFrame *contacts)
@@ -192,5 +190,5 @@ void joint_solve(World *world, const ContactFrame *contacts)
     begin_primal(world);
     walls_clear(&world->walls); /* contacts book what they give */
     primal_solve(world, contacts);
-    report_with(&world->record, &dual);
+    note_dual(&world->record, &dual);
 }
