@@ -33,7 +33,7 @@ typedef struct pbmpm_world_def {
     int32_t domain_enabled;     /**< 0 (default): unbounded. 1: closed box, walls that hold matter in. */
     float domain_min[3];        /**< lower corner of the box [m], relative to the origin; default 0 */
     float domain_max[3];        /**< upper corner; at least 4 cells above domain_min per axis; default 1 */
-    float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0. Liquids slip, see pbmpm_friction. */
+    float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0; see pbmpm_friction */
     pbmpm_allocator allocator;  /**< both functions null (default): the C library's */
     pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
     int32_t domain_measures_impulse; /**< 1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing */

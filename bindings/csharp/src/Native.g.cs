@@ -228,8 +228,8 @@ namespace Pbmpm
     /// <summary>What an obstacle does to motion along its surface.</summary>
     public enum Friction : int
     {
-        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquids slip: their friction is viscosity, at
-        /// obstacles that they stick to. With the paper's solver they rub like the rest.</summary>
+        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquid slips where
+        /// PBMPM_SOLVER_CONVERGENT solves it together with solids.</summary>
         Coulomb = 0,
         /// <summary>matter moves with the surface and cannot leave it</summary>
         Stick = 1,
@@ -714,7 +714,7 @@ namespace Pbmpm
         public Float3 DomainMin;
         /// <summary>upper corner; at least 4 cells above domain_min per axis; default 1</summary>
         public Float3 DomainMax;
-        /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0. Liquids slip, see pbmpm_friction.</summary>
+        /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0; see pbmpm_friction</summary>
         public float DomainFriction;
         /// <summary>both functions null (default): the C library's</summary>
         public Allocator Allocator;
