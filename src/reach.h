@@ -1,8 +1,8 @@
 /* Which nodes solids reach: elastic matter, sand, and what yields.
  *
- * In the joint solver matter rubs at walls there alone. Coulomb's friction is that of dry matter. Fed with the pressure of deep water, it held the water at walls like honey: a jelly
- * did not sink in a glass. What holds a liquid back is its viscosity, at walls that it sticks to. Liquid by itself still rubs:
- * without friction what boxes crush leaves by a third faster than it may, and a particle passed a wall of one cell at 50 cells per step. */
+ * In the joint solver matter rubs at walls there alone. Coulomb's friction is that of dry matter. Fed with the pressure of deep water, it held the water at
+ * walls like honey: a jelly did not sink in a glass. What holds a liquid back is its viscosity, at walls that it sticks to. Liquid by itself still rubs:
+ * without friction, what boxes had crushed left them a third faster than it may. */
 #ifndef PBMPM_SRC_REACH_H
 #define PBMPM_SRC_REACH_H
 
