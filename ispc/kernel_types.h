@@ -147,6 +147,8 @@ struct KernelArgs {
     K_PTR(float) node_force;    /* per node block: the primal and the explicit solver, sum m w T (x_i - x_p); after the first pass also
                                    sum m w h as fourth value */
     K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
+    K_CONST_PTR(float) affine_kept; /* per particle block, null: 1; the share of their affine velocities that liquids keep, see
+                                      src/eddy_damping.h */
     K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
     K_PTR(float) fed;           /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
     int32_t may_feed;           /* whether it may give any */

@@ -9,6 +9,7 @@
 #include "joint.h"
 #include "result.h"
 #include "rounds.h"
+#include "eddy_damping.h"
 
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
 enum { CELL_ARRAYS = 5 };
@@ -93,7 +94,7 @@ pbmpm_result dual_prepare(World *world)
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
     if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_strain, nodes, sizeof(float));
     if (ok && takes_rounds(world)) ok = rounds_reserve(world);
-    ok = ok && dual_error_prepare(world);
+    ok = ok && dual_error_prepare(world) && eddy_damping_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     const pbmpm_result result = guess_prepare(world);
     return result == PBMPM_OK ? particles_enable_pressure(&world->particles, &world->memory) : result;
@@ -107,6 +108,7 @@ void dual_free(World *world)
                        &dual->cell_change2, &dual->cell_uphill, &rounds->solid, &rounds->touched, &rounds->mark};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     dual_error_free(world);
+    eddy_damping_free(world);
 }
 
 static float smallest_relaxation(const World *world)
@@ -372,6 +374,7 @@ void dual_solve(World *world, const ContactFrame *contacts)
     rounds_run(world, contacts, (rounds + 1) / 2);
     iterate_all(world, contacts, mass);
     rounds_run(world, contacts, rounds / 2);
+    eddy_damping_find(world);
 }
 
 /* F holds the deviator that sand bears as c mu times a strain, to 2^-23 c mu: with this modulus to 1e-3, a hundredth of the pressure below one cell at 60 Hz. What

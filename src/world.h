@@ -45,11 +45,19 @@ typedef struct RoundsState {
     int32_t solids, touches;
 } RoundsState;
 
+/* See eddy_damping.h. */
+typedef struct EddyDamping {
+    Bodies bodies;
+    Array sums, body_sums; /* per node block, and per body */
+    Array kept;            /* see KernelArgs.affine_kept */
+} EddyDamping;
+
 /* What the dual solver keeps. */
 typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_strain, cell_change2, cell_uphill; /* see KernelArgs */
     Array kept, moved2; /* displacements and, per node block, what they changed; see dual_error.h */
     RoundsState rounds;
+    EddyDamping eddy_damping;
 } DualState;
 
 /* What the guess of the pressure keeps. */
