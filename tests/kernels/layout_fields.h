@@ -9,7 +9,7 @@
     FIELD(fraction) FIELD(cell) FIELD(velocity) FIELD(affine) FIELD(volume_ratio) FIELD(mass) FIELD(deformation)      \
     FIELD(identity) FIELD(past_velocity) FIELD(past_affine) FIELD(past_way) FIELD(past_turn) FIELD(past_dt) FIELD(status) FIELD(run_begin) FIELD(run_key) FIELD(block_run) FIELD(neighbour) FIELD(particle_blocks) FIELD(tile) FIELD(tile_volume)   \
     FIELD(node) FIELD(node_base) FIELD(node_before) FIELD(node_volume) FIELD(node_density) FIELD(node_reach) FIELD(edged) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(drift) FIELD(pressure) FIELD(pressure_old) FIELD(stress) FIELD(stress_old) FIELD(node_push) \
-    FIELD(change2) FIELD(uphill) FIELD(node_force) FIELD(block_share) FIELD(block_energy) FIELD(fed) FIELD(may_feed) FIELD(held_pressure) FIELD(sketch) FIELD(held_stiffness) FIELD(cell_mass) FIELD(cell_growth) FIELD(cell_strain) FIELD(settle) FIELD(elastic_guesses) FIELD(cell_softness) \
+    FIELD(change2) FIELD(uphill) FIELD(node_force) FIELD(block_share) FIELD(affine_kept) FIELD(block_energy) FIELD(fed) FIELD(may_feed) FIELD(held_pressure) FIELD(sketch) FIELD(held_stiffness) FIELD(cell_mass) FIELD(cell_growth) FIELD(cell_strain) FIELD(settle) FIELD(elastic_guesses) FIELD(cell_softness) \
     FIELD(cell_pressure) FIELD(cell_pressure_old) FIELD(cell_trace) FIELD(cell_change2) FIELD(cell_uphill) FIELD(probing) FIELD(cell_relaxation) FIELD(stage_last) FIELD(stage_before) \
     FIELD(stage_change) FIELD(momentum) FIELD(fine_carried) FIELD(growth_max) FIELD(material) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) \
     FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)

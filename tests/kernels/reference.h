@@ -37,6 +37,7 @@ typedef struct RefStep {
     double excess;       /* of the volume that J claims in the block, see reference_excess() */
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
     bool weighs;         /* liquids differ in density: they count what is lighter by its mass */
+    double affine_lost;  /* share of their affine velocities that eddy damping takes from liquids */
     double flip;         /* share of the motion lost in the transfers that liquids keep */
     double feedback_way; /* [cells] that matter goes where feedback is full; 0: everywhere */
     double quiet_way;    /* the same where feedback grows with the square of the way; 0: see feedback_way */

@@ -145,7 +145,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     if (spec->max_displacement > 0.0f) scene.world->settings.max_displacement = spec->max_displacement;
     for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
     add_materials(scene.world, spec);
-    scene.step = (RefStep){.dimension = dimension, .edged = spec->edged, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
+    scene.step = (RefStep){.dimension = dimension, .edged = spec->edged, .affine_lost = (double)spec->affine_lost, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
     add_particles(&scene, spec, seed);
     scene_bind(&scene, spec->check_strain);
     return scene;
@@ -154,6 +154,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
 void scene_close(Scene *scene)
 {
     world_destroy(scene->world);
+    free(scene->affine_kept);
     *scene = (Scene){0};
 }
 
@@ -184,6 +185,15 @@ static void find_extent(Scene *scene)
     }
 }
 
+static void keep_affine(Scene *scene)
+{
+    World *world = scene->world;
+    if (scene->step.affine_lost == 0.0) return;
+    scene->affine_kept = realloc(scene->affine_kept, (size_t)world->grid.particle_blocks * sizeof *scene->affine_kept);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) scene->affine_kept[block] = (float)(1.0 - scene->step.affine_lost);
+    world->args.affine_kept = scene->affine_kept;
+}
+
 void scene_bind(Scene *scene, bool check_strain)
 {
     World *world = scene->world;
@@ -194,6 +204,7 @@ void scene_bind(Scene *scene, bool check_strain)
     solver_bind(world, TIME_STEP, with_volume);
     if (world->record.solver == PBMPM_SOLVER_PAPER) set_materials(scene);
     for (int32_t block = 0; with_volume && block < world->grid.node_blocks; block++) ((uint32_t *)world->grid.edged.data)[block] = scene->step.edged;
+    keep_affine(scene);
     const KernelArgs *args = &world->args;
     scene->step.dt = (double)args->dt;
     scene->step.cells_per_metre = (double)args->cells_per_metre;

@@ -103,6 +103,19 @@ static void check_predictor(const SceneSpec *spec)
     check_report(spec->name);
 }
 
+/* Of liquids, and of nothing else. */
+static void test_eddy_damping(void)
+{
+    static const float lost[] = {0.3f, 1.0f};
+    for (int i = 0; i < 2; i++) {
+        SceneSpec spec = scene_of("eddy damping", PBMPM_LIQUID);
+        spec.material[1] = scene_material(PBMPM_ELASTIC);
+        spec.materials = 2;
+        spec.affine_lost = lost[i];
+        stages_check_spec(&spec, 1);
+    }
+}
+
 /* Full and hardly strained, as in a pool that stirs, up to strong strain: shares that go with the strain, and those that do not any more. */
 static void test_volume_control(void)
 {
@@ -279,6 +292,7 @@ int main(void)
     RUN_TEST(test_viscosity);
     RUN_TEST(test_liquid_at_all_densities);
     RUN_TEST(test_volume_feedback);
+    RUN_TEST(test_eddy_damping);
     RUN_TEST(test_volume_control);
     RUN_TEST(test_crowded_liquid_grows_slowly);
     RUN_TEST(test_feedback_stores_what_it_may);
