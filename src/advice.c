@@ -306,63 +306,58 @@ static void pool_too_deep(Adviser *adviser)
     }
 }
 
-/* Whether nodes lie on a plane along an axis. */
-static bool on_lines(double at, double cell)
+/* Whether faces with this normal lean: neither level nor upright. */
+static bool leans(const World *world, const double normal[3])
 {
     static const double ROUNDING = 1e-3;
-    return fabs(at / cell - round(at / cell)) < ROUNDING;
+    double along = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) along += normal[a] * (double)world->settings.gravity[a] / gravity_strength(world);
+    return fabs(along) > ROUNDING && fabs(along) < 1.0 - ROUNDING;
 }
 
-/* Whether an obstacle is a half space or a box with its faces there. */
-static bool fits_grid(const Solid *s, double cell)
+static bool solid_leans(const World *world, const Solid *s)
 {
-    double offset = 0.0;
-    if (s->kind != PBMPM_PLANE && s->kind != PBMPM_BOX) return false;
-    for (int r = 0; r < s->dimension; r++) {
-        if (s->kind == PBMPM_PLANE) {
-            if (fabs(s->normal[r]) > 1e-4 && fabs(s->normal[r]) < 1.0 - 1e-4) return false;
-            offset += s->normal[r] * s->position[r];
-            continue;
-        }
-        for (int c = 0; c < s->dimension; c++)
-            if (fabs(s->rotation[3 * r + c]) > 1e-4 && fabs(s->rotation[3 * r + c]) < 1.0 - 1e-4) return false;
-        double half = 0.0;
-        for (int c = 0; c < s->dimension; c++) half += fabs(s->rotation[3 * r + c]) * s->half_extents[c];
-        if (!on_lines(s->position[r] - half, cell) || !on_lines(s->position[r] + half, cell)) return false;
+    if (s->kind == PBMPM_PLANE) return leans(world, s->normal);
+    if (s->kind != PBMPM_BOX) return true;
+    for (int c = 0; c < s->dimension; c++) {
+        double normal[3] = {0};
+        for (int r = 0; r < s->dimension; r++) normal[r] = s->rotation[3 * r + c];
+        if (leans(world, normal)) return true;
     }
-    return s->kind == PBMPM_BOX || on_lines(offset, cell);
+    return false;
 }
 
-static bool walls_fit_grid(const World *world)
+static bool some_wall_leans(const World *world)
 {
-    const double cell = (double)world->def.cell_size;
     const int dimension = world->def.dimension;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (collider->generation == 0) continue;
         const Solid solid = collider_obstacle(collider, dimension, 0, 1).start;
-        if (collider->def.kinematic || !fits_grid(&solid, cell)) return false;
+        if (solid_leans(world, &solid)) return true;
     }
-    for (int a = 0; a < dimension && world->domain.enabled; a++)
-        if (!on_lines(world->domain.low[a], cell) || !on_lines(world->domain.high[a], cell)) return false;
-    return true;
+    for (int a = 0; a < dimension && world->domain.enabled; a++) {
+        double normal[3] = {0};
+        normal[a] = 1.0;
+        if (leans(world, normal)) return true;
+    }
+    return false;
 }
 
-/* What is missing from the pressure of a step moves a pool by a share of g dt^2 depth / dx^2. Pools of 12 cells of 5 cm, where it is 0.65 at 60 Hz x 5, come to rest
- * between walls on the lines of the grid, and circle at 2 cm/s between others; of 16 cells they circle at 5 to 10 cm/s after a minute. Told from 15 such cells on, elsewhere
- * from 8 on. */
-static const double CALM = 0.8, CALM_OFF_GRID = 0.4, CALM_ITERATIONS = 50.0;
+/* What is missing from the pressure of a step moves a pool by a share of g dt^2 depth / dx^2. Pools between level and upright walls rest, on and off the lines of the
+ * grid, at less than 1 cm/s up to 1.1 (20 cells of 5 cm at 60 Hz x 5) and at 2 to 4 cm/s with 1.9. Round and leaning walls stir pools of 12 cells, where it is 0.65, at 1 to 12 cm/s. */
+static const double CALM = 1.2, CALM_AT_LEANING_WALLS = 0.4, CALM_ITERATIONS = 50.0;
 
 static void pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
     if (world->settings.iterations >= CALM_ITERATIONS) return;
-    const double bound = walls_fit_grid(world) ? CALM : CALM_OFF_GRID;
+    const double bound = gravity_strength(world) > 0.0 && some_wall_leans(world) ? CALM_AT_LEANING_WALLS : CALM;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double figure = gravity_fall(world, adviser->substep) * adviser->survey.heap[slot].depth;
         if (!flows(&world->materials.def[slot]) || solver_of(world, slot) != PBMPM_SOLVER_DUAL || figure <= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = id_of(world, slot), .figure = (float)figure, .bound = (float)bound,
-                               .text = bound < CALM ? "water this deep goes on circling at walls off the lines of the grid, at this rate and so few iterations"
+                               .text = bound < CALM ? "water this deep goes on circling at walls that lean or are round, at this rate and so few iterations"
                                                     : "a pool this deep goes on circling slowly at this rate and so few iterations"};
         by_substeps(adviser, sqrt(figure / bound), &advice);
         give(adviser, advice);
@@ -656,27 +651,67 @@ static void not_solved(Adviser *adviser)
     give(adviser, advice);
 }
 
+/* Before the first step: later it is what was crushed. */
+static void overlaps(Adviser *adviser)
+{
+    static const double FEW = 0.01;
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count == 0; slot++) {
+        const double share = adviser->survey.heap[slot].overlapping;
+        if (share <= FEW) continue;
+        give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_OVERLAPS, .material = id_of(world, slot), .figure = (float)share, .bound = (float)FEW,
+                                     .text = "matter was put where there is other matter: it is crushed, and bursts or loses volume; remove what is there, or put it elsewhere"});
+    }
+}
+
+static void tell_limit(Adviser *adviser, uint32_t slot, const char *text)
+{
+    give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = id_of(adviser->world, slot), .text = text});
+}
+
+static bool sinks(const World *world, const pbmpm_material_def *body)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (present(world, slot) && flows(&world->materials.def[slot]) && world->materials.def[slot].density < body->density) return true;
+    return false;
+}
+
+/* Motion is one per node: what lies between two of them moves with both. */
+static void known_limits(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        if (!present(world, slot) || flows(def) || world->settings.solver == PBMPM_SOLVER_PAPER) continue;
+        if (def->kind == PBMPM_SAND && any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
+        if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND)) tell_limit(adviser, slot, "bodies sink into sand that they lie on, by one to three cells");
+        if (def->kind != PBMPM_SAND && sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above what it sinks onto: the liquid between does not leave");
+    }
+}
+
 static const struct {
     pbmpm_advice_code code;
-    const char *name;
+    const char *name, *unit;
     void (*rule)(Adviser *adviser);
 } rules[] = {
-    {PBMPM_ADVICE_NO_GRAVITY, "PBMPM_ADVICE_NO_GRAVITY", no_gravity},
-    {PBMPM_ADVICE_FALLS_FOREVER, "PBMPM_ADVICE_FALLS_FOREVER", falls_forever},
-    {PBMPM_ADVICE_IGNORED, "PBMPM_ADVICE_IGNORED", ignored_parameters},
-    {PBMPM_ADVICE_POOL_TOO_DEEP, "PBMPM_ADVICE_POOL_TOO_DEEP", pool_too_deep},
-    {PBMPM_ADVICE_POOL_STIRS, "PBMPM_ADVICE_POOL_STIRS", pool_stirs},
-    {PBMPM_ADVICE_MODULUS_NOT_HELD, "PBMPM_ADVICE_MODULUS_NOT_HELD", modulus_not_held},
-    {PBMPM_ADVICE_SAND_NOT_HELD, "PBMPM_ADVICE_SAND_NOT_HELD", sand_not_held},
-    {PBMPM_ADVICE_BODY_TOO_THIN, "PBMPM_ADVICE_BODY_TOO_THIN", body_too_thin},
-    {PBMPM_ADVICE_BOUNCE_DAMPED, "PBMPM_ADVICE_BOUNCE_DAMPED", bounce_damped},
-    {PBMPM_ADVICE_ROLLING_BRAKED, "PBMPM_ADVICE_ROLLING_BRAKED", rolling_braked},
-    {PBMPM_ADVICE_COLLIDER_TOO_FAST, "PBMPM_ADVICE_COLLIDER_TOO_FAST", collider_too_fast},
-    {PBMPM_ADVICE_COLLIDER_TOO_THIN, "PBMPM_ADVICE_COLLIDER_TOO_THIN", collider_too_thin},
-    {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", step_too_long},
-    {PBMPM_ADVICE_VOLUME_LOST, "PBMPM_ADVICE_VOLUME_LOST", volume_lost},
-    {PBMPM_ADVICE_STRAIN_CLAMPED, "PBMPM_ADVICE_STRAIN_CLAMPED", strain_clamped},
-    {PBMPM_ADVICE_NOT_SOLVED, "PBMPM_ADVICE_NOT_SOLVED", not_solved},
+    {PBMPM_ADVICE_NO_GRAVITY, "PBMPM_ADVICE_NO_GRAVITY", "", no_gravity},
+    {PBMPM_ADVICE_FALLS_FOREVER, "PBMPM_ADVICE_FALLS_FOREVER", "", falls_forever},
+    {PBMPM_ADVICE_IGNORED, "PBMPM_ADVICE_IGNORED", "", ignored_parameters},
+    {PBMPM_ADVICE_POOL_TOO_DEEP, "PBMPM_ADVICE_POOL_TOO_DEEP", "", pool_too_deep},
+    {PBMPM_ADVICE_POOL_STIRS, "PBMPM_ADVICE_POOL_STIRS", "", pool_stirs},
+    {PBMPM_ADVICE_MODULUS_NOT_HELD, "PBMPM_ADVICE_MODULUS_NOT_HELD", "Pa", modulus_not_held},
+    {PBMPM_ADVICE_SAND_NOT_HELD, "PBMPM_ADVICE_SAND_NOT_HELD", "", sand_not_held},
+    {PBMPM_ADVICE_BODY_TOO_THIN, "PBMPM_ADVICE_BODY_TOO_THIN", "cells", body_too_thin},
+    {PBMPM_ADVICE_BOUNCE_DAMPED, "PBMPM_ADVICE_BOUNCE_DAMPED", "substeps", bounce_damped},
+    {PBMPM_ADVICE_ROLLING_BRAKED, "PBMPM_ADVICE_ROLLING_BRAKED", "cells", rolling_braked},
+    {PBMPM_ADVICE_COLLIDER_TOO_FAST, "PBMPM_ADVICE_COLLIDER_TOO_FAST", "cells", collider_too_fast},
+    {PBMPM_ADVICE_COLLIDER_TOO_THIN, "PBMPM_ADVICE_COLLIDER_TOO_THIN", "cells", collider_too_thin},
+    {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", "cells", step_too_long},
+    {PBMPM_ADVICE_VOLUME_LOST, "PBMPM_ADVICE_VOLUME_LOST", "", volume_lost},
+    {PBMPM_ADVICE_STRAIN_CLAMPED, "PBMPM_ADVICE_STRAIN_CLAMPED", "", strain_clamped},
+    {PBMPM_ADVICE_NOT_SOLVED, "PBMPM_ADVICE_NOT_SOLVED", "cells", not_solved},
+    {PBMPM_ADVICE_OVERLAPS, "PBMPM_ADVICE_OVERLAPS", "", overlaps},
+    {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", known_limits},
 };
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
@@ -694,4 +729,11 @@ const char *advice_name(pbmpm_advice_code code)
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
         if (rules[i].code == code) return rules[i].name;
     return "PBMPM_ADVICE_UNKNOWN";
+}
+
+const char *advice_unit(pbmpm_advice_code code)
+{
+    for (size_t i = 0; i < sizeof rules / sizeof *rules; i++)
+        if (rules[i].code == code) return rules[i].unit;
+    return "";
 }

@@ -9,5 +9,6 @@
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count);
 
 const char *advice_name(pbmpm_advice_code code);
+const char *advice_unit(pbmpm_advice_code code);
 
 #endif

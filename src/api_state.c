@@ -159,3 +159,5 @@ pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *ar
 }
 
 const char *pbmpm_advice_name(pbmpm_advice_code code) { return advice_name(code); }
+
+const char *pbmpm_advice_unit(pbmpm_advice_code code) { return advice_unit(code); }

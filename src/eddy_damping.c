@@ -30,7 +30,7 @@ bool eddy_damping_prepare(World *world)
     if (!is_wanted(world)) return true;
     return bodies_find(&damping->bodies, &world->memory, &world->grid) &&
            array_reserve(&world->memory, &damping->sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double)) &&
-           array_reserve(&world->memory, &damping->body_sums, SUMS * (size_t)damping->bodies.count, sizeof(double)) &&
+           array_reserve(&world->memory, &damping->body_sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double)) &&
            array_reserve(&world->memory, &damping->kept, (size_t)world->grid.particle_blocks, sizeof(float));
 }
 

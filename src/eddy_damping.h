@@ -11,8 +11,8 @@
  *
  *     s^2 = 1 - gain / (K (k h)^2 / 4).
  *
- * A wave of many cells has little of its energy there, and goes on. Momentum does not change; angular momentum may only where a body touches an obstacle, so one that
- * touches none keeps all: nothing presses it. */
+ * A wave of many cells has little of its energy there, and goes on. What the grid shows to be crushed keeps all: what it gains bursts it, and stirs no eddies. Momentum
+ * does not change; angular momentum may only where a body touches an obstacle, so one that touches none keeps all: nothing presses it. */
 #ifndef PBMPM_SRC_EDDY_DAMPING_H
 #define PBMPM_SRC_EDDY_DAMPING_H
 

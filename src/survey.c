@@ -157,6 +157,32 @@ static void measure_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) filling[group] = inside[group] < FEW ? 0.0 : filling[group] / inside[group];
 }
 
+/* In a cell and in those next to it, on the mean: by chance a single one holds up to twice what fits. */
+static const double TOO_FULL = 1.6;
+
+static bool is_too_full(const Cells *cells, const Share *share)
+{
+    double sum = 2.0 * filling_at(cells, share->cell);
+    for (int a = 0; a < cells->dimension; a++)
+        for (int step = -1; step <= 1; step += 2) {
+            int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+            cell[a] += step;
+            sum += filling_at(cells, cell);
+        }
+    return sum > TOO_FULL * (2.0 + 2.0 * cells->dimension);
+}
+
+static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MATERIALS + 1])
+{
+    double mass[PBMPM_MAX_MATERIALS + 1] = {0};
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        mass[share->group] += share->filling;
+        if (is_too_full(cells, share)) overlapping[share->group] += share->filling;
+    }
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(mass[group], 1e-300);
+}
+
 /* ---- Particles ---- */
 
 /* The least and the largest singular value of F, from F^T F: its characteristic polynomial has three real roots (2D: two). */
@@ -222,11 +248,12 @@ static const double THICKEST = 4.0;
 
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
-    double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
+    double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
     double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0};
     const int down = axis_of_gravity(world);
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
     measure_filling(cells, filling);
+    measure_overlaps(cells, overlapping);
     for (uint32_t i = 0; i < cells->count; i++) {
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
         thickness[cells->share[i].group] += part * cells->share[i].thickness;
@@ -239,6 +266,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         const uint32_t group = material_is_solid(&world->materials, slot) ? slot + 1 : 0;
         survey->heap[slot].depth = depth[group];
         survey->heap[slot].filling = filling[group];
+        survey->heap[slot].overlapping = overlapping[group];
         if (!(weight[group] > 0.0)) continue;
         survey->heap[slot].thickness = thickness[group] / weight[group];
         survey->heap[slot].evenness = mean[group] / mass[group] / survey->heap[slot].thickness;

@@ -25,12 +25,12 @@ CODES = {
     "volume": {"POOL_TOO_DEEP", "VOLUME_LOST", "COLLIDER_TOO_THIN", "STRAIN_CLAMPED"},
     "leak": {"COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST", "STEP_TOO_LONG", "VOLUME_LOST", "POOL_TOO_DEEP"},
     "calm": {"POOL_STIRS", "POOL_TOO_DEEP", "COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST"},
-    "grains": {"SAND_NOT_HELD", "STRAIN_CLAMPED", "VOLUME_LOST"},
+    "grains": {"KNOWN_LIMIT", "SAND_NOT_HELD", "STRAIN_CLAMPED", "VOLUME_LOST"},
     "rolling": {"ROLLING_BRAKED", "MODULUS_NOT_HELD"},
     "contact": {"MODULUS_NOT_HELD", "BODY_TOO_THIN", "STRAIN_CLAMPED"},
     "bounce": {"BOUNCE_DAMPED", "MODULUS_NOT_HELD"},
     "modulus": {"MODULUS_NOT_HELD", "NOT_SOLVED"},
-    "afloat": {"BODY_TOO_THIN", "VOLUME_LOST", "POOL_TOO_DEEP"},
+    "afloat": {"KNOWN_LIMIT", "BODY_TOO_THIN", "VOLUME_LOST", "POOL_TOO_DEEP"},
 }
 """Codes that speak of a subject."""
 

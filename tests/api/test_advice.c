@@ -97,10 +97,14 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_NOT_SOLVED; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_KNOWN_LIMIT; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
+    TEST_ASSERT_EQUAL_STRING("Pa", pbmpm_advice_unit(PBMPM_ADVICE_MODULUS_NOT_HELD));
+    TEST_ASSERT_EQUAL_STRING("cells", pbmpm_advice_unit(PBMPM_ADVICE_BODY_TOO_THIN));
+    TEST_ASSERT_EQUAL_STRING("", pbmpm_advice_unit(PBMPM_ADVICE_NO_GRAVITY));
+    TEST_ASSERT_EQUAL_STRING("", pbmpm_advice_unit((pbmpm_advice_code)9999));
 }
 
 /* Both parts of the answer: how many there are, and as many of the first as there is room for. Nothing that is read back changes. */
@@ -242,6 +246,71 @@ static void test_a_pool_too_deep_for_the_rate(void)
     expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
 }
 
+/* A pool of 12 cells rests between level and upright walls on and off the grid, and beside a box; not around a sphere, nor where it is deep. Without gravity none stirs. */
+static void test_a_pool_that_stirs(void)
+{
+    for (int step = 0; step < 4; step++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        const float deep = step == 3 ? 1.5f : 0.6f;
+        create_collider(world, box_shape(0.815f, -0.085f, 0, 2, 0.1f, 0.5f), false);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.815f, 0.015f + deep / 2, 0, 0.8f, deep / 2, 0.5f), at_rest);
+        if (step == 1) create_collider(world, box_shape(0.6f, 0.1f, 0, 0.1f, 0.1f, 0.1f), false);
+        if (step == 2) create_collider(world, sphere_shape(0.8f, 0.3f, 0, 0.1f), false);
+        if (step < 2) {
+            expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+            continue;
+        }
+        const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_POOL_STIRS);
+        TEST_ASSERT_EQUAL_INT(PBMPM_CHANGE_SUBSTEPS, advice->change);
+        set_rate(world, (int32_t)advice->value, 5);
+        expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+        set_rate(world, 1, 5);
+        set_gravity(world, 0, 0, 0);
+        expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+    }
+}
+
+/* A body heavier than the liquid, one on sand, and sand in liquid; light bodies, and each kind by itself, have none. */
+static void test_known_limits(void)
+{
+    static const struct {
+        pbmpm_material_kind kind[2];
+        float density;
+        int limits;
+    } cases[] = {{{PBMPM_LIQUID, PBMPM_ELASTIC}, 900, 0}, {{PBMPM_LIQUID, PBMPM_ELASTIC}, 1500, 1}, {{PBMPM_SAND, PBMPM_ELASTIC}, 900, 1}, {{PBMPM_LIQUID, PBMPM_SAND}, 0, 1}, {{PBMPM_SAND, PBMPM_SAND}, 0, 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        for (int k = 0; k < 2; k++) {
+            pbmpm_material_def def = default_material(cases[i].kind[k]);
+            if (k == 1 && cases[i].density > 0.0f) def.density = cases[i].density;
+            fill_shape(world, add_material(world, &def), box_shape(0.5f, 0.3f + (float)k, 0, 0.5f, 0.3f, 0.5f), at_rest);
+        }
+        ask(world);
+        int limits = 0;
+        for (uint32_t n = 0; n < told_count; n++) limits += told[n].code == PBMPM_ADVICE_KNOWN_LIMIT;
+        TEST_ASSERT_EQUAL_INT(cases[i].limits, limits);
+    }
+}
+
+/* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
+static void test_matter_in_other_matter(void)
+{
+    static const float beside[] = {2.013f, 0.513f}, inside[] = {0.513f, 0.413f};
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        const pbmpm_world_id world = falling_world(dimension, 0.05f);
+        const pbmpm_material_id water = create_material(world, PBMPM_LIQUID), jelly = create_material(world, PBMPM_ELASTIC);
+        fill_shape(world, water, box_shape(0.517f, 0.431f, 0, 0.5f, 0.4f, 0.3f), at_rest);
+        fill_shape(world, jelly, box_shape(beside[0], beside[1], 0, 0.2f, 0.2f, 0.2f), at_rest);
+        expect_none(world, PBMPM_ADVICE_OVERLAPS);
+        fill_shape(world, jelly, box_shape(inside[0], inside[1], 0, 0.2f, 0.2f, 0.2f), at_rest);
+        const pbmpm_advice *advice = expect(world, PBMPM_ADVICE_OVERLAPS);
+        TEST_ASSERT_EQUAL_UINT32(water.generation, advice->material.generation);
+        TEST_ASSERT_FLOAT_WITHIN(0.05f, dimension == 2 ? 0.2f : 0.133f, advice->figure);
+        OK(pbmpm_world_step(world, DT));
+        expect_none(world, PBMPM_ADVICE_OVERLAPS);
+    }
+}
+
 static void test_a_body_that_is_thin_for_the_grid(void)
 {
     const pbmpm_world_id world = falling_world(2, 0.1f);
@@ -338,6 +407,9 @@ int main(void)
     RUN_TEST(test_matter_that_falls_for_ever);
     RUN_TEST(test_parameters_that_do_nothing);
     RUN_TEST(test_a_pool_too_deep_for_the_rate);
+    RUN_TEST(test_a_pool_that_stirs);
+    RUN_TEST(test_known_limits);
+    RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);
     RUN_TEST(test_obstacles);
     RUN_TEST(test_a_step_that_is_too_long);

@@ -315,20 +315,10 @@ static double reference_densest(const RefGrid *grid, const RefParticle *p)
 
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
-static double volume_growth(const RefStep *step, const RefParticle *p, const double D[9])
-{
-    const double trace = matrix_trace(step->dimension, D);
-    double moved[9];
-    if (step->feedback_way == 0.0 || p->material.kind != K_LIQUID) return 1.0 + trace;
-    memcpy(moved, D, sizeof moved);
-    for (int a = 0; a < step->dimension; a++) moved[a * 4] += 1.0;
-    return matrix_determinant(step->dimension, moved);
-}
-
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
-    double ratio = fmin(p->volume_ratio * volume_growth(step, p, D), LOOSE_MAX);
+    double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_held(step, grid, p);
         const double loose = fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX);
@@ -449,6 +439,8 @@ static bool shifts(const RefStep *step, const RefGrid *grid, const RefParticle *
 void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *p)
 {
     double d[3], D[9], motion[3], way[3], shift[3] = {0};
+    const bool is_crushed = step->with_volume && p->material.volume_feedback > 0.0f && reference_compression(grid, p) > REF_CRUSHED;
+    const bool has_eddies = p->material.kind == K_LIQUID && !is_crushed;
     reference_gather(grid, p, d, D);
     if (shifts(step, grid, p)) reference_shift(grid, p, D, shift);
     memcpy(motion, d, sizeof motion);
@@ -466,6 +458,6 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
     }
     for (int a = 0; a < step->dimension; a++) p->fraction[a] += shift[a];
     move(step, p, d, motion);
-    const double kept = p->material.kind == K_LIQUID ? 1.0 - step->affine_lost : 1.0;
+    const double kept = has_eddies ? 1.0 - step->affine_lost : 1.0;
     for (int k = 0; k < 9; k++) p->affine[k] = kept * D[k] / step->dt;
 }

@@ -268,6 +268,10 @@ namespace Pbmpm
         ColliderTooThin = 12,
         /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
         StepTooLong = 13,
+        /// <summary>what neither rate nor iterations mend; the text says what</summary>
+        KnownLimit = 18,
+        /// <summary>matter was put where there is other matter. Figure: share of it that lies where too much is</summary>
+        Overlaps = 17,
         /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
@@ -1785,6 +1789,10 @@ namespace Pbmpm.Native
         /// <summary>A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern IntPtr pbmpm_advice_name(AdviceCode code);
+
+        /// <summary>The unit of a code's figure and bound as constant text ("cells"); empty where they have none, and of a number that is no code; never null. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern IntPtr pbmpm_advice_unit(AdviceCode code);
 
         /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
         /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs

@@ -50,9 +50,19 @@ namespace Pbmpm
             CameTrue = found.CameTrue != 0;
         }
 
+        /// <summary>Unit of Figure and Bound; empty where they have none.</summary>
+        public string Unit
+        {
+            get { return Marshal.PtrToStringAnsi(Methods.pbmpm_advice_unit(Code)); }
+        }
+
         public override string ToString()
         {
-            return string.Format("{0} ({1:G3}; should keep to {2:G3}); would help: {3} {4:G3}", Text, Figure, Bound, Change, Value);
+            string unit = Unit.Length > 0 ? " " + Unit : "";
+            string wanted = Code == AdviceCode.Ignored ? "default" : Figure > Bound ? "should be at most" : "should be at least";
+            string remedy = Change == Change.None ? "" : string.Format("; would help: {0} {1:G3}", Change, Value);
+            string numbers = Figure == 0.0f && Bound == 0.0f ? "" : string.Format(" ({0:G3}{1}; {2} {3:G3}{1})", Figure, unit, wanted, Bound);
+            return Text + numbers + remedy;
         }
     }
 

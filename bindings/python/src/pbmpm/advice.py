@@ -32,6 +32,8 @@ class AdviceCode(enum.Enum):
     COLLIDER_TOO_FAST = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_FAST")  #: an obstacle's way in the next substep [cells]
     COLLIDER_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_COLLIDER_TOO_THIN")  #: thickness of an obstacle [cells]
     STEP_TOO_LONG = ffi.integer_const("PBMPM_ADVICE_STEP_TOO_LONG")  #: the longest way in a substep [cells]
+    OVERLAPS = ffi.integer_const("PBMPM_ADVICE_OVERLAPS")  #: share of the matter that was put where there is other matter
+    KNOWN_LIMIT = ffi.integer_const("PBMPM_ADVICE_KNOWN_LIMIT")  #: what neither rate nor iterations mend; the text says what
     VOLUME_LOST = ffi.integer_const("PBMPM_ADVICE_VOLUME_LOST")  #: came true: share of the volume that is lost
     STRAIN_CLAMPED = ffi.integer_const("PBMPM_ADVICE_STRAIN_CLAMPED")  #: came true: share of particles at a bound of their strain
     NOT_SOLVED = ffi.integer_const("PBMPM_ADVICE_NOT_SOLVED")  #: came true: predicted error of the last substep [cells]
@@ -87,6 +89,21 @@ class Advice:
     came_true: bool
 
     @property
+    def unit(self) -> str:
+        """Unit of `figure` and `bound`; empty where they have none."""
+        return cast(bytes, ffi.string(lib.pbmpm_advice_unit(self.code.value))).decode()
+
+    @property
+    def _unit(self) -> str:
+        return f" {self.unit}" if self.unit else ""
+
+    @property
+    def _wanted(self) -> str:
+        if self.code is AdviceCode.IGNORED:
+            return "default"
+        return "should be at most" if self.figure > self.bound else "should be at least"
+
+    @property
     def remedy(self) -> str:
         """What would help, in words; empty if nothing that a number says."""
         if self.change is Change.NONE:
@@ -105,7 +122,7 @@ class Advice:
         return f"{name} ({self.price:+.0f} % of a step)" if self.price else name
 
     def __str__(self) -> str:
-        numbers = f" ({self.figure:.3g}; should keep to {self.bound:.3g})" if self.figure or self.bound else ""
+        numbers = f" ({self.figure:.3g}{self._unit}; {self._wanted} {self.bound:.3g}{self._unit})" if self.figure or self.bound else ""
         remedy = f"; would help: {self.remedy}" if self.remedy else ""
         return f"{self.text}{numbers}{remedy}"
 
