@@ -309,10 +309,10 @@ static void pool_too_deep(Adviser *adviser)
 /* Whether faces with this normal lean: neither level nor upright. */
 static bool leans(const World *world, const double normal[3])
 {
-    static const double ROUNDING = 1e-3;
+    static const double SINE = 0.02; /* a degree is not seen */
     double along = 0.0;
     for (int a = 0; a < world->def.dimension; a++) along += normal[a] * (double)world->settings.gravity[a] / gravity_strength(world);
-    return fabs(along) > ROUNDING && fabs(along) < 1.0 - ROUNDING;
+    return along * along > SINE * SINE && 1.0 - along * along > SINE * SINE;
 }
 
 static bool solid_leans(const World *world, const Solid *s)
@@ -345,20 +345,23 @@ static bool some_wall_leans(const World *world)
 }
 
 /* What is missing from the pressure of a step moves a pool by a share of g dt^2 depth / dx^2. Pools between level and upright walls rest, on and off the lines of the
- * grid, at less than 1 cm/s up to 1.1 (20 cells of 5 cm at 60 Hz x 5) and at 2 to 4 cm/s with 1.9. Round and leaning walls stir pools of 12 cells, where it is 0.65, at 1 to 12 cm/s. */
-static const double CALM = 1.2, CALM_AT_LEANING_WALLS = 0.4, CALM_ITERATIONS = 50.0;
+ * grid, at less than 1 cm/s up to 1.3 (24 cells of 5 cm at 60 Hz x 5) and at 2 to 4 cm/s with 1.9. Round and leaning walls stir pools of 12 cells, where it is 0.65, at 1 to 12 cm/s.
+ * So are pools of liquids that store energy, which have no eddy damping. */
+static const double CALM = 1.4, HARD_TO_CALM = 0.4, CALM_ITERATIONS = 50.0;
 
 static void pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
     if (world->settings.iterations >= CALM_ITERATIONS) return;
-    const double bound = gravity_strength(world) > 0.0 && some_wall_leans(world) ? CALM_AT_LEANING_WALLS : CALM;
+    const bool leaning = gravity_strength(world) > 0.0 && some_wall_leans(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
         const double figure = gravity_fall(world, adviser->substep) * adviser->survey.heap[slot].depth;
-        if (!flows(&world->materials.def[slot]) || solver_of(world, slot) != PBMPM_SOLVER_DUAL || figure <= bound) continue;
+        const double bound = leaning || def->bulk_modulus > 0.0f ? HARD_TO_CALM : CALM;
+        if (!flows(def) || solver_of(world, slot) != PBMPM_SOLVER_DUAL || figure <= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = id_of(world, slot), .figure = (float)figure, .bound = (float)bound,
-                               .text = bound < CALM ? "water this deep goes on circling at walls that lean or are round, at this rate and so few iterations"
-                                                    : "a pool this deep goes on circling slowly at this rate and so few iterations"};
+                               .text = leaning ? "water this deep goes on circling at walls that lean or are round, at this rate and so few iterations"
+                                               : "a pool this deep goes on circling slowly at this rate and so few iterations"};
         by_substeps(adviser, sqrt(figure / bound), &advice);
         give(adviser, advice);
     }
@@ -590,7 +593,7 @@ static void step_too_long(Adviser *adviser)
         if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
     const double cells = speed * adviser->substep / (double)world->def.cell_size;
     if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)cells, .bound = (float)bound,
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
                            .text = "matter is faster than max_displacement allows: it is slowed"};
     by_substeps(adviser, fmax(2.0, cells / bound), &advice);
     give(adviser, advice);
@@ -651,7 +654,7 @@ static void not_solved(Adviser *adviser)
     give(adviser, advice);
 }
 
-/* Before the first step: later it is what was crushed. */
+/* Before the first step: later nobody can tell it from what was crushed. */
 static void overlaps(Adviser *adviser)
 {
     static const double FEW = 0.01;
@@ -706,7 +709,7 @@ static const struct {
     {PBMPM_ADVICE_ROLLING_BRAKED, "PBMPM_ADVICE_ROLLING_BRAKED", "cells", rolling_braked},
     {PBMPM_ADVICE_COLLIDER_TOO_FAST, "PBMPM_ADVICE_COLLIDER_TOO_FAST", "cells", collider_too_fast},
     {PBMPM_ADVICE_COLLIDER_TOO_THIN, "PBMPM_ADVICE_COLLIDER_TOO_THIN", "cells", collider_too_thin},
-    {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", "cells", step_too_long},
+    {PBMPM_ADVICE_STEP_TOO_LONG, "PBMPM_ADVICE_STEP_TOO_LONG", "cells per substep", step_too_long},
     {PBMPM_ADVICE_VOLUME_LOST, "PBMPM_ADVICE_VOLUME_LOST", "", volume_lost},
     {PBMPM_ADVICE_STRAIN_CLAMPED, "PBMPM_ADVICE_STRAIN_CLAMPED", "", strain_clamped},
     {PBMPM_ADVICE_NOT_SOLVED, "PBMPM_ADVICE_NOT_SOLVED", "cells", not_solved},

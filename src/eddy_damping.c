@@ -8,17 +8,19 @@
 
 enum { GAIN, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
-/* (k h)^2 / 4 of eddies of two cells, the smallest that the grid knows: k h = pi / 2. What stirs pools has 0.2, but with that a wave keeps 0.83 of its height in nine
- * periods, with 0.4 as with this 0.90. With 1 it keeps 0.94, and pools that stand turned stir at 16 to 24 mm/s, not at 4 to 7 (tests/field, standing_wave and
- * still_pool at 60 Hz x 5). */
+/* (k h)^2 / 4 of eddies of two cells, the smallest that the grid knows: k h = pi / 2. What it does at 60 Hz x 5 (tests/field, standing_wave and still_pool): with
+ * 0.2 a wave keeps 0.83 of its height in nine periods, with 0.4 and 0.617 it keeps 0.90, with 1 it keeps 0.94; but with 1 pools that stand turned go on at 16 to
+ * 24 mm/s, with less at 4 to 7. */
 static const double AFFINE_PART = 0.617;
 
-/* Liquids that store energy gain and lose by it. So do solids, but that is the lesser evil: while they spring, liquids beside them lose some affine velocity; without, a
- * tank with all materials stirs at 42 to 63 mm/s, not at 24 to 41 (all_in_a_tank). */
+/* A liquid with a bulk modulus stores energy: what its pressures give back is its own. That of solids is counted as gain all the same. A tank with all materials stirs at 24 to
+ * 41 mm/s so, at 42 to 63 where worlds with solids are left out (all_in_a_tank); the price is that liquids beside a body that springs lose some affine velocity. */
 static bool all_incompressible(const World *world)
 {
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && world->materials.def[slot].bulk_modulus > 0.0f) return false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        if (world->particles.of_material[slot] > 0 && def->kind == PBMPM_LIQUID && def->bulk_modulus > 0.0f) return false;
+    }
     return true;
 }
 

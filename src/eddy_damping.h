@@ -5,7 +5,7 @@
  *
  *     K(u) - m g.u - K(w) = q.u - m/2 |u - w|^2
  *
- * beside the work of walls: the work of the pressures less what backward Euler takes. What mends stirs eddies of some cells, and transfers smooth eddies where
+ * beside the work of walls, and of force fields: the work of the pressures less what backward Euler takes. What mends stirs eddies of some cells, and transfers smooth eddies where
  * particles have no affine velocities: of their energy E, those that turn as fast as k v have the part (k h)^2 / 4 there (h: a cell). So, as if all of a body's
  * kinetic energy K about its mean motion were that of eddies, its affine velocities keep the share s,
  *

@@ -157,7 +157,7 @@ static void measure_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) filling[group] = inside[group] < FEW ? 0.0 : filling[group] / inside[group];
 }
 
-/* In a cell and in those next to it, on the mean: by chance a single one holds up to twice what fits. */
+/* On the mean of a cell, counted twice, and those next to it: by chance a single one holds up to twice what fits. */
 static const double TOO_FULL = 1.6;
 
 static bool is_too_full(const Cells *cells, const Share *share)
@@ -172,15 +172,16 @@ static bool is_too_full(const Cells *cells, const Share *share)
     return sum > TOO_FULL * (2.0 + 2.0 * cells->dimension);
 }
 
+/* Sorted by cell. */
 static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MATERIALS + 1])
 {
-    double mass[PBMPM_MAX_MATERIALS + 1] = {0};
+    double volume[PBMPM_MAX_MATERIALS + 1] = {0};
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        mass[share->group] += share->filling;
+        volume[share->group] += share->filling;
         if (is_too_full(cells, share)) overlapping[share->group] += share->filling;
     }
-    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(mass[group], 1e-300);
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(volume[group], 1e-300);
 }
 
 /* ---- Particles ---- */

@@ -12,7 +12,7 @@ typedef struct Heap {
     double thickness;  /* the least over the axes, where it is thickest */
     double evenness;   /* the mean thickness over that; 1: a box along the axes */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
-    double overlapping; /* share of it that lies in cells with too much matter */
+    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;
 

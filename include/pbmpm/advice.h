@@ -28,8 +28,9 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
     PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
-    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what */
-    PBMPM_ADVICE_OVERLAPS = 17,        /**< matter was put where there is other matter. Figure: share of it that lies where too much is */
+    PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of it that lies where too much
+                                            is; of liquids, of all of them */
+    PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
@@ -71,7 +72,7 @@ typedef struct pbmpm_advice {
 /** What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
  *  Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
  *
- *  Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
+ *  Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
  *  capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
  *  step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
@@ -81,7 +82,7 @@ PBMPM_API pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_
 /** A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread. */
 PBMPM_API const char *pbmpm_advice_name(pbmpm_advice_code code);
 
-/** The unit of a code's figure and bound as constant text ("cells"); empty where they have none, and of a number that is no code; never null. Any thread. */
+/** The unit of a code's figure and bound as constant text ("cells"); empty where they have none or a parameter tells it, and of a number that is no code; never null. Any thread. */
 PBMPM_API const char *pbmpm_advice_unit(pbmpm_advice_code code);
 
 #ifdef __cplusplus

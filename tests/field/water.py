@@ -366,6 +366,28 @@ def standing_wave(run: Run, kind: str) -> None:
     run.check("frequency over Airy's", found / omega, 0.97, 1.03, why="omega^2 = g k tanh(k h); half a cell of depth changes it by 1.5 %")
 
 
+@case(tank=dict(), ball=dict(ball=True))
+def splash(run: Run, ball: bool = False) -> None:
+    """A column of water falls in a tank, over a ball or not. From 5 s on its energy may only fall."""
+    with run.world(2, CELL, domain=((0, 0), (3.2, 2.4))) as world:
+        if ball:
+            world.add_collider(Sphere((2.2, 0.0), 0.35), friction=Friction.SLIP)
+        world.add_particles(world.add_material(Liquid()), lattice((0, 0), (1.0, 1.2), CELL / 2))
+        height, energy, speed = [], [], []
+
+        def watch(t: float) -> None:
+            height.append(world.positions.array()[:, 1].mean())
+            speed.append(rms(world))
+            energy.append(speed[-1] ** 2 / 2 + G * height[-1])
+
+        run.steps(world, 30, after=watch)
+    seconds = np.reshape(energy, (30, -1)).mean(1)
+    fallen = energy[0] - seconds[5]
+    run.check("rise of the energy from 5 s on over what fell", max(seconds[k:].max() - seconds[k] for k in range(5, 30)) / fallen, -1, 0.005, why="nothing drives it")
+    late, early = np.mean(speed[-2 * round(run.rate) :]), np.mean(speed[8 * round(run.rate) : 10 * round(run.rate)])
+    run.check("rms speed after 30 s over that after 10 s", late / early, 0, 1, why="what breaks and splashes comes to rest")
+
+
 @case(upright=dict(angle=0.0), turned_20=dict(angle=20.0))
 def wall_forces(run: Run, angle: float) -> None:
     """The floor bears the weight, a side wall rho g h^2 / 2."""

@@ -268,10 +268,11 @@ namespace Pbmpm
         ColliderTooThin = 12,
         /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
         StepTooLong = 13,
-        /// <summary>what neither rate nor iterations mend; the text says what</summary>
-        KnownLimit = 18,
-        /// <summary>matter was put where there is other matter. Figure: share of it that lies where too much is</summary>
+        /// <summary>before the first step: matter was put where there is other matter. Figure: share of it that lies where too much
+        /// is; of liquids, of all of them</summary>
         Overlaps = 17,
+        /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
+        KnownLimit = 18,
         /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
@@ -1778,7 +1779,7 @@ namespace Pbmpm.Native
         /// <summary>What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
         /// Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
         ///
-        /// Writes up to `capacity` records in the order of their codes, then of materials and obstacles; *count is the full number. `array` may be null when
+        /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
         /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
         /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
@@ -1790,7 +1791,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern IntPtr pbmpm_advice_name(AdviceCode code);
 
-        /// <summary>The unit of a code's figure and bound as constant text ("cells"); empty where they have none, and of a number that is no code; never null. Any thread.</summary>
+        /// <summary>The unit of a code's figure and bound as constant text ("cells"); empty where they have none or a parameter tells it, and of a number that is no code; never null. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern IntPtr pbmpm_advice_unit(AdviceCode code);
 

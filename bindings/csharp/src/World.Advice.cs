@@ -59,7 +59,7 @@ namespace Pbmpm
         public override string ToString()
         {
             string unit = Unit.Length > 0 ? " " + Unit : "";
-            string wanted = Code == AdviceCode.Ignored ? "default" : Figure > Bound ? "should be at most" : "should be at least";
+            string wanted = Code == AdviceCode.Ignored ? "default" : Figure >= Bound ? "should be at most" : "should be at least";
             string remedy = Change == Change.None ? "" : string.Format("; would help: {0} {1:G3}", Change, Value);
             string numbers = Figure == 0.0f && Bound == 0.0f ? "" : string.Format(" ({0:G3}{1}; {2} {3:G3}{1})", Figure, unit, wanted, Bound);
             return Text + numbers + remedy;

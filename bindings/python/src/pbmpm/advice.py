@@ -101,7 +101,7 @@ class Advice:
     def _wanted(self) -> str:
         if self.code is AdviceCode.IGNORED:
             return "default"
-        return "should be at most" if self.figure > self.bound else "should be at least"
+        return "should be at most" if self.figure >= self.bound else "should be at least"
 
     @property
     def remedy(self) -> str:
