@@ -346,7 +346,7 @@ static bool some_wall_leans(const World *world)
 
 /* What is missing from the pressure of a step moves a pool by a share of g dt^2 depth / dx^2. Pools between level and upright walls rest, on and off the lines of the
  * grid, at less than 1 cm/s up to 1.3 (24 cells of 5 cm at 60 Hz x 5) and at 2 to 4 cm/s with 1.9. Round and leaning walls stir pools of 12 cells, where it is 0.65, at 1 to 12 cm/s.
- * So are pools of liquids that store energy, which have no eddy damping. */
+ * Liquids that store energy have no eddy damping and are held to the same bound. */
 static const double CALM = 1.4, HARD_TO_CALM = 0.4, CALM_ITERATIONS = 50.0;
 
 static void pool_stirs(Adviser *adviser)

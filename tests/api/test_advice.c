@@ -246,7 +246,7 @@ static void test_a_pool_too_deep_for_the_rate(void)
     expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
 }
 
-/* A pool of 12 cells rests between level and upright walls on and off the grid, and beside a box; not around a sphere, nor where it is deep. Without gravity none stirs. */
+/* Told of pools around a sphere and of deep ones, and of none without gravity; not of 12 cells between level and upright walls off the grid, with a box in it or not. */
 static void test_a_pool_that_stirs(void)
 {
     for (int step = 0; step < 4; step++) {
