@@ -40,24 +40,26 @@ static void fill_pool(pbmpm_world_id world)
     pbmpm_fill_def fill;
     require(pbmpm_material_def_init(&material, sizeof material));
     require(pbmpm_fill_def_init(&fill, sizeof fill));
+    pbmpm_shape fill_shape;
+    require(pbmpm_shape_init(&fill_shape, sizeof fill_shape));
     require(pbmpm_material_create(world, &material, &fill.material));
-    fill.shape.position[0] = fill.shape.position[2] = pool_size / 2;
-    fill.shape.position[1] = 0.3f;
-    fill.shape.half_extents[0] = fill.shape.half_extents[2] = pool_size / 2;
-    fill.shape.half_extents[1] = 0.3f;
-    require(pbmpm_particles_fill(world, &fill, NULL));
+    fill_shape.position[0] = fill_shape.position[2] = pool_size / 2;
+    fill_shape.position[1] = 0.3f;
+    fill_shape.half_extents[0] = fill_shape.half_extents[2] = pool_size / 2;
+    fill_shape.half_extents[1] = 0.3f;
+    require(pbmpm_particles_fill(world, &fill, &fill_shape, NULL));
 
     material.kind = PBMPM_ELASTIC;
     material.density = 500;
     require(pbmpm_material_create(world, &material, &fill.material));
-    fill.shape.kind = PBMPM_SPHERE;
-    fill.shape.radius = 0.2f;
-    fill.shape.position[1] = 1.0f;
+    fill_shape.kind = PBMPM_SPHERE;
+    fill_shape.radius = 0.2f;
+    fill_shape.position[1] = 1.0f;
     for (int ball = 0; ball < ball_count; ball++) {
         const float angle = 6.2831853f * (float)ball / ball_count;
-        fill.shape.position[0] = pool_size / 2 + 0.6f * cosf(angle);
-        fill.shape.position[2] = pool_size / 2 + 0.6f * sinf(angle);
-        require(pbmpm_particles_fill(world, &fill, NULL));
+        fill_shape.position[0] = pool_size / 2 + 0.6f * cosf(angle);
+        fill_shape.position[2] = pool_size / 2 + 0.6f * sinf(angle);
+        require(pbmpm_particles_fill(world, &fill, &fill_shape, NULL));
     }
 }
 
@@ -67,13 +69,15 @@ static pbmpm_collider_id add_bar(pbmpm_world_id world)
     pbmpm_collider_def def;
     pbmpm_collider_id bar;
     require(pbmpm_collider_def_init(&def, sizeof def));
+    pbmpm_shape def_shape;
+    require(pbmpm_shape_init(&def_shape, sizeof def_shape));
     def.kinematic = 1;
-    def.shape.kind = PBMPM_CAPSULE;
-    def.shape.half_extents[0] = 0.6f;
-    def.shape.radius = 0.15f;
-    def.shape.position[0] = def.shape.position[2] = pool_size / 2;
-    def.shape.position[1] = 0.3f;
-    require(pbmpm_collider_create(world, &def, &bar));
+    def_shape.kind = PBMPM_CAPSULE;
+    def_shape.half_extents[0] = 0.6f;
+    def_shape.radius = 0.15f;
+    def_shape.position[0] = def_shape.position[2] = pool_size / 2;
+    def_shape.position[1] = 0.3f;
+    require(pbmpm_collider_create(world, &def, &def_shape, &bar));
     return bar;
 }
 
@@ -89,9 +93,10 @@ static void turn_bar(pbmpm_world_id world, pbmpm_collider_id bar, double time)
 /* Deletions are never silent: each is an event of the step in which it happened. */
 static void report_deletions(pbmpm_world_id world)
 {
-    const pbmpm_event *events;
-    uint32_t count, missed;
-    require(pbmpm_world_events(world, &events, &count, &missed));
+    static pbmpm_event events[PBMPM_MAX_EVENTS];
+    uint32_t count;
+    events[0].size = sizeof *events;
+    require(pbmpm_world_events(world, events, PBMPM_MAX_EVENTS, &count, NULL));
     for (uint32_t i = 0; i < count; i++)
         if (events[i].kind <= PBMPM_EVENT_DELETED_CONDITION)
             printf("step %llu: a particle was deleted at %g %g %g\n", (unsigned long long)events[i].step, (double)events[i].position[0],

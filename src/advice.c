@@ -6,6 +6,7 @@
 #include "depth.h"
 #include "effective.h"
 #include "solver.h"
+#include "sized.h"
 #include "survey.h"
 
 typedef struct Adviser {
@@ -19,7 +20,7 @@ typedef struct Adviser {
 static void give(Adviser *adviser, pbmpm_advice advice)
 {
     advice.size = sizeof advice;
-    if (adviser->count < adviser->capacity) adviser->array[adviser->count] = advice;
+    if (adviser->count < adviser->capacity) sized_put(SIZED_pbmpm_advice, adviser->array, adviser->count, &advice);
     adviser->count++;
 }
 
@@ -136,7 +137,7 @@ static bool lands(const World *world, const double from[3])
         for (int a = 0; a < world->def.dimension; a++) at[a] = from[a] + way * (double)world->settings.gravity[a] / strength;
         for (uint32_t c = 0; c < world->colliders.used; c++) {
             if (world->colliders.slot[c].generation == 0) continue;
-            const Solid solid = solid_among(&world->colliders.slot[c].def.shape, world->def.dimension, &world->baked);
+            const Solid solid = solid_among(&world->colliders.slot[c].shape, world->def.dimension, &world->baked);
             nearest = fmin(nearest, solid_least(&solid, at));
         }
         if (nearest < 0.01 * cell) return true;
@@ -172,7 +173,7 @@ static void falls_forever(Adviser *adviser)
     for (uint32_t e = 0; e < world->emitters.used; e++) {
         const Emitter *emitter = &world->emitters.slot[e];
         if (emitter->generation == 0) continue;
-        const double at[3] = {(double)emitter->def.shape.position[0], (double)emitter->def.shape.position[1], (double)emitter->def.shape.position[2]};
+        const double at[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         looked += 1.0;
         falls += !lands(world, at);
     }
@@ -520,7 +521,7 @@ static void rolling_braked(Adviser *adviser)
 /* The farthest that a point of a shape is from its position; planes have none. */
 static double reach_of(const Collider *collider)
 {
-    const pbmpm_shape *shape = &collider->def.shape;
+    const pbmpm_shape *shape = &collider->shape;
     double sum = 0.0;
     for (int a = 0; a < 3; a++) sum += (double)shape->half_extents[a] * (double)shape->half_extents[a];
     if (shape->kind == PBMPM_BOX) return sqrt(sum);
@@ -532,10 +533,10 @@ static double way_of(const Collider *collider, int dimension)
 {
     double way2 = 0.0, dot = 0.0;
     for (int a = 0; a < dimension; a++) {
-        const double step = (double)collider->target_position[a] - (double)collider->def.shape.position[a];
+        const double step = (double)collider->target_position[a] - (double)collider->shape.position[a];
         way2 += step * step;
     }
-    for (int a = 0; a < 4; a++) dot += (double)collider->target_rotation[a] * (double)collider->def.shape.rotation[a];
+    for (int a = 0; a < 4; a++) dot += (double)collider->target_rotation[a] * (double)collider->shape.rotation[a];
     const double angle = 2.0 * acos(fmin(1.0, fabs(dot)));
     return sqrt(way2) + angle * reach_of(collider);
 }
@@ -557,7 +558,7 @@ static void collider_too_fast(Adviser *adviser)
 
 static double thickness_of(const Collider *collider, int dimension)
 {
-    const pbmpm_shape *shape = &collider->def.shape;
+    const pbmpm_shape *shape = &collider->shape;
     double least = INFINITY;
     if (shape->kind == PBMPM_BOX)
         for (int a = 0; a < dimension; a++) least = fmin(least, 2.0 * (double)shape->half_extents[a]);

@@ -11,6 +11,7 @@
 #include "edit.h"
 #include "effective.h"
 #include "inspect.h"
+#include "keyed.h"
 #include "layout.h"
 #include "numbers.h"
 #include "query.h"
@@ -42,21 +43,6 @@ pbmpm_result api_let_go(const Hold *held, pbmpm_result result)
     float_mode_leave_to_host(held->float_mode);
     registry_leave(held->id);
     return result;
-}
-
-pbmpm_result api_unknown_size(const char *call, const char *structure, const char *remedy, uint32_t size, size_t known)
-{
-    if (size == 0) return fail(PBMPM_ERROR_UNSUPPORTED, "%s: %s.size is 0: %s first", call, structure, remedy);
-    return fail(PBMPM_ERROR_UNSUPPORTED, "%s: %s.size is %u, and this version has %zu: %s, with the headers of this library", call, structure, size,
-                known, remedy);
-}
-
-pbmpm_result api_init_structure(void *structure, size_t size, const void *defaults, size_t known)
-{
-    if (!structure) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "the structure to fill is null");
-    if (size != known) return fail(PBMPM_ERROR_UNSUPPORTED, "a structure of %zu bytes is not known; this version has %zu", size, known);
-    memcpy(structure, defaults, known);
-    return PBMPM_OK;
 }
 
 pbmpm_result api_invalid(const char *problem) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem); }
@@ -108,14 +94,12 @@ static const double SHORTEST_SUBSTEP = 1e-25;
 
 pbmpm_result pbmpm_world_def_init(pbmpm_world_def *def, size_t size)
 {
-    const pbmpm_world_def defaults = world_def_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_world_def, def, size, world_def_defaults());
 }
 
 pbmpm_result pbmpm_settings_init(pbmpm_settings *settings, size_t size)
 {
-    const pbmpm_settings defaults = settings_defaults();
-    INIT(settings, size, defaults);
+    INIT(pbmpm_settings, settings, size, settings_defaults());
 }
 
 static pbmpm_result create_world(const pbmpm_world_def *def, pbmpm_world_id *world)
@@ -134,9 +118,17 @@ pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *worl
 {
     REQUIRE(world);
     *world = (pbmpm_world_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_world_def_init);
+    READ(pbmpm_world_def, own, def, world_def_defaults());
+    pbmpm_allocator allocator = {.size = sizeof allocator};
+    pbmpm_task_hooks tasks = {.size = sizeof tasks};
+    pbmpm_result read = PBMPM_OK;
+    if (own.allocator) read = sized_read(SIZED_pbmpm_allocator, __func__, "def.allocator", own.allocator, &allocator);
+    if (own.tasks && read == PBMPM_OK) read = sized_read(SIZED_pbmpm_task_hooks, __func__, "def.tasks", own.tasks, &tasks);
+    if (read != PBMPM_OK) return read;
+    if (own.allocator) own.allocator = &allocator;
+    if (own.tasks) own.tasks = &tasks;
     const uint32_t float_mode = float_mode_enter_from_host();
-    const pbmpm_result result = create_world(def, world);
+    const pbmpm_result result = create_world(&own, world);
     float_mode_leave_to_host(float_mode);
     return result;
 }
@@ -151,28 +143,28 @@ pbmpm_result pbmpm_world_destroy(pbmpm_world_id world)
 
 pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_SIZE(pbmpm_world_def, def);
     HOLD_STEPPING(world);
-    *def = w->def;
+    WRITE(pbmpm_world_def, def, &w->def);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings)
 {
-    REQUIRE_SIZE(settings);
+    REQUIRE_SIZE(pbmpm_settings, settings);
     HOLD(world);
-    *settings = w->settings;
+    WRITE(pbmpm_settings, settings, &w->settings);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings)
 {
-    REQUIRE_FILLED(settings, pbmpm_settings_init);
     HOLD(world);
-    const char *problem = settings_problem(settings, w->def.dimension);
+    READ_HELD(pbmpm_settings, own, settings, w->settings);
+    const char *problem = settings_problem(&own, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
-    if (settings_change_motion(&w->settings, settings)) sleep_wake_all(w);
-    w->settings = *settings;
+    if (settings_change_motion(&w->settings, &own)) sleep_wake_all(w);
+    w->settings = own;
     LET_GO(PBMPM_OK);
 }
 
@@ -217,55 +209,57 @@ uint32_t pbmpm_materials_built(void) { return materials_built(); }
 
 pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size)
 {
-    const pbmpm_material_def defaults = material_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_material_def, def, size, material_defaults());
 }
 
 pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_def *def, pbmpm_material_id *material)
 {
     REQUIRE(material);
     *material = (pbmpm_material_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_material_def_init);
+    READ(pbmpm_material_def, own, def, material_defaults());
     HOLD(world);
-    const pbmpm_result usable = material_kind_usable(def->kind);
+    const pbmpm_result usable = material_kind_usable(own.kind);
     if (usable != PBMPM_OK) LET_GO(usable);
-    const char *problem = material_problem(def);
+    const char *problem = material_problem(&own);
+    if (!problem) problem = keyed_problem(w, KEYED_MATERIALS, own.key, -1);
     if (problem) LET_GO(api_invalid(problem));
-    LET_GO(materials_add(&w->materials, def, registry_next_generation(), material));
+    LET_GO(materials_add(&w->materials, &own, registry_next_generation(), material));
 }
 
 static pbmpm_result no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
 
 pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def)
 {
-    REQUIRE_SIZE(def);
+    REQUIRE_SIZE(pbmpm_material_def, def);
     HOLD(world);
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
-    *def = w->materials.def[material.index];
+    WRITE(pbmpm_material_def, def, &w->materials.def[material.index]);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id material, float dt, pbmpm_effective *effective)
 {
-    REQUIRE_SIZE(effective);
+    REQUIRE_SIZE(pbmpm_effective, effective);
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
-    *effective = effective_modulus(w, material.index, (double)dt / w->settings.substeps);
+    const pbmpm_effective found = effective_modulus(w, material.index, (double)dt / w->settings.substeps);
+    WRITE(pbmpm_effective, effective, &found);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
 {
-    REQUIRE_FILLED(def, pbmpm_material_def_init);
     HOLD(world);
-    const char *problem = material_problem(def);
-    if (problem) LET_GO(api_invalid(problem));
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     const pbmpm_material_def *old = &w->materials.def[material.index];
-    if (old->kind != def->kind || old->density != def->density)
+    READ_HELD(pbmpm_material_def, own, def, *old);
+    const char *problem = material_problem(&own);
+    if (!problem) problem = keyed_problem(w, KEYED_MATERIALS, own.key, (int32_t)material.index);
+    if (problem) LET_GO(api_invalid(problem));
+    if (old->kind != own.kind || old->density != own.density)
         LET_GO(api_invalid("the kind and the density of a material cannot be changed"));
-    materials_set(&w->materials, material.index, def);
+    materials_set(&w->materials, material.index, &own);
     sleep_wake_all(w);
     LET_GO(PBMPM_OK);
 }
@@ -284,32 +278,33 @@ pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id mate
 
 pbmpm_result pbmpm_shape_init(pbmpm_shape *shape, size_t size)
 {
-    const pbmpm_shape defaults = shape_defaults();
-    INIT(shape, size, defaults);
+    INIT(pbmpm_shape, shape, size, shape_defaults());
 }
 
 pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size)
 {
-    const pbmpm_collider_def defaults = collider_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_collider_def, def, size, collider_defaults());
 }
 
 static void wake_near_collider(World *w, const Collider *collider)
 {
-    const Solid solid = solid_among(&collider->def.shape, w->def.dimension, &w->baked);
+    const Solid solid = solid_among(&collider->shape, w->def.dimension, &w->baked);
     sleep_wake_near(w, &solid, SLEEP_FELT);
 }
 
-pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider)
+pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape, pbmpm_collider_id *collider)
 {
     REQUIRE(collider);
     *collider = (pbmpm_collider_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_collider_def_init);
+    READ(pbmpm_collider_def, own, def, collider_defaults());
+    READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    const char *problem = collider_problem(def, w->def.dimension, &w->baked);
+    const char *problem = collider_problem(&own);
+    if (!problem) problem = keyed_problem(w, KEYED_COLLIDERS, own.key, -1);
+    if (!problem) problem = shape_problem_among(&form, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    const DistanceGrid *grid = def->shape.kind == PBMPM_BAKED ? baked_find(&w->baked, def->shape.baked) : NULL;
-    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, def, grid, registry_next_generation(), collider);
+    const DistanceGrid *grid = form.kind == PBMPM_BAKED ? baked_find(&w->baked, form.baked) : NULL;
+    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, &own, &form, grid, registry_next_generation(), collider);
     if (result == PBMPM_OK) wake_near_collider(w, colliders_find(&w->colliders, *collider));
     LET_GO(result);
 }
@@ -326,13 +321,15 @@ pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id coll
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def)
+pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape)
 {
-    REQUIRE_SIZE(def);
+    if (def) REQUIRE_SIZE(pbmpm_collider_def, def);
+    if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
-    *def = found->def;
+    if (def) WRITE(pbmpm_collider_def, def, &found->def);
+    if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
 }
 
@@ -341,7 +338,7 @@ static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const f
     Collider *found = colliders_find(&w->colliders, collider);
     if (!found) return no_collider();
     if (!at_once && !found->def.kinematic) return api_invalid("only kinematic colliders move");
-    pbmpm_shape shape = found->def.shape;
+    pbmpm_shape shape = found->shape;
     memcpy(shape.position, position, sizeof shape.position);
     if (rotation) memcpy(shape.rotation, rotation, sizeof shape.rotation);
     const char *problem = shape_problem_among(&shape, w->def.dimension, &w->baked);
@@ -373,19 +370,19 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
     HOLD(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
-    const Solid solid = solid_among(&found->def.shape, w->def.dimension, &w->baked);
+    const Solid solid = solid_among(&found->shape, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count));
 }
 
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
 {
-    REQUIRE_FILLED(shape, pbmpm_shape_init);
+    READ(pbmpm_shape, own, shape, shape_defaults());
     REQUIRE(count);
     if (capacity) REQUIRE(ids);
     HOLD(world);
-    const char *problem = shape_problem_among(shape, w->def.dimension, &w->baked);
+    const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
+    const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, 0.0, ids, capacity, count));
 }
 
@@ -393,28 +390,27 @@ pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, p
 
 pbmpm_result pbmpm_particles_def_init(pbmpm_particles_def *def, size_t size)
 {
-    const pbmpm_particles_def defaults = particles_def_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_particles_def, def, size, particles_def_defaults());
 }
 
 pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size)
 {
-    const pbmpm_fill_def defaults = fill_def_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_fill_def, def, size, fill_def_defaults());
 }
 
 pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids)
 {
-    REQUIRE_FILLED(def, pbmpm_particles_def_init);
+    READ(pbmpm_particles_def, own, def, particles_def_defaults());
     HOLD(world);
-    LET_GO(edit_add(w, def, registry_next_particle_generation(), ids));
+    LET_GO(edit_add(w, &own, registry_next_particle_generation(), ids));
 }
 
-pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added)
+pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added)
 {
-    REQUIRE_FILLED(def, pbmpm_fill_def_init);
+    READ(pbmpm_fill_def, own, def, fill_def_defaults());
+    READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    LET_GO(edit_fill(w, def, registry_next_particle_generation(), added));
+    LET_GO(edit_fill(w, &own, &form, registry_next_particle_generation(), added));
 }
 
 pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count)
@@ -426,9 +422,9 @@ pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_i
 
 pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *shape, uint32_t *removed)
 {
-    REQUIRE_FILLED(shape, pbmpm_shape_init);
+    READ(pbmpm_shape, own, shape, shape_defaults());
     HOLD(world);
-    LET_GO(edit_remove_in(w, shape, removed));
+    LET_GO(edit_remove_in(w, &own, removed));
 }
 
 pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
@@ -441,9 +437,12 @@ pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
 
 pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view)
 {
-    REQUIRE_SIZE(view);
+    REQUIRE_SIZE(pbmpm_view, view);
     HOLD_STEPPING(world);
-    LET_GO(background_is_stepping(w) ? background_view(w, field, view) : inspect_view(w, field, view));
+    pbmpm_view own;
+    const pbmpm_result result = background_is_stepping(w) ? background_view(w, field, &own) : inspect_view(w, field, &own);
+    if (result == PBMPM_OK) WRITE(pbmpm_view, view, &own);
+    LET_GO(result);
 }
 
 pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
@@ -470,17 +469,20 @@ pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id 
 
 pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats)
 {
-    REQUIRE_SIZE(stats);
+    REQUIRE_SIZE(pbmpm_stats, stats);
     HOLD(world);
-    LET_GO(inspect_stats(w, stats));
+    pbmpm_stats own;
+    const pbmpm_result result = inspect_stats(w, &own);
+    if (result == PBMPM_OK) WRITE(pbmpm_stats, stats, &own);
+    LET_GO(result);
 }
 
-pbmpm_result pbmpm_world_events(pbmpm_world_id world, const pbmpm_event **events, uint32_t *count, uint32_t *missed)
+pbmpm_result pbmpm_world_events(pbmpm_world_id world, pbmpm_event *events, uint32_t capacity, uint32_t *count, uint32_t *missed)
 {
-    REQUIRE(events);
     REQUIRE(count);
+    if (capacity) REQUIRE_SIZE(pbmpm_event, events);
     HOLD(world);
-    *events = w->events.list;
+    for (uint32_t i = 0; i < w->events.count && i < capacity; i++) sized_put(SIZED_pbmpm_event, events, i, &w->events.list[i]);
     *count = w->events.count;
     if (missed) *missed = w->events.missed;
     LET_GO(PBMPM_OK);

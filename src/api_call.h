@@ -3,25 +3,45 @@
 #define PBMPM_SRC_API_CALL_H
 
 #include "result.h"
+#include "sized.h"
 #include "world.h"
 
 #define REQUIRE(pointer)                                                                                                \
     if (!(pointer)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s: " #pointer " is null", __func__)
 
-/* A structure that the call writes: the caller says how large it is. */
-#define REQUIRE_SIZE(structure)                                                                                         \
-    REQUIRE(structure);                                                                                                 \
-    if ((structure)->size != sizeof *(structure))                                                                       \
-        return api_unknown_size(__func__, #structure, "set it to its sizeof", (structure)->size, sizeof *(structure))
+/* A public structure that the call reads: `own` is a copy of this version's, and members that the caller's version lacks are those of
+ * `base`. */
+#define READ(type, own, given, base)                                                                                    \
+    type own = (base);                                                                                                  \
+    do {                                                                                                                \
+        const pbmpm_result read_result = sized_read(SIZED_##type, __func__, #given, given, &own);                       \
+        if (read_result != PBMPM_OK) return read_result;                                                                \
+    } while (0)
 
-/* One that it reads: it was filled by a function of its own. */
-#define REQUIRE_FILLED(structure, init)                                                                                 \
-    REQUIRE(structure);                                                                                                 \
-    if ((structure)->size != sizeof *(structure))                                                                       \
-        return api_unknown_size(__func__, #structure, "fill it by " #init "()", (structure)->size, sizeof *(structure))
+/* The same while a world is held. */
+#define READ_HELD(type, own, given, base)                                                                               \
+    type own = (base);                                                                                                  \
+    do {                                                                                                                \
+        const pbmpm_result read_result = sized_read(SIZED_##type, __func__, #given, given, &own);                       \
+        if (read_result != PBMPM_OK) LET_GO(read_result);                                                               \
+    } while (0)
 
-/* Refuses a structure; `remedy` says what was probably forgotten. */
-pbmpm_result api_unknown_size(const char *call, const char *structure, const char *remedy, uint32_t size, size_t known);
+/* ... that may be null: then all is as in `base`. */
+#define READ_OR_KEEP(type, own, given, base)                                                                            \
+    type own = (base);                                                                                                  \
+    do {                                                                                                                \
+        const pbmpm_result read_result = (given) ? sized_read(SIZED_##type, __func__, #given, given, &own) : PBMPM_OK;  \
+        if (read_result != PBMPM_OK) LET_GO(read_result);                                                               \
+    } while (0)
+
+/* One that the call writes: the caller says how large it is. */
+#define REQUIRE_SIZE(type, given)                                                                                       \
+    do {                                                                                                                \
+        const pbmpm_result size_result = sized_check(SIZED_##type, __func__, #given, given);                            \
+        if (size_result != PBMPM_OK) return size_result;                                                                \
+    } while (0)
+
+#define WRITE(type, given, own) sized_write(SIZED_##type, given, (given)->size, own)
 
 /* A world that a call holds, in the floating-point mode of the kernels. */
 typedef struct Hold {
@@ -50,11 +70,9 @@ pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held);
 
 #define LET_GO(result) return api_let_go(&held, result)
 
-/* Writes the defaults of a structure whose first member is its size. */
-pbmpm_result api_init_structure(void *structure, size_t size, const void *defaults, size_t known);
-
-#define INIT(structure, size, defaults)                                                                                 \
-    return api_init_structure(structure, size, &(defaults), sizeof(defaults))
+#define INIT(type, given, size, defaults)                                                                                \
+    const type own = (defaults);                                                                                        \
+    return sized_init(SIZED_##type, __func__, given, size, &own)
 
 /* Null if a step of this length is allowed, else what is wrong. */
 const char *api_step_problem(const World *world, float dt);

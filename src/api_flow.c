@@ -5,6 +5,7 @@
 #include "api_call.h"
 #include "emitters.h"
 #include "forces.h"
+#include "keyed.h"
 #include "registry.h"
 #include "sinks.h"
 #include "sleep.h"
@@ -13,27 +14,29 @@
 
 pbmpm_result pbmpm_emitter_def_init(pbmpm_emitter_def *def, size_t size)
 {
-    const pbmpm_emitter_def defaults = emitter_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_emitter_def, def, size, emitter_defaults());
 }
 
-static pbmpm_result check_emitter(const World *w, const pbmpm_emitter_def *def)
+/* `slot`: -1 for a new one. */
+static pbmpm_result check_emitter(const World *w, const pbmpm_emitter_def *def, const pbmpm_shape *shape, int32_t slot)
 {
-    const char *problem = emitter_problem(def, w->def.dimension, (double)w->def.cell_size);
+    const char *problem = emitter_problem(def, shape, w->def.dimension, (double)w->def.cell_size);
+    if (!problem) problem = keyed_problem(w, KEYED_EMITTERS, def->key, slot);
     if (problem) return api_invalid(problem);
     if (material_is_live(&w->materials, def->material)) return PBMPM_OK;
     return fail(PBMPM_ERROR_INVALID_ID, "emitter.material is not of this world");
 }
 
-pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, pbmpm_emitter_id *emitter)
+pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, const pbmpm_shape *shape, pbmpm_emitter_id *emitter)
 {
     REQUIRE(emitter);
     *emitter = (pbmpm_emitter_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_emitter_def_init);
+    READ(pbmpm_emitter_def, own, def, emitter_defaults());
+    READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    const pbmpm_result checked = check_emitter(w, def);
+    const pbmpm_result checked = check_emitter(w, &own, &form, -1);
     if (checked != PBMPM_OK) LET_GO(checked);
-    LET_GO(emitters_add(&w->emitters, &w->memory, def, registry_next_generation(), emitter));
+    LET_GO(emitters_add(&w->emitters, &w->memory, &own, &form, registry_next_generation(), emitter));
 }
 
 static pbmpm_result no_emitter(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such emitter in this world"); }
@@ -47,24 +50,27 @@ pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitte
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def)
+pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def, pbmpm_shape *shape)
 {
-    REQUIRE_SIZE(def);
+    if (def) REQUIRE_SIZE(pbmpm_emitter_def, def);
+    if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
-    *def = found->def;
+    if (def) WRITE(pbmpm_emitter_def, def, &found->def);
+    if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def)
+pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def, const pbmpm_shape *shape)
 {
-    REQUIRE_FILLED(def, pbmpm_emitter_def_init);
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
-    const pbmpm_result checked = check_emitter(w, def);
-    if (checked == PBMPM_OK) emitter_set(found, def);
+    READ_OR_KEEP(pbmpm_emitter_def, own, def, found->def);
+    READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
+    const pbmpm_result checked = check_emitter(w, &own, &form, (int32_t)emitter.index);
+    if (checked == PBMPM_OK) emitter_set(found, &own, &form);
     LET_GO(checked);
 }
 
@@ -74,21 +80,23 @@ pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, 
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
-    pbmpm_emitter_def moved = found->def;
-    memcpy(moved.shape.position, position, sizeof moved.shape.position);
-    if (rotation) memcpy(moved.shape.rotation, rotation, sizeof moved.shape.rotation);
-    const pbmpm_result checked = check_emitter(w, &moved);
+    pbmpm_shape moved = found->shape;
+    memcpy(moved.position, position, sizeof moved.position);
+    if (rotation) memcpy(moved.rotation, rotation, sizeof moved.rotation);
+    const pbmpm_result checked = check_emitter(w, &found->def, &moved, (int32_t)emitter.index);
     if (checked == PBMPM_OK) emitter_move(found, position, rotation);
     LET_GO(checked);
 }
 
 pbmpm_result pbmpm_emitter_status_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_status *status)
 {
-    REQUIRE_SIZE(status);
+    REQUIRE_SIZE(pbmpm_emitter_status, status);
     HOLD(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
-    emitter_report(found, status);
+    pbmpm_emitter_status own;
+    emitter_report(found, &own);
+    WRITE(pbmpm_emitter_status, status, &own);
     LET_GO(PBMPM_OK);
 }
 
@@ -96,28 +104,29 @@ pbmpm_result pbmpm_emitter_status_get(pbmpm_world_id world, pbmpm_emitter_id emi
 
 pbmpm_result pbmpm_drain_def_init(pbmpm_drain_def *def, size_t size)
 {
-    const pbmpm_drain_def defaults = drain_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_drain_def, def, size, drain_defaults());
 }
 
-static pbmpm_result check_drain(const World *w, const pbmpm_drain_def *def)
+static pbmpm_result check_drain(const World *w, const pbmpm_drain_def *def, const pbmpm_shape *shape, int32_t slot)
 {
-    const char *problem = drain_problem(def, w->def.dimension);
+    const char *problem = drain_problem(def, shape, w->def.dimension);
+    if (!problem) problem = keyed_problem(w, KEYED_DRAINS, def->key, slot);
     const bool everything = def->material.index == 0 && def->material.generation == 0;
     if (problem) return api_invalid(problem);
     if (everything || material_is_live(&w->materials, def->material)) return PBMPM_OK;
     return fail(PBMPM_ERROR_INVALID_ID, "drain.material is not of this world");
 }
 
-pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, pbmpm_drain_id *drain)
+pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, const pbmpm_shape *shape, pbmpm_drain_id *drain)
 {
     REQUIRE(drain);
     *drain = (pbmpm_drain_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_drain_def_init);
+    READ(pbmpm_drain_def, own, def, drain_defaults());
+    READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    const pbmpm_result checked = check_drain(w, def);
+    const pbmpm_result checked = check_drain(w, &own, &form, -1);
     if (checked != PBMPM_OK) LET_GO(checked);
-    const pbmpm_result result = sinks_add(&w->sinks, &w->memory, def, w->def.dimension, registry_next_generation(), drain);
+    const pbmpm_result result = sinks_add(&w->sinks, &w->memory, &own, &form, w->def.dimension, registry_next_generation(), drain);
     if (result == PBMPM_OK) sleep_wake_near(w, &sinks_find(&w->sinks, *drain)->solid, SLEEP_FELT);
     LET_GO(result);
 }
@@ -133,25 +142,28 @@ pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain)
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def)
+pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def, pbmpm_shape *shape)
 {
-    REQUIRE_SIZE(def);
+    if (def) REQUIRE_SIZE(pbmpm_drain_def, def);
+    if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD(world);
     const Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
-    *def = found->def;
+    if (def) WRITE(pbmpm_drain_def, def, &found->def);
+    if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def)
+pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def, const pbmpm_shape *shape)
 {
-    REQUIRE_FILLED(def, pbmpm_drain_def_init);
     HOLD(world);
     Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
-    const pbmpm_result checked = check_drain(w, def);
+    READ_OR_KEEP(pbmpm_drain_def, own, def, found->def);
+    READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
+    const pbmpm_result checked = check_drain(w, &own, &form, (int32_t)drain.index);
     if (checked == PBMPM_OK) {
-        drain_set(found, def, w->def.dimension);
+        drain_set(found, &own, &form, w->def.dimension);
         sleep_wake_near(w, &found->solid, SLEEP_FELT);
     }
     LET_GO(checked);
@@ -159,44 +171,44 @@ pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const p
 
 pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status)
 {
-    REQUIRE_SIZE(status);
+    REQUIRE_SIZE(pbmpm_drain_status, status);
     HOLD(world);
     const Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
-    *status = (pbmpm_drain_status){.size = sizeof *status, .drained = found->drained, .drained_mass = found->drained_mass};
+    const pbmpm_drain_status own = {.size = sizeof own, .drained = found->drained, .drained_mass = found->drained_mass};
+    WRITE(pbmpm_drain_status, status, &own);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_kill_bounds_init(pbmpm_kill_bounds *bounds, size_t size)
 {
-    const pbmpm_kill_bounds defaults = kill_bounds_defaults();
-    INIT(bounds, size, defaults);
+    INIT(pbmpm_kill_bounds, bounds, size, kill_bounds_defaults());
 }
 
 pbmpm_result pbmpm_world_set_kill_bounds(pbmpm_world_id world, const pbmpm_kill_bounds *bounds)
 {
-    REQUIRE_FILLED(bounds, pbmpm_kill_bounds_init);
     HOLD(world);
-    const char *problem = kill_bounds_problem(bounds, w->def.dimension);
+    READ_HELD(pbmpm_kill_bounds, own, bounds, w->sinks.bounds);
+    const char *problem = kill_bounds_problem(&own, w->def.dimension);
     if (problem) LET_GO(api_invalid(problem));
-    w->sinks.bounds = *bounds;
+    w->sinks.bounds = own;
     sleep_wake_all(w);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_get_kill_bounds(pbmpm_world_id world, pbmpm_kill_bounds *bounds)
 {
-    REQUIRE_SIZE(bounds);
+    REQUIRE_SIZE(pbmpm_kill_bounds, bounds);
     HOLD(world);
-    *bounds = w->sinks.bounds;
+    WRITE(pbmpm_kill_bounds, bounds, &w->sinks.bounds);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_get_flow(pbmpm_world_id world, pbmpm_flow *flow)
 {
-    REQUIRE_SIZE(flow);
+    REQUIRE_SIZE(pbmpm_flow, flow);
     HOLD(world);
-    *flow = w->flow;
+    WRITE(pbmpm_flow, flow, &w->flow);
     LET_GO(PBMPM_OK);
 }
 
@@ -204,8 +216,7 @@ pbmpm_result pbmpm_world_get_flow(pbmpm_world_id world, pbmpm_flow *flow)
 
 pbmpm_result pbmpm_force_def_init(pbmpm_force_def *def, size_t size)
 {
-    const pbmpm_force_def defaults = force_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_force_def, def, size, force_defaults());
 }
 
 /* What a force acts on; it may act everywhere. */
@@ -219,15 +230,17 @@ static void wake_in_reach(World *w, const Force *force)
         sleep_wake_near(w, &force->solid, reach / (double)w->def.cell_size + SLEEP_FELT);
 }
 
-pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, pbmpm_force_id *force)
+pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, const pbmpm_shape *shape, pbmpm_force_id *force)
 {
     REQUIRE(force);
     *force = (pbmpm_force_id){0, 0};
-    REQUIRE_FILLED(def, pbmpm_force_def_init);
+    READ(pbmpm_force_def, own, def, force_defaults());
+    READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    const char *problem = force_problem(def, w->def.dimension);
+    const char *problem = force_problem(&own, &form, w->def.dimension);
+    if (!problem) problem = keyed_problem(w, KEYED_FORCES, own.key, -1);
     if (problem) LET_GO(api_invalid(problem));
-    const pbmpm_result result = forces_add(&w->forces, &w->memory, def, w->def.dimension, registry_next_generation(), force);
+    const pbmpm_result result = forces_add(&w->forces, &w->memory, &own, &form, w->def.dimension, registry_next_generation(), force);
     if (result == PBMPM_OK) wake_in_reach(w, forces_find(&w->forces, *force));
     LET_GO(result);
 }
@@ -244,38 +257,44 @@ pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force)
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def)
+pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def, pbmpm_shape *shape)
 {
-    REQUIRE_SIZE(def);
+    if (def) REQUIRE_SIZE(pbmpm_force_def, def);
+    if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD(world);
     const Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
-    *def = found->def;
+    if (def) WRITE(pbmpm_force_def, def, &found->def);
+    if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def)
+pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def, const pbmpm_shape *shape)
 {
-    REQUIRE_FILLED(def, pbmpm_force_def_init);
     HOLD(world);
     Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
-    const char *problem = force_problem(def, w->def.dimension);
+    READ_OR_KEEP(pbmpm_force_def, own, def, found->def);
+    READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
+    const char *problem = force_problem(&own, &form, w->def.dimension);
+    if (!problem) problem = keyed_problem(w, KEYED_FORCES, own.key, (int32_t)force.index);
     if (problem) LET_GO(api_invalid(problem));
-    if (memcmp(&found->def, def, sizeof *def) == 0) LET_GO(PBMPM_OK); /* nothing changes, nothing wakes */
+    if (memcmp(&found->def, &own, sizeof own) == 0 && memcmp(&found->shape, &form, sizeof form) == 0)
+        LET_GO(PBMPM_OK); /* nothing changes, nothing wakes */
     wake_in_reach(w, found);
-    force_set(found, def, w->def.dimension);
+    force_set(found, &own, &form, w->def.dimension);
     wake_in_reach(w, found);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_force_status_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_status *status)
 {
-    REQUIRE_SIZE(status);
+    REQUIRE_SIZE(pbmpm_force_status, status);
     HOLD(world);
     const Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
-    *status = (pbmpm_force_status){.size = sizeof *status, .nodes = found->nodes};
-    memcpy(status->impulse, found->impulse, sizeof status->impulse);
+    pbmpm_force_status own = {.size = sizeof own, .nodes = found->nodes};
+    memcpy(own.impulse, found->impulse, sizeof own.impulse);
+    WRITE(pbmpm_force_status, status, &own);
     LET_GO(PBMPM_OK);
 }

@@ -10,14 +10,12 @@
 
 pbmpm_result pbmpm_mesh_def_init(pbmpm_mesh_def *def, size_t size)
 {
-    const pbmpm_mesh_def defaults = mesh_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_mesh_def, def, size, mesh_defaults());
 }
 
 pbmpm_result pbmpm_heights_def_init(pbmpm_heights_def *def, size_t size)
 {
-    const pbmpm_heights_def defaults = heights_defaults();
-    INIT(def, size, defaults);
+    INIT(pbmpm_heights_def, def, size, heights_defaults());
 }
 
 static pbmpm_result bake(const pbmpm_mesh_def *def, bool hull, void *buffer, uint64_t capacity, uint64_t *bytes)
@@ -30,24 +28,24 @@ static pbmpm_result bake(const pbmpm_mesh_def *def, bool hull, void *buffer, uin
 
 pbmpm_result pbmpm_bake_mesh(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_FILLED(def, pbmpm_mesh_def_init);
+    READ(pbmpm_mesh_def, own, def, mesh_defaults());
     REQUIRE(bytes);
-    return bake(def, false, buffer, capacity, bytes);
+    return bake(&own, false, buffer, capacity, bytes);
 }
 
 pbmpm_result pbmpm_bake_hull(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_FILLED(def, pbmpm_mesh_def_init);
+    READ(pbmpm_mesh_def, own, def, mesh_defaults());
     REQUIRE(bytes);
-    return bake(def, true, buffer, capacity, bytes);
+    return bake(&own, true, buffer, capacity, bytes);
 }
 
 pbmpm_result pbmpm_bake_heights(const pbmpm_heights_def *def, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
-    REQUIRE_FILLED(def, pbmpm_heights_def_init);
+    READ(pbmpm_heights_def, own, def, heights_defaults());
     REQUIRE(bytes);
     const uint32_t float_mode = float_mode_enter_from_host();
-    const pbmpm_result result = bake_heights(def, buffer, capacity, bytes);
+    const pbmpm_result result = bake_heights(&own, buffer, capacity, bytes);
     float_mode_leave_to_host(float_mode);
     return result;
 }
@@ -57,11 +55,12 @@ pbmpm_result pbmpm_baked_inspect(const void *data, uint64_t size, pbmpm_baked_in
     DistanceGrid grid;
     const void *values;
     REQUIRE(data);
-    REQUIRE_SIZE(info);
+    REQUIRE_SIZE(pbmpm_baked_info, info);
     const uint32_t float_mode = float_mode_enter_from_host();
     const pbmpm_result result = distance_grid_read(data, size, &grid, &values);
-    if (result == PBMPM_OK) *info = baked_describe(&grid);
+    const pbmpm_baked_info own = result == PBMPM_OK ? baked_describe(&grid) : (pbmpm_baked_info){0};
     float_mode_leave_to_host(float_mode);
+    if (result == PBMPM_OK) WRITE(pbmpm_baked_info, info, &own);
     return result;
 }
 
@@ -80,11 +79,12 @@ static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no suc
 
 pbmpm_result pbmpm_baked_get(pbmpm_world_id world, pbmpm_baked_id baked, pbmpm_baked_info *info)
 {
-    REQUIRE_SIZE(info);
+    REQUIRE_SIZE(pbmpm_baked_info, info);
     HOLD(world);
     const DistanceGrid *grid = baked_find(&w->baked, baked);
     if (!grid) LET_GO(no_solid());
-    *info = baked_describe(grid);
+    const pbmpm_baked_info own = baked_describe(grid);
+    WRITE(pbmpm_baked_info, info, &own);
     LET_GO(PBMPM_OK);
 }
 
@@ -104,23 +104,24 @@ static void read_impulse(const World *world, uint32_t place, const float about[3
 {
     double point[3] = {0};
     for (int a = 0; about && a < world->def.dimension; a++) point[a] = (double)about[a];
-    *impulse = impulse_about(&world->colliders.impulses.sum[place], point, world->def.dimension);
+    const pbmpm_impulse own = impulse_about(&world->colliders.impulses.sum[place], point, world->def.dimension);
+    WRITE(pbmpm_impulse, impulse, &own);
 }
 
 pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_impulse *impulse)
 {
-    REQUIRE_SIZE(impulse);
+    REQUIRE_SIZE(pbmpm_impulse, impulse);
     HOLD(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"));
     if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
-    read_impulse(w, collider.index, found->def.shape.position, impulse);
+    read_impulse(w, collider.index, found->shape.position, impulse);
     LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse)
 {
-    REQUIRE_SIZE(impulse);
+    REQUIRE_SIZE(pbmpm_impulse, impulse);
     HOLD(world);
     if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1)
         LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));

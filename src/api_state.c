@@ -32,11 +32,12 @@ pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, uint64_t ca
     LET_GO(PBMPM_OK);
 }
 
-pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes)
+pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes, uint32_t flags)
 {
     REQUIRE(snapshot);
+    if (flags & ~(uint32_t)PBMPM_RESTORE_KEEP_PARAMETERS) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s: flags %u are not known", __func__, flags);
     HOLD(world);
-    LET_GO(snapshot_restore(w, snapshot, bytes));
+    LET_GO(snapshot_restore(w, snapshot, bytes, flags));
 }
 
 /* ---- async.h ---- */
@@ -75,17 +76,15 @@ pbmpm_result pbmpm_world_step_done(pbmpm_world_id world, int32_t *done)
 
 pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)
 {
-    if (shape) {
-        REQUIRE_FILLED(shape, pbmpm_shape_init);
-    }
     HOLD(world);
-    const char *problem = shape ? shape_problem_among(shape, w->def.dimension, &w->baked) : NULL;
-    if (problem) LET_GO(api_invalid(problem));
     if (!shape) {
         sleep_wake_all(w);
         LET_GO(PBMPM_OK);
     }
-    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
+    READ_HELD(pbmpm_shape, own, shape, shape_defaults());
+    const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
+    if (problem) LET_GO(api_invalid(problem));
+    const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
     sleep_wake_near(w, &solid, SLEEP_FELT);
     LET_GO(PBMPM_OK);
 }
@@ -94,20 +93,19 @@ pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape)
 
 pbmpm_result pbmpm_ray_init(pbmpm_ray *ray, size_t size)
 {
-    const pbmpm_ray defaults = query_ray_defaults();
-    INIT(ray, size, defaults);
+    INIT(pbmpm_ray, ray, size, query_ray_defaults());
 }
 
 pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_region_share *shares, uint32_t capacity,
                                 uint32_t *count)
 {
-    REQUIRE_FILLED(shape, pbmpm_shape_init);
+    READ(pbmpm_shape, own, shape, shape_defaults());
     REQUIRE(count);
-    if (capacity) REQUIRE(shares);
+    if (capacity) REQUIRE_SIZE(pbmpm_region_share, shares);
     HOLD(world);
-    const char *problem = shape_problem_among(shape, w->def.dimension, &w->baked);
+    const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
-    const Solid solid = solid_among(shape, w->def.dimension, &w->baked);
+    const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
     LET_GO(query_region(w, &solid, shares, capacity, count));
 }
 
@@ -137,12 +135,15 @@ pbmpm_result pbmpm_query_heights(pbmpm_world_id world, const float *points, uint
 
 pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_ray_hit *hit)
 {
-    REQUIRE_FILLED(ray, pbmpm_ray_init);
-    REQUIRE_SIZE(hit);
+    READ(pbmpm_ray, own, ray, query_ray_defaults());
+    REQUIRE_SIZE(pbmpm_ray_hit, hit);
     HOLD(world);
-    const char *problem = query_ray_problem(w, ray);
+    const char *problem = query_ray_problem(w, &own);
     if (problem) LET_GO(api_invalid(problem));
-    LET_GO(query_ray(w, ray, hit));
+    pbmpm_ray_hit found;
+    const pbmpm_result result = query_ray(w, &own, &found);
+    if (result == PBMPM_OK) WRITE(pbmpm_ray_hit, hit, &found);
+    LET_GO(result);
 }
 
 /* ---- advice.h ---- */
@@ -150,9 +151,7 @@ pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_r
 pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
 {
     REQUIRE(count);
-    if (capacity) {
-        REQUIRE_SIZE(array);
-    }
+    if (capacity) REQUIRE_SIZE(pbmpm_advice, array);
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     LET_GO(advice_give(w, (double)dt, array, capacity, count));

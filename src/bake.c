@@ -225,6 +225,6 @@ pbmpm_result bake_mesh(const pbmpm_mesh_def *def, bool hull, void *buffer, uint6
         return fail(PBMPM_ERROR_CAPACITY, "the baked solid has %llu bytes, the buffer %llu", (unsigned long long)*bytes,
                     (unsigned long long)capacity);
     Memory memory;
-    memory_init(&memory, &(pbmpm_allocator){0}, 0);
+    memory_init(&memory, NULL, 0);
     return bake_into(def, hull, &memory, &grid, buffer);
 }

@@ -38,22 +38,20 @@ pbmpm_collider_def collider_defaults(void)
 {
     return (pbmpm_collider_def){.size = sizeof(pbmpm_collider_def),
                                 .friction = PBMPM_FRICTION_COULOMB,
-                                .friction_coefficient = 0.2f,
-                                .shape = shape_defaults()};
+                                .friction_coefficient = 0.2f};
 }
 
-const char *collider_problem(const pbmpm_collider_def *def, int dimension, const BakedTable *baked)
+const char *collider_problem(const pbmpm_collider_def *def)
 {
-    if (def->size != sizeof *def) return "collider.size is unknown: fill the definition with pbmpm_collider_def_init()";
     if (def->friction != PBMPM_FRICTION_COULOMB && def->friction != PBMPM_FRICTION_STICK && def->friction != PBMPM_FRICTION_SLIP)
         return "collider.friction is unknown";
     if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
     if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
-    return shape_problem_among(&def->shape, dimension, baked);
+    return NULL;
 }
 
-pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const DistanceGrid *grid,
+pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const pbmpm_shape *shape, const DistanceGrid *grid,
                            uint32_t generation, pbmpm_collider_id *id)
 {
     const pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
@@ -61,8 +59,8 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
     for (uint32_t slot = 0; slot < PBMPM_MAX_COLLIDERS; slot++) {
         Collider *collider = &colliders->slot[slot];
         if (collider->generation != 0) continue;
-        *collider = (Collider){.generation = generation, .def = *def, .grid = grid};
-        collider_place(collider, def->shape.position, def->shape.rotation, true);
+        *collider = (Collider){.generation = generation, .def = *def, .shape = *shape, .grid = grid};
+        collider_place(collider, shape->position, shape->rotation, true);
         if (slot >= colliders->used) colliders->used = slot + 1;
         if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
         *id = (pbmpm_collider_id){slot, generation};
@@ -87,7 +85,7 @@ Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id)
 
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once)
 {
-    pbmpm_shape *shape = &collider->def.shape;
+    pbmpm_shape *shape = &collider->shape;
     memmove(collider->target_position, position, sizeof collider->target_position);
     memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
     normalise_quaternion(collider->target_rotation); /* so that poses between two are evenly spaced */
@@ -102,7 +100,7 @@ void collider_place(Collider *collider, const float position[3], const float *ro
 /* The pose at the share `t` of the way. */
 static pbmpm_shape pose_between(const Collider *collider, float t)
 {
-    return shape_between(&collider->def.shape, collider->target_position, collider->target_rotation, t);
+    return shape_between(&collider->shape, collider->target_position, collider->target_rotation, t);
 }
 
 static Solid solid_at(const Collider *collider, const pbmpm_shape *shape, int dimension)
@@ -114,7 +112,7 @@ static Solid solid_at(const Collider *collider, const pbmpm_shape *shape, int di
 
 bool collider_moves(const Collider *collider)
 {
-    const pbmpm_shape *shape = &collider->def.shape;
+    const pbmpm_shape *shape = &collider->shape;
     return collider->generation != 0 && collider->moving &&
            (memcmp(shape->position, collider->target_position, sizeof shape->position) != 0 ||
             memcmp(shape->rotation, collider->target_rotation, sizeof shape->rotation) != 0);
@@ -125,7 +123,7 @@ Obstacle collider_obstacle(const Collider *collider, int dimension, int part, in
     const pbmpm_collider_def *def = &collider->def;
     Obstacle o = {.moves = collider->moving, .friction = def->friction, .coefficient = def->friction_coefficient, .measures = def->measures_impulse};
     if (!collider->moving) {
-        o.start = o.end = solid_at(collider, &def->shape, dimension);
+        o.start = o.end = solid_at(collider, &collider->shape, dimension);
         return o;
     }
     const pbmpm_shape start = pose_between(collider, (float)part / (float)parts);

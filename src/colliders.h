@@ -10,6 +10,7 @@
 typedef struct Collider {
     uint32_t generation; /* 0: free slot */
     pbmpm_collider_def def;
+    pbmpm_shape shape; /* where it stands now */
     float target_position[3]; /* where the next step takes it */
     float target_rotation[4];
     bool moving;
@@ -65,9 +66,9 @@ pbmpm_result colliders_init(Colliders *colliders, Memory *memory);
 void colliders_free(Colliders *colliders, Memory *memory);
 
 pbmpm_collider_def collider_defaults(void);
-const char *collider_problem(const pbmpm_collider_def *def, int dimension, const BakedTable *baked);
+const char *collider_problem(const pbmpm_collider_def *def);
 /* `grid`: of a baked shape, else null. */
-pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const DistanceGrid *grid,
+pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const pbmpm_shape *shape, const DistanceGrid *grid,
                            uint32_t generation, pbmpm_collider_id *id);
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */

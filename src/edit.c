@@ -17,7 +17,6 @@ pbmpm_fill_def fill_def_defaults(void)
 {
     return (pbmpm_fill_def){.size = sizeof(pbmpm_fill_def),
                             .seed = 1,
-                            .shape = shape_defaults(),
                             .particles_per_axis = 2.0f,
                             .jitter = 0.5f};
 }
@@ -46,7 +45,6 @@ static pbmpm_result no_room(World *world, uint64_t wanted)
 
 static pbmpm_result check_particles(const World *world, const pbmpm_particles_def *def)
 {
-    if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "particles.size is unknown: use pbmpm_particles_def_init()");
     if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "particles.material is not of this world");
     if (def->count && !def->positions) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.positions is null");
     if (!def->volumes && !in_range(def->volume, 0.0, 1e27)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be in [0, 1e27]");
@@ -131,10 +129,10 @@ static void clip_lattice(const World *world, Lattice *lattice, int a)
         lattice->end[a]--;
 }
 
-static bool make_lattice(const World *world, const pbmpm_fill_def *def, Lattice *lattice)
+static bool make_lattice(const World *world, const pbmpm_fill_def *def, const pbmpm_shape *shape, Lattice *lattice)
 {
     double low[3], high[3], points = 1.0;
-    *lattice = (Lattice){.solid = solid_among(&def->shape, world->def.dimension, &world->baked),
+    *lattice = (Lattice){.solid = solid_among(shape, world->def.dimension, &world->baked),
                          .spacing = (double)world->def.cell_size / (double)def->particles_per_axis,
                          .size = {1, 1, 1},
                          .end = {1, 1, 1},
@@ -268,13 +266,12 @@ static void append_points(World *world, const Lattice *lattice, const pbmpm_fill
             }
 }
 
-static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
+static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def, const pbmpm_shape *shape)
 {
-    if (def->size != sizeof *def) return fail(PBMPM_ERROR_UNSUPPORTED, "fill.size is unknown: use pbmpm_fill_def_init()");
     if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "fill.material is not of this world");
-    const char *problem = shape_problem_among(&def->shape, world->def.dimension, &world->baked);
+    const char *problem = shape_problem_among(shape, world->def.dimension, &world->baked);
     if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill: %s", problem);
-    if (def->shape.kind == PBMPM_PLANE) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: a plane has no end");
+    if (shape->kind == PBMPM_PLANE) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: a plane has no end");
     if (!in_range(def->particles_per_axis, 0.25, 16.0))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.particles_per_axis must be in [0.25, 16]");
     if (!in_range(def->jitter, 0.0, 1.0)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.jitter must be in [0, 1]");
@@ -283,13 +280,13 @@ static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def)
     return PBMPM_OK;
 }
 
-pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, uint32_t generation, uint32_t *added)
+pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t generation, uint32_t *added)
 {
-    pbmpm_result checked = check_fill(world, def);
+    pbmpm_result checked = check_fill(world, def, shape);
     if (checked != PBMPM_OK) return checked;
     Lattice lattice;
     Near near;
-    if (!make_lattice(world, def, &lattice))
+    if (!make_lattice(world, def, shape, &lattice))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points in the domain");
     look_for_obstacles(world, &lattice, &near);
     const uint64_t count = count_points(world, &lattice, def);

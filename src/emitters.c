@@ -20,7 +20,6 @@ pbmpm_emitter_def emitter_defaults(void)
 {
     return (pbmpm_emitter_def){.size = sizeof(pbmpm_emitter_def),
                                .seed = 1,
-                               .shape = shape_defaults(),
                                .enabled = 1,
                                .direction = {0.0f, -1.0f, 0.0f},
                                .particles_per_axis = 2.0f,
@@ -30,16 +29,16 @@ pbmpm_emitter_def emitter_defaults(void)
 /* ---- Checking ---- */
 
 /* The shape whose bounds hold the region: for a disc the ball around it. */
-static pbmpm_shape enclosing_shape(const pbmpm_emitter_def *def)
+static pbmpm_shape enclosing_shape(const pbmpm_emitter_def *def, const pbmpm_shape *shape)
 {
-    pbmpm_shape shape = def->shape;
-    if (def->region == PBMPM_EMIT_DISC) shape.kind = PBMPM_SPHERE;
-    return shape;
+    pbmpm_shape enclosing = *shape;
+    if (def->region == PBMPM_EMIT_DISC) enclosing.kind = PBMPM_SPHERE;
+    return enclosing;
 }
 
-static const char *shape_trouble(const pbmpm_emitter_def *def, int dimension, double cell_size)
+static const char *shape_trouble(const pbmpm_emitter_def *def, const pbmpm_shape *given, int dimension, double cell_size)
 {
-    const pbmpm_shape shape = enclosing_shape(def);
+    const pbmpm_shape shape = enclosing_shape(def, given);
     const char *problem = shape_problem(&shape, dimension);
     if (problem) return problem;
     if (shape.kind == PBMPM_PLANE) return "emitter.shape: a plane has no end";
@@ -54,10 +53,9 @@ static const char *shape_trouble(const pbmpm_emitter_def *def, int dimension, do
     return cells <= CELLS_MAX ? NULL : "emitter.shape is too large: its bounds hold more than 2^22 cells";
 }
 
-const char *emitter_problem(const pbmpm_emitter_def *def, int dimension, double cell_size)
+const char *emitter_problem(const pbmpm_emitter_def *def, const pbmpm_shape *shape, int dimension, double cell_size)
 {
     double length = 0.0;
-    if (def->size != sizeof *def) return "emitter.size is unknown: fill the definition with pbmpm_emitter_def_init()";
     if (!in_enum(def->region, PBMPM_EMIT_VOLUME, PBMPM_EMIT_DISC)) return "emitter.region is unknown";
     if (def->enabled != 0 && def->enabled != 1) return "emitter.enabled must be 0 or 1";
     if (!in_range(def->rate, 0.0, 1e12)) return "emitter.rate must be in [0, 1e12]";
@@ -68,7 +66,7 @@ const char *emitter_problem(const pbmpm_emitter_def *def, int dimension, double 
     if (!all_finite(def->direction, (size_t)dimension)) return "emitter.direction must be finite";
     for (int a = 0; a < dimension; a++) length += (double)def->direction[a] * (double)def->direction[a];
     if (!(length > 1e-12)) return "emitter.direction must be longer than 1e-6";
-    return shape_trouble(def, dimension, cell_size);
+    return shape_trouble(def, shape, dimension, cell_size);
 }
 
 /* ---- Slots ---- */
@@ -80,13 +78,15 @@ void emitters_free(Emitters *emitters, Memory *memory)
     *emitters = (Emitters){0};
 }
 
-void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def)
+void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def, const pbmpm_shape *shape)
 {
     emitter->def = *def;
+    emitter->shape = *shape;
     emitter->moving = false;
 }
 
-pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitter_def *def, uint32_t generation, pbmpm_emitter_id *id)
+pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitter_def *def, const pbmpm_shape *shape, uint32_t generation,
+                           pbmpm_emitter_id *id)
 {
     if (!emitters->slot && !(emitters->slot = memory_take(memory, PBMPM_MAX_EMITTERS * sizeof(Emitter))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for emitters");
@@ -94,7 +94,7 @@ pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitte
         Emitter *emitter = &emitters->slot[slot];
         if (emitter->generation != 0) continue;
         *emitter = (Emitter){.generation = generation, .state = {.due = 0.5}};
-        emitter_set(emitter, def);
+        emitter_set(emitter, def, shape);
         if (slot >= emitters->used) emitters->used = slot + 1;
         *id = (pbmpm_emitter_id){slot, generation};
         return PBMPM_OK;
@@ -112,14 +112,14 @@ Emitter *emitters_find(const Emitters *emitters, pbmpm_emitter_id id)
 void emitter_move(Emitter *emitter, const float position[3], const float *rotation)
 {
     memcpy(emitter->target_position, position, sizeof emitter->target_position);
-    memcpy(emitter->target_rotation, rotation ? rotation : emitter->def.shape.rotation, sizeof emitter->target_rotation);
+    memcpy(emitter->target_rotation, rotation ? rotation : emitter->shape.rotation, sizeof emitter->target_rotation);
     emitter->moving = true;
 }
 
 static void arrive(Emitter *emitter)
 {
-    memcpy(emitter->def.shape.position, emitter->target_position, sizeof emitter->target_position);
-    memcpy(emitter->def.shape.rotation, emitter->target_rotation, sizeof emitter->target_rotation);
+    memcpy(emitter->shape.position, emitter->target_position, sizeof emitter->target_position);
+    memcpy(emitter->shape.rotation, emitter->target_rotation, sizeof emitter->target_rotation);
     emitter->moving = false;
 }
 
@@ -213,7 +213,7 @@ static void find_across(const double axis[3], int dimension, double across[2][3]
 static Nozzle nozzle_at(const Emitter *emitter, int dimension, float t)
 {
     const pbmpm_emitter_def *def = &emitter->def;
-    pbmpm_shape shape = enclosing_shape(def);
+    pbmpm_shape shape = enclosing_shape(def, &emitter->shape);
     if (emitter->moving) shape = shape_between(&shape, emitter->target_position, emitter->target_rotation, t);
     Nozzle nozzle = {.region = def->region, .solid = solid_of(&shape, dimension)};
     double length = 0.0;
@@ -428,7 +428,7 @@ static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused
     if (refused == 0) return;
     pbmpm_event event = {.kind = PBMPM_EVENT_EMISSION_REFUSED, .count = refused > UINT32_MAX ? UINT32_MAX : (uint32_t)refused,
                          .substep = (uint32_t)part, .step = world->step_count};
-    for (int a = 0; a < world->def.dimension; a++) event.position[a] = emitter->def.shape.position[a];
+    for (int a = 0; a < world->def.dimension; a++) event.position[a] = emitter->shape.position[a];
     events_add(&world->events, &event);
     world->flow.refused += refused;
 }

@@ -22,6 +22,7 @@ typedef struct EmitterState {
 typedef struct Emitter {
     uint32_t generation; /* 0: free slot */
     pbmpm_emitter_def def;
+    pbmpm_shape shape; /* where it stands now */
     float target_position[3]; /* where the next step takes it */
     float target_rotation[4];
     bool moving;
@@ -38,10 +39,11 @@ void emitters_free(Emitters *emitters, Memory *memory);
 
 pbmpm_emitter_def emitter_defaults(void);
 /* Null if valid, else what is wrong. */
-const char *emitter_problem(const pbmpm_emitter_def *def, int dimension, double cell_size);
-pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitter_def *def, uint32_t generation, pbmpm_emitter_id *id);
+const char *emitter_problem(const pbmpm_emitter_def *def, const pbmpm_shape *shape, int dimension, double cell_size);
+pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitter_def *def, const pbmpm_shape *shape, uint32_t generation,
+                           pbmpm_emitter_id *id);
 Emitter *emitters_find(const Emitters *emitters, pbmpm_emitter_id id); /* null if not live */
-void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def);
+void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def, const pbmpm_shape *shape);
 void emitter_move(Emitter *emitter, const float position[3], const float *rotation);
 bool emitters_use(const Emitters *emitters, pbmpm_material_id material);
 void emitter_report(const Emitter *emitter, pbmpm_emitter_status *status);

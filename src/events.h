@@ -4,10 +4,8 @@
 
 #include "pbmpm/stats.h"
 
-enum { EVENT_CAPACITY = 1024 };
-
 typedef struct Events {
-    pbmpm_event list[EVENT_CAPACITY];
+    pbmpm_event list[PBMPM_MAX_EVENTS];
     uint32_t count;
     uint32_t missed; /* happened when the list was full */
 } Events;
@@ -16,7 +14,7 @@ static inline void events_clear(Events *events) { events->count = events->missed
 
 static inline void events_add(Events *events, const pbmpm_event *event)
 {
-    if (events->count < EVENT_CAPACITY)
+    if (events->count < PBMPM_MAX_EVENTS)
         events->list[events->count++] = *event;
     else
         events->missed++;

@@ -20,17 +20,15 @@ pbmpm_force_def force_defaults(void)
     return (pbmpm_force_def){.size = sizeof(pbmpm_force_def),
                              .enabled = 1,
                              .everywhere = 1,
-                             .shape = shape_defaults(),
                              .strength = 1.0f,
                              .direction = {0.0f, 1.0f, 0.0f}};
 }
 
 static bool is_drag(const pbmpm_force_def *def) { return def->kind == PBMPM_FORCE_DRAG || def->kind == PBMPM_FORCE_GRAB; }
 
-const char *force_problem(const pbmpm_force_def *def, int dimension)
+const char *force_problem(const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension)
 {
     double length = 0.0;
-    if (def->size != sizeof *def) return "force.size is unknown: fill the definition with pbmpm_force_def_init()";
     if (!in_enum(def->kind, PBMPM_FORCE_UNIFORM, PBMPM_FORCE_GRAB)) return "force.kind is unknown";
     if (def->enabled != 0 && def->enabled != 1) return "force.enabled must be 0 or 1";
     if (def->everywhere != 0 && def->everywhere != 1) return "force.everywhere must be 0 or 1";
@@ -44,7 +42,7 @@ const char *force_problem(const pbmpm_force_def *def, int dimension)
     if (!all_finite(def->direction, (size_t)dimension)) return "force.direction must be finite";
     for (int a = 0; a < dimension; a++) length += (double)def->direction[a] * (double)def->direction[a];
     if (!(length > 1e-12)) return "force.direction must be longer than 1e-6";
-    return shape_problem(&def->shape, dimension);
+    return shape_problem(shape, dimension);
 }
 
 /* ---- Slots ---- */
@@ -57,11 +55,12 @@ void forces_free(Forces *forces, Memory *memory)
     *forces = (Forces){0};
 }
 
-void force_set(Force *force, const pbmpm_force_def *def, int dimension)
+void force_set(Force *force, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension)
 {
     double length = 0.0;
     force->def = *def;
-    force->solid = solid_of(&def->shape, dimension);
+    force->shape = *shape;
+    force->solid = solid_of(shape, dimension);
     memset(force->axis, 0, sizeof force->axis);
     if (dimension == 2 && def->kind != PBMPM_FORCE_UNIFORM) {
         force->axis[2] = 1.0;
@@ -71,7 +70,8 @@ void force_set(Force *force, const pbmpm_force_def *def, int dimension)
     for (int a = 0; a < dimension; a++) force->axis[a] = (double)def->direction[a] / sqrt(length);
 }
 
-pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *def, int dimension, uint32_t generation, pbmpm_force_id *id)
+pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension, uint32_t generation,
+                        pbmpm_force_id *id)
 {
     if (!forces->slot && !(forces->slot = memory_take(memory, PBMPM_MAX_FORCES * sizeof(Force))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for forces");
@@ -79,7 +79,7 @@ pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *d
         Force *force = &forces->slot[slot];
         if (force->generation != 0) continue;
         *force = (Force){.generation = generation};
-        force_set(force, def, dimension);
+        force_set(force, def, shape, dimension);
         if (slot >= forces->used) forces->used = slot + 1;
         *id = (pbmpm_force_id){slot, generation};
         return PBMPM_OK;

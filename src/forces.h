@@ -11,6 +11,7 @@ struct World;
 typedef struct Force {
     uint32_t generation; /* 0: free slot */
     pbmpm_force_def def;
+    pbmpm_shape shape;
     Solid solid;
     double axis[3]; /* def.direction as a unit vector; 2D: the third axis, but for a uniform force */
     double impulse[3]; /* [kg m/s] of the step */
@@ -29,12 +30,13 @@ void forces_free(Forces *forces, Memory *memory);
 
 pbmpm_force_def force_defaults(void);
 /* Null if valid, else what is wrong. */
-const char *force_problem(const pbmpm_force_def *def, int dimension);
-pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *def, int dimension, uint32_t generation, pbmpm_force_id *id);
+const char *force_problem(const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension);
+pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension, uint32_t generation,
+                        pbmpm_force_id *id);
 Force *forces_find(const Forces *forces, pbmpm_force_id id); /* null if not live */
 /* Beyond this distance from its shape a force is not felt [m]; may be INFINITY. */
 double force_reach(const Force *force);
-void force_set(Force *force, const pbmpm_force_def *def, int dimension);
+void force_set(Force *force, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension);
 
 /* A new step: nothing has been done yet. */
 void forces_begin_step(Forces *forces);

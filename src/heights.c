@@ -116,7 +116,7 @@ pbmpm_result bake_heights(const pbmpm_heights_def *def, void *buffer, uint64_t c
     const size_t rim = def->count[0] + (size_t)(d == 3 ? def->count[1] : 0);
     const size_t vertex_bytes = 2 * samples * d * sizeof(float), element_bytes = 4 * (samples + rim) * d * sizeof(uint32_t);
     Memory memory;
-    memory_init(&memory, &(pbmpm_allocator){0}, 0);
+    memory_init(&memory, NULL, 0);
     float *vertex = memory_take(&memory, vertex_bytes);
     uint32_t *element = memory_take(&memory, element_bytes);
     pbmpm_mesh_def mesh = mesh_defaults();

@@ -66,7 +66,7 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
         break;
     default: return inspect_no_field(field);
     }
-    found.size = view->size;
+    found.size = sizeof found;
     found.count = p->count;
     found.generation = world->generation;
     if (p->count == 0) found.data = NULL;
@@ -180,7 +180,6 @@ static void fill_record(const World *world, pbmpm_stats *stats)
 
 pbmpm_result inspect_stats(World *world, pbmpm_stats *stats)
 {
-
     const uint32_t count = world->particles.count;
     Sums sums = {0};
     for (uint32_t row = 0; row < count; row++) add_particle(world, row, &sums);

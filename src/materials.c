@@ -80,7 +80,6 @@ static const char *yield_problem(const pbmpm_material_def *def)
 
 const char *material_problem(const pbmpm_material_def *def)
 {
-    if (def->size != sizeof *def) return "material.size is unknown: fill the definition with pbmpm_material_def_init()";
     if (!in_enum(def->kind, PBMPM_LIQUID, KINDS - 1)) return "material.kind is not known to this version";
     if (!in_range(def->density, 1e-3, 1e6)) return "material.density must be in [1e-3, 1e6]";
     if (!(def->relaxation > 0.0f && def->relaxation < 2.0f)) return "material.relaxation must be in (0, 2)";

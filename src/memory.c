@@ -24,8 +24,8 @@ static void default_release(void *block, size_t size, void *user)
 
 void memory_init(Memory *memory, const pbmpm_allocator *allocator, uint64_t budget)
 {
-    *memory = (Memory){*allocator, budget, 0};
-    if (!allocator->allocate) memory->allocator = (pbmpm_allocator){default_allocate, default_release, NULL};
+    const pbmpm_allocator own = {.size = sizeof own, .allocate = default_allocate, .release = default_release};
+    *memory = (Memory){allocator ? *allocator : own, budget, 0};
 }
 
 void *memory_take(Memory *memory, size_t size)

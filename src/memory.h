@@ -12,7 +12,7 @@ typedef struct Memory {
     uint64_t used;
 } Memory;
 
-/* An allocator whose functions are null is replaced by the C library's. */
+/* A null allocator is the C library's. */
 void memory_init(Memory *memory, const pbmpm_allocator *allocator, uint64_t budget);
 
 /* 64-byte aligned, zeroed; null when the allocator or the budget says no. */

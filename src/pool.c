@@ -113,12 +113,12 @@ pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *ho
     *out = pool;
     if (!pool) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the thread pool");
     pool->threads = threads;
-    pool->hooks = *hooks;
+    if (hooks) pool->hooks = *hooks;
     pool->spin_rounds = threads <= cpu_core_count() ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
     pthread_mutex_init(&pool->lock, NULL);
     pthread_cond_init(&pool->work, NULL);
     pthread_cond_init(&pool->done, NULL);
-    while (!hooks->enqueue && pool->started < threads - 1) {
+    while (!hooks && pool->started < threads - 1) {
         if (!thread_start(&pool->worker[pool->started], worker_main, pool)) {
             pool_destroy(memory, pool, true);
             *out = NULL;

@@ -3,6 +3,7 @@
 
 #include "lookup.h"
 #include "query.h"
+#include "sized.h"
 
 /* A box that is surely on one side by more than this share of a cell is not looked into: far above rounding. */
 static const double SURELY = 1e-6;
@@ -99,7 +100,7 @@ pbmpm_result query_region(World *world, const Solid *solid, pbmpm_region_share *
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (all[slot].count == 0) continue;
         all[slot].material = (pbmpm_material_id){slot, world->materials.generation[slot]};
-        if (*count < capacity) shares[*count] = all[slot];
+        if (*count < capacity) sized_put(SIZED_pbmpm_region_share, shares, *count, &all[slot]);
         ++*count;
     }
     return PBMPM_OK;

@@ -101,7 +101,7 @@ void registry_clear_at_unload(void)
         World *world = NULL;
         const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
         if (id.generation == 0 || registry_remove(id, &world) != PBMPM_OK) continue;
-        if (!world->def.allocator.allocate) {
+        if (!world->def.allocator) {
             world_destroy(world);
         } else if (world->owner == getpid()) {
             background_stop(world, true);

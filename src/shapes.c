@@ -49,7 +49,6 @@ const char *shape_problem(const pbmpm_shape *shape, int dimension) { return shap
 
 const char *shape_problem_among(const pbmpm_shape *shape, int dimension, const BakedTable *table)
 {
-    if (shape->size != sizeof *shape) return "shape.size is unknown: fill the shape with pbmpm_shape_init()";
     if (!all_in_range(shape->position, dimension, -1e9, 1e9)) return "shape.position must be in [-1e9, 1e9]";
     if (!all_finite(shape->rotation, 4) || !in_range(quaternion_length(shape->rotation), 0.5, 2.0))
         return "shape.rotation must be a quaternion of length 0.5 to 2";

@@ -8,7 +8,7 @@
 
 pbmpm_drain_def drain_defaults(void)
 {
-    return (pbmpm_drain_def){.size = sizeof(pbmpm_drain_def), .enabled = 1, .shape = shape_defaults()};
+    return (pbmpm_drain_def){.size = sizeof(pbmpm_drain_def), .enabled = 1};
 }
 
 pbmpm_kill_bounds kill_bounds_defaults(void)
@@ -16,16 +16,14 @@ pbmpm_kill_bounds kill_bounds_defaults(void)
     return (pbmpm_kill_bounds){.size = sizeof(pbmpm_kill_bounds), .high = {1.0f, 1.0f, 1.0f}};
 }
 
-const char *drain_problem(const pbmpm_drain_def *def, int dimension)
+const char *drain_problem(const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension)
 {
-    if (def->size != sizeof *def) return "drain.size is unknown: fill the definition with pbmpm_drain_def_init()";
     if (def->enabled != 0 && def->enabled != 1) return "drain.enabled must be 0 or 1";
-    return shape_problem(&def->shape, dimension);
+    return shape_problem(shape, dimension);
 }
 
 const char *kill_bounds_problem(const pbmpm_kill_bounds *bounds, int dimension)
 {
-    if (bounds->size != sizeof *bounds) return "bounds.size is unknown: fill it with pbmpm_kill_bounds_init()";
     if (bounds->enabled != 0 && bounds->enabled != 1) return "bounds.enabled must be 0 or 1";
     for (int a = 0; a < dimension; a++) {
         if (!in_range(bounds->low[a], -1e9, 1e9) || !in_range(bounds->high[a], -1e9, 1e9))
@@ -41,13 +39,15 @@ void sinks_free(Sinks *sinks, Memory *memory)
     *sinks = (Sinks){0};
 }
 
-void drain_set(Drain *drain, const pbmpm_drain_def *def, int dimension)
+void drain_set(Drain *drain, const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension)
 {
     drain->def = *def;
-    drain->solid = solid_of(&def->shape, dimension);
+    drain->shape = *shape;
+    drain->solid = solid_of(shape, dimension);
 }
 
-pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def, int dimension, uint32_t generation, pbmpm_drain_id *id)
+pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension, uint32_t generation,
+                       pbmpm_drain_id *id)
 {
     if (!sinks->slot && !(sinks->slot = memory_take(memory, PBMPM_MAX_DRAINS * sizeof(Drain))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for drains");
@@ -55,7 +55,7 @@ pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def,
         Drain *drain = &sinks->slot[slot];
         if (drain->generation != 0) continue;
         *drain = (Drain){.generation = generation};
-        drain_set(drain, def, dimension);
+        drain_set(drain, def, shape, dimension);
         if (slot >= sinks->used) sinks->used = slot + 1;
         *id = (pbmpm_drain_id){slot, generation};
         return PBMPM_OK;

@@ -11,6 +11,7 @@ struct World;
 typedef struct Drain {
     uint32_t generation; /* 0: free slot */
     pbmpm_drain_def def;
+    pbmpm_shape shape;
     Solid solid;
     uint64_t drained;
     double drained_mass;
@@ -27,11 +28,12 @@ void sinks_free(Sinks *sinks, Memory *memory);
 pbmpm_drain_def drain_defaults(void);
 pbmpm_kill_bounds kill_bounds_defaults(void);
 /* Null if valid, else what is wrong. */
-const char *drain_problem(const pbmpm_drain_def *def, int dimension);
+const char *drain_problem(const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension);
 const char *kill_bounds_problem(const pbmpm_kill_bounds *bounds, int dimension);
-pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def, int dimension, uint32_t generation, pbmpm_drain_id *id);
+pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension, uint32_t generation,
+                       pbmpm_drain_id *id);
 Drain *sinks_find(const Sinks *sinks, pbmpm_drain_id id); /* null if not live */
-void drain_set(Drain *drain, const pbmpm_drain_def *def, int dimension);
+void drain_set(Drain *drain, const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension);
 
 /* Gives the particles that drains and bounds take the status K_REMOVED, and says how many. The particles are as the grid sorted them. */
 uint32_t sinks_mark(struct World *world, uint32_t substep);

@@ -76,15 +76,82 @@ bool snapshot_take(SnapshotIn *in, void *data, size_t bytes)
     return enough;
 }
 
-pbmpm_result snapshot_take_slot(SnapshotIn *in, void *entry, size_t bytes, uint32_t slot, const char *things)
+static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }
+
+void snapshot_put_part(SnapshotOut *out, const void *part, size_t bytes)
 {
-    if (snapshot_take(in, entry, bytes) && memcmp(entry, &slot, sizeof slot) == 0) return PBMPM_OK;
-    return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", things, slot);
+    static const char zeros[WORD] = {0};
+    const uint64_t length = bytes;
+    snapshot_put(out, &length, sizeof length);
+    snapshot_put(out, part, bytes);
+    snapshot_put(out, zeros, padded(bytes) - bytes);
 }
 
-pbmpm_result snapshot_at_end(const SnapshotIn *in, const char *things)
+bool snapshot_take_part(SnapshotIn *in, void *part, size_t bytes)
 {
-    return in->at == in->bytes ? PBMPM_OK : fail(PBMPM_ERROR_FOREIGN, "the snapshot has more %s than the world", things);
+    uint64_t length;
+    if (!snapshot_take(in, &length, sizeof length) || length > in->bytes - in->at || padded(length) > in->bytes - in->at) return false;
+    const char *data = in->data + in->at;
+    in->at += padded(length);
+    memcpy(part, data, length < bytes ? length : bytes);
+    for (uint64_t i = bytes; i < length; i++)
+        if (data[i] != 0) return false;
+    return true;
+}
+
+bool snapshot_goes_on(const SnapshotIn *in) { return in->at < in->bytes; }
+
+/* ---- Lists of things ---- */
+
+typedef struct Name {
+    uint64_t key;
+    uint32_t slot;
+    uint32_t reserved; /* 0 */
+} Name;
+
+void snapshot_put_name(SnapshotOut *out, uint32_t slot, uint64_t key)
+{
+    const Name name = {.key = key, .slot = slot};
+    snapshot_put(out, &name, sizeof name);
+}
+
+static int32_t place_of(const World *world, KeyedKind kind, const Name *name)
+{
+    const int32_t place = name->key ? keyed_find(world, kind, name->key) : -1;
+    if (place >= 0) return place;
+    return keyed_live(world, kind, name->slot) ? (int32_t)name->slot : -1;
+}
+
+pbmpm_result snapshot_take_name(const World *world, SnapshotIn *in, KeyedKind kind, Matched *matched, int32_t *place, uint32_t *saved)
+{
+    Name name;
+    const bool whole = snapshot_take(in, &name, sizeof name);
+    *place = -1;
+    if (saved) *saved = name.slot;
+    if (!whole) return snapshot_malformed();
+    *place = place_of(world, kind, &name);
+    if (*place < 0 && in->restoring->keeps) return PBMPM_OK;
+    if (*place < 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", keyed_name(kind), name.slot);
+    uint64_t *word = &matched->seen[*place / 64], bit = (uint64_t)1 << *place % 64;
+    if (*word & bit) return fail(PBMPM_ERROR_FOREIGN, "two %s of the snapshot are the one at index %d of the world: give them keys", keyed_name(kind), *place);
+    *word |= bit;
+    return PBMPM_OK;
+}
+
+pbmpm_result snapshot_all_matched(const World *world, const SnapshotIn *in, KeyedKind kind, const Matched *matched)
+{
+    for (uint32_t slot = 0; slot < keyed_slots(world, kind) && !in->restoring->keeps; slot++)
+        if (keyed_live(world, kind, slot) && !(matched->seen[slot / 64] >> slot % 64 & 1))
+            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", keyed_name(kind), slot);
+    return PBMPM_OK;
+}
+
+pbmpm_shape snapshot_posed(const pbmpm_shape *shape, const pbmpm_shape *pose)
+{
+    pbmpm_shape posed = *shape;
+    memcpy(posed.position, pose->position, sizeof posed.position);
+    memcpy(posed.rotation, pose->rotation, sizeof posed.rotation);
+    return posed;
 }
 
 pbmpm_result snapshot_malformed(void)
@@ -117,14 +184,15 @@ static Made made_of(const World *world)
 static void save_made(const World *world, SnapshotOut *out)
 {
     const Made made = made_of(world);
-    snapshot_put(out, &made, sizeof made);
+    snapshot_put_part(out, &made, sizeof made);
 }
 
 static pbmpm_result check_made(World *world, SnapshotIn in)
 {
     const Made own = made_of(world);
-    Made made;
-    if (in.bytes != sizeof made || !snapshot_take(&in, &made, sizeof made)) return snapshot_malformed();
+    Made made = {0};
+    if (!snapshot_take_part(&in, &made, sizeof made) || snapshot_goes_on(&in)) return snapshot_malformed();
+    if (in.restoring->keeps) made.domain_friction = own.domain_friction;
     if (made.dimension != own.dimension)
         return fail(PBMPM_ERROR_FOREIGN, "the snapshot is of a world in %dD, not %dD", made.dimension, own.dimension);
     if (made.cell_size != own.cell_size)
@@ -139,46 +207,74 @@ static void load_nothing(World *world, SnapshotIn in)
     (void)in;
 }
 
-typedef struct SavedMaterial {
-    uint32_t slot;
-    pbmpm_material_def def;
-} SavedMaterial;
-
 static void save_materials(const World *world, SnapshotOut *out)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
         if (world->materials.generation[slot] == 0) continue;
-        const SavedMaterial saved = {slot, world->materials.def[slot]};
-        snapshot_put(out, &saved, sizeof saved);
+        snapshot_put_name(out, slot, def->key);
+        snapshot_put_part(out, def, sizeof *def);
     }
 }
 
+static pbmpm_result compare_material(const World *world, int32_t place, const pbmpm_material_def *saved, bool keeps)
+{
+    const pbmpm_material_def *own = &world->materials.def[place];
+    pbmpm_material_def same = *saved;
+    same.size = own->size;
+    same.key = own->key;
+    same.user_data = own->user_data;
+    if (saved->kind != own->kind || saved->density != own->density)
+        return fail(PBMPM_ERROR_FOREIGN, "material %d has another kind or density than in the snapshot", place);
+    if (!keeps && memcmp(&same, own, sizeof same) != 0)
+        return fail(PBMPM_ERROR_FOREIGN, "material %d has other parameters than in the snapshot; PBMPM_RESTORE_KEEP_PARAMETERS keeps its own", place);
+    return PBMPM_OK;
+}
+
+/* Fills in.restoring->material. */
 static pbmpm_result check_materials(World *world, SnapshotIn in)
 {
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        if (world->materials.generation[slot] == 0) continue;
-        SavedMaterial saved;
-        const pbmpm_result result = snapshot_take_slot(&in, &saved, sizeof saved, slot, "materials");
+    Matched matched = {0};
+    memset(in.restoring->material, -1, sizeof in.restoring->material);
+    while (snapshot_goes_on(&in)) {
+        int32_t place;
+        uint32_t saved_slot;
+        pbmpm_material_def saved = material_defaults();
+        pbmpm_result result = snapshot_take_name(world, &in, KEYED_MATERIALS, &matched, &place, &saved_slot);
         if (result != PBMPM_OK) return result;
-        if (memcmp(&saved.def, &world->materials.def[slot], sizeof saved.def) != 0)
-            return fail(PBMPM_ERROR_FOREIGN, "material %u has other parameters than in the snapshot", slot);
+        if (!snapshot_take_part(&in, &saved, sizeof saved) || saved_slot >= PBMPM_MAX_MATERIALS) return snapshot_malformed();
+        if (place < 0) continue;
+        result = compare_material(world, place, &saved, in.restoring->keeps);
+        if (result != PBMPM_OK) return result;
+        in.restoring->material[saved_slot] = (int16_t)place;
     }
-    return snapshot_at_end(&in, "materials");
+    return snapshot_all_matched(world, &in, KEYED_MATERIALS, &matched);
 }
 
 /* ---- Settings and counters ---- */
 
-static void save_settings(const World *world, SnapshotOut *out) { snapshot_put(out, &world->settings, sizeof world->settings); }
+static void save_settings(const World *world, SnapshotOut *out) { snapshot_put_part(out, &world->settings, sizeof world->settings); }
+
+static bool read_settings(SnapshotIn in, pbmpm_settings *settings)
+{
+    *settings = settings_defaults();
+    const bool whole = snapshot_take_part(&in, settings, sizeof *settings) && !snapshot_goes_on(&in);
+    settings->size = sizeof *settings;
+    return whole;
+}
 
 static pbmpm_result check_settings(World *world, SnapshotIn in)
 {
     pbmpm_settings settings;
-    if (in.bytes != sizeof settings || !snapshot_take(&in, &settings, sizeof settings)) return snapshot_malformed();
+    if (!read_settings(in, &settings)) return snapshot_malformed();
     const char *problem = settings_problem(&settings, world->def.dimension);
     return problem ? fail(PBMPM_ERROR_FOREIGN, "the snapshot's settings: %s", problem) : PBMPM_OK;
 }
 
-static void load_settings(World *world, SnapshotIn in) { snapshot_take(&in, &world->settings, sizeof world->settings); }
+static void load_settings(World *world, SnapshotIn in)
+{
+    if (!in.restoring->keeps) read_settings(in, &world->settings);
+}
 
 typedef struct Counters {
     uint64_t step_count, deleted_total, clamped_total;
@@ -193,14 +289,14 @@ static void save_counters(const World *world, SnapshotOut *out)
     const Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                                world->simulated_seconds, world->slow_dt,       world->slow_iterations,
                                world->strain_unchecked,  world->primal.credit};
-    snapshot_put(out, &counters, sizeof counters);
+    snapshot_put_part(out, &counters, sizeof counters);
 }
 
 static pbmpm_result check_counters(World *world, SnapshotIn in)
 {
-    Counters counters;
+    Counters counters = {0};
     (void)world;
-    if (in.bytes != sizeof counters || !snapshot_take(&in, &counters, sizeof counters)) return snapshot_malformed();
+    if (!snapshot_take_part(&in, &counters, sizeof counters) || snapshot_goes_on(&in)) return snapshot_malformed();
     const bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
                       isfinite(counters.simulated_seconds + counters.slow_dt + counters.slow_iterations) && isfinite(counters.credit);
     return fits ? PBMPM_OK : snapshot_malformed();
@@ -208,8 +304,8 @@ static pbmpm_result check_counters(World *world, SnapshotIn in)
 
 static void load_counters(World *world, SnapshotIn in)
 {
-    Counters counters;
-    snapshot_take(&in, &counters, sizeof counters);
+    Counters counters = {0};
+    snapshot_take_part(&in, &counters, sizeof counters);
     world->step_count = counters.step_count;
     world->deleted_total = counters.deleted_total;
     world->clamped_total = counters.clamped_total;
@@ -220,68 +316,96 @@ static void load_counters(World *world, SnapshotIn in)
     world->primal.credit = counters.credit;
 }
 
-/* ---- Colliders: matched by slot and kind; poses and targets are loaded ---- */
+/* ---- Colliders: poses and targets are loaded ---- */
+
+typedef struct ColliderMotion {
+    uint32_t moving;
+    float target_position[3], target_rotation[4];
+} ColliderMotion;
 
 typedef struct SavedCollider {
-    uint32_t slot, moving;
     pbmpm_collider_def def;
-    float target_position[3], target_rotation[4];
+    pbmpm_shape shape;
+    ColliderMotion motion;
 } SavedCollider;
-
-/* The definition without its pose. */
-static pbmpm_collider_def kind_of(const pbmpm_collider_def *def)
-{
-    pbmpm_collider_def kind = *def;
-    memset(kind.shape.position, 0, sizeof kind.shape.position);
-    memset(kind.shape.rotation, 0, sizeof kind.shape.rotation);
-    kind.shape.baked.generation = 0; /* the same solid has another one in another world */
-    return kind;
-}
 
 static void save_colliders(const World *world, SnapshotOut *out)
 {
     for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
         const Collider *collider = &world->colliders.slot[slot];
         if (collider->generation == 0) continue;
-        SavedCollider saved = {.slot = slot, .moving = collider->moving, .def = collider->def};
-        memcpy(saved.target_position, collider->target_position, sizeof saved.target_position);
-        memcpy(saved.target_rotation, collider->target_rotation, sizeof saved.target_rotation);
-        snapshot_put(out, &saved, sizeof saved);
+        ColliderMotion motion = {.moving = collider->moving};
+        memcpy(motion.target_position, collider->target_position, sizeof motion.target_position);
+        memcpy(motion.target_rotation, collider->target_rotation, sizeof motion.target_rotation);
+        snapshot_put_name(out, slot, collider->def.key);
+        snapshot_put_part(out, &collider->def, sizeof collider->def);
+        snapshot_put_part(out, &collider->shape, sizeof collider->shape);
+        snapshot_put_part(out, &motion, sizeof motion);
     }
+}
+
+static bool take_collider(SnapshotIn *in, SavedCollider *saved)
+{
+    *saved = (SavedCollider){.def = collider_defaults(), .shape = shape_defaults()};
+    return snapshot_take_part(in, &saved->def, sizeof saved->def) && snapshot_take_part(in, &saved->shape, sizeof saved->shape) &&
+           snapshot_take_part(in, &saved->motion, sizeof saved->motion);
+}
+
+/* Whether it is the same but for its pose. */
+static bool same_collider(const Collider *own, const SavedCollider *saved)
+{
+    pbmpm_collider_def def = saved->def;
+    pbmpm_shape shape = snapshot_posed(&saved->shape, &own->shape);
+    def.size = own->def.size;
+    def.key = own->def.key;
+    def.user_data = own->def.user_data;
+    shape.size = own->shape.size;
+    shape.baked.generation = own->shape.baked.generation; /* the same solid has another one in another world */
+    return memcmp(&def, &own->def, sizeof def) == 0 && memcmp(&shape, &own->shape, sizeof shape) == 0;
+}
+
+static bool poses_fit(const World *world, const Collider *own, const SavedCollider *saved)
+{
+    const pbmpm_shape now = snapshot_posed(&own->shape, &saved->shape);
+    pbmpm_shape target = now;
+    memcpy(target.position, saved->motion.target_position, sizeof target.position);
+    memcpy(target.rotation, saved->motion.target_rotation, sizeof target.rotation);
+    return !shape_problem_among(&now, world->def.dimension, &world->baked) && !shape_problem_among(&target, world->def.dimension, &world->baked);
 }
 
 static pbmpm_result check_colliders(World *world, SnapshotIn in)
 {
-    for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
-        const Collider *collider = &world->colliders.slot[slot];
-        if (collider->generation == 0) continue;
+    Matched matched = {0};
+    while (snapshot_goes_on(&in)) {
+        int32_t place;
         SavedCollider saved;
-        const pbmpm_result result = snapshot_take_slot(&in, &saved, sizeof saved, slot, "colliders");
+        const pbmpm_result result = snapshot_take_name(world, &in, KEYED_COLLIDERS, &matched, &place, NULL);
         if (result != PBMPM_OK) return result;
-        const pbmpm_collider_def own = kind_of(&collider->def), other = kind_of(&saved.def);
-        if (memcmp(&own, &other, sizeof own) != 0)
-            return fail(PBMPM_ERROR_FOREIGN, "collider %u has another shape, friction or kind than in the snapshot", slot);
-        saved.def.shape.baked = collider->def.shape.baked;
-        pbmpm_shape target = saved.def.shape;
-        memcpy(target.position, saved.target_position, sizeof target.position);
-        memcpy(target.rotation, saved.target_rotation, sizeof target.rotation);
-        if (shape_problem_among(&saved.def.shape, world->def.dimension, &world->baked) ||
-            shape_problem_among(&target, world->def.dimension, &world->baked))
-            return snapshot_malformed();
+        if (!take_collider(&in, &saved)) return snapshot_malformed();
+        if (place < 0) continue;
+        const Collider *own = &world->colliders.slot[place];
+        if (!in.restoring->keeps && !same_collider(own, &saved))
+            return fail(PBMPM_ERROR_FOREIGN, "collider %d has another shape, friction or kind than in the snapshot; PBMPM_RESTORE_KEEP_PARAMETERS keeps its own",
+                        place);
+        if (!poses_fit(world, own, &saved)) return snapshot_malformed();
     }
-    return snapshot_at_end(&in, "colliders");
+    return snapshot_all_matched(world, &in, KEYED_COLLIDERS, &matched);
 }
 
 static void load_colliders(World *world, SnapshotIn in)
 {
+    Matched matched = {0};
+    int32_t place;
     SavedCollider saved;
-    while (snapshot_take(&in, &saved, sizeof saved)) {
-        Collider *collider = &world->colliders.slot[saved.slot];
-        saved.def.shape.baked = collider->def.shape.baked;
-        collider->def = saved.def;
-        collider->moving = saved.moving != 0;
-        memcpy(collider->target_position, saved.target_position, sizeof saved.target_position);
-        memcpy(collider->target_rotation, saved.target_rotation, sizeof saved.target_rotation);
+    while (snapshot_goes_on(&in)) {
+        snapshot_take_name(world, &in, KEYED_COLLIDERS, &matched, &place, NULL);
+        take_collider(&in, &saved);
+        if (place < 0) continue;
+        Collider *collider = &world->colliders.slot[place];
+        collider->shape = snapshot_posed(&collider->shape, &saved.shape);
+        collider->moving = saved.motion.moving != 0 && collider->def.kinematic;
+        memcpy(collider->target_position, saved.motion.target_position, sizeof saved.motion.target_position);
+        memcpy(collider->target_rotation, saved.motion.target_rotation, sizeof saved.motion.target_rotation);
     }
 }
 
@@ -298,8 +422,6 @@ static const SnapshotSection *const sections[] = {&made_section,      &materials
                                                   &colliders_section, &emitters_section,  &drains_section,   &forces_section,
                                                   &flow_section,      &particles_section, &sleep_section};
 enum { SECTIONS = sizeof sections / sizeof *sections };
-
-static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }
 
 static uint64_t payload_bytes(const World *world, const SnapshotSection *section)
 {
@@ -362,9 +484,9 @@ static pbmpm_result check_header(const char *snapshot, uint64_t bytes, Header *h
                     (unsigned long long)header->bytes, (unsigned long long)bytes);
     if (checksum_of(snapshot, header->bytes) != header->checksum)
         return fail(PBMPM_ERROR_DAMAGED, "the snapshot is damaged: its checksum is wrong");
-    if (header->version != PBMPM_SNAPSHOT_VERSION)
-        return fail(PBMPM_ERROR_FOREIGN, "the snapshot has version %u of the format; this library reads %u", header->version,
-                    PBMPM_SNAPSHOT_VERSION);
+    if (header->version < PBMPM_SNAPSHOT_OLDEST || header->version > PBMPM_SNAPSHOT_VERSION)
+        return fail(PBMPM_ERROR_FOREIGN, "the snapshot has version %u of the format; this library reads %u to %u", header->version,
+                    PBMPM_SNAPSHOT_OLDEST, PBMPM_SNAPSHOT_VERSION);
     return PBMPM_OK;
 }
 
@@ -405,17 +527,22 @@ static pbmpm_result reserve_all(World *world, const SnapshotIn found[SECTIONS])
     return result;
 }
 
-pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes)
+pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes, uint32_t flags)
 {
     Header header;
+    Restoring restoring = {.keeps = (flags & PBMPM_RESTORE_KEEP_PARAMETERS) != 0};
     SnapshotIn found[SECTIONS];
     pbmpm_result result = check_header(snapshot, bytes, &header);
     if (result == PBMPM_OK) result = find_payloads(snapshot, &header, found);
-    for (int i = 0; i < SECTIONS && result == PBMPM_OK; i++) result = sections[i]->check(world, found[i]);
+    for (int i = 0; i < SECTIONS && result == PBMPM_OK; i++) {
+        found[i].restoring = &restoring;
+        result = sections[i]->check(world, found[i]);
+    }
     if (result == PBMPM_OK) result = reserve_all(world, found);
     if (result != PBMPM_OK) return result;
     for (int i = 0; i < SECTIONS; i++) sections[i]->load(world, found[i]);
     sleep_check_rows(world);
+    if (restoring.keeps) sleep_wake_all(world); /* what sleeps came to rest with other parameters */
     world->record = (StepRecord){0};
     events_clear(&world->events);
     grid_clear(&world->grid);

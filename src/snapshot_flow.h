@@ -1,5 +1,5 @@
 /* Emitters, drains, kill bounds and forces in a snapshot: their definitions, which may change between steps, and what they have
- * done. Matched by slot. */
+ * done. */
 #ifndef PBMPM_SRC_SNAPSHOT_FLOW_H
 #define PBMPM_SRC_SNAPSHOT_FLOW_H
 

@@ -142,6 +142,7 @@ static bool fields_fit(const World *world, const Reading *reading)
 /* What a step relies on without looking. All else it checks itself. */
 static bool values_fit(const World *world, const Reading *reading)
 {
+    const int16_t *place = reading->arrays.restoring->material;
     const uint32_t count = reading->contents.count;
     const char *cell = array_of(reading, FIELD_CELL), *fraction = array_of(reading, FIELD_FRACTION);
     const char *material = array_of(reading, FIELD_MATERIAL), *mass = array_of(reading, FIELD_MASS);
@@ -153,8 +154,8 @@ static bool values_fit(const World *world, const Reading *reading)
     }
     for (uint32_t i = 0; i < count; i++) {
         const uint32_t slot = u32_at(material, i);
-        if (slot >= PBMPM_MAX_MATERIALS || world->materials.generation[slot] == 0) return false;
-        if (!deforms && material_is_solid(&world->materials, slot)) return false;
+        if (slot >= PBMPM_MAX_MATERIALS || place[slot] < 0) return false;
+        if (!deforms && material_is_solid(&world->materials, (uint32_t)place[slot])) return false;
         if (!(float_at(mass, i) > 0.0f && float_at(mass, i) <= FLT_MAX)) return false;
     }
     return true;
@@ -242,7 +243,10 @@ static void load_particles(World *world, SnapshotIn in)
         for (int c = 0; c < particles_components(p, field->class); c++, array += bytes) memcpy(*field->component[c], array, bytes);
     }
     memset(p->of_material, 0, sizeof p->of_material);
-    for (uint32_t i = 0; i < p->count; i++) p->of_material[p->material[i]]++;
+    for (uint32_t i = 0; i < p->count; i++) {
+        p->material[i] = (uint32_t)in.restoring->material[p->material[i]];
+        p->of_material[p->material[i]]++;
+    }
     load_identifiers(p, &reading);
     particles_changed(p);
 }

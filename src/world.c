@@ -42,7 +42,6 @@ static const char *domain_problem(const pbmpm_world_def *def)
 
 const char *world_def_problem(const pbmpm_world_def *def)
 {
-    if (def->size != sizeof *def) return "world.size is unknown: fill the definition with pbmpm_world_def_init()";
     if (def->dimension != 2 && def->dimension != 3) return "world.dimension must be 2 or 3";
     if (!in_range(def->cell_size, 1e-6, 1e6)) return "world.cell_size must be in [1e-6, 1e6]";
     if (def->particle_capacity < 1 || def->particle_capacity > PBMPM_MAX_PARTICLES)
@@ -52,14 +51,13 @@ const char *world_def_problem(const pbmpm_world_def *def)
     if (def->thread_count < 0 || def->thread_count > 256) return "world.thread_count must be in [0, 256]";
     if (def->domain_enabled != 0 && def->domain_enabled != 1) return "world.domain_enabled must be 0 or 1";
     if (def->domain_measures_impulse != 0 && def->domain_measures_impulse != 1) return "world.domain_measures_impulse must be 0 or 1";
-    if (!def->allocator.allocate != !def->allocator.release) return "world.allocator needs both functions or none";
-    if (!def->tasks.enqueue != !def->tasks.finish) return "world.tasks needs both functions or none";
+    if (def->allocator && (!def->allocator->allocate || !def->allocator->release)) return "world.allocator needs both functions";
+    if (def->tasks && (!def->tasks->enqueue || !def->tasks->finish)) return "world.tasks needs both functions";
     return def->domain_enabled ? domain_problem(def) : NULL;
 }
 
 const char *settings_problem(const pbmpm_settings *settings, int dimension)
 {
-    if (settings->size != sizeof *settings) return "settings.size is unknown: fill the settings with pbmpm_settings_init()";
     if (settings->substeps < 1 || settings->substeps > PBMPM_MAX_SUBSTEPS) return "settings.substeps must be in [1, 256]";
     if (settings->iterations < 1 || settings->iterations > PBMPM_MAX_ITERATIONS)
         return "settings.iterations must be in [1, 1000]";
@@ -110,14 +108,19 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     *out = NULL;
     if (isa == PBMPM_ISA_NONE) return fail(PBMPM_ERROR_UNSUPPORTED_CPU, "this CPU has no SSE4.2");
     Memory memory;
-    memory_init(&memory, &def->allocator, def->memory_budget);
+    memory_init(&memory, def->allocator, def->memory_budget);
     World *world = memory_take(&memory, sizeof *world);
     if (!world) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a world");
     world->def = *def;
+    world->memory = memory;
+    if (def->allocator) world->def.allocator = &world->memory.allocator;
+    if (def->tasks) {
+        world->tasks = *def->tasks;
+        world->def.tasks = &world->tasks;
+    }
     world->settings = settings_defaults();
     world->sinks.bounds = kill_bounds_defaults();
     world->flow.size = sizeof world->flow;
-    world->memory = memory;
     world->owner = getpid();
     world->kernels = kernels_for(isa, def->dimension);
     world->generation = 1;
@@ -127,7 +130,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     if (result == PBMPM_OK) result = grid_init(&world->grid, &world->memory, def->dimension, def->particle_capacity);
     if (result == PBMPM_OK) result = colliders_init(&world->colliders, &world->memory);
     if (result == PBMPM_OK && def->domain_measures_impulse) result = impulses_enable(&world->colliders.impulses, &world->memory);
-    if (result == PBMPM_OK) result = pool_create(&world->memory, threads, &def->tasks, &world->pool);
+    if (result == PBMPM_OK) result = pool_create(&world->memory, threads, def->tasks, &world->pool);
     if (result != PBMPM_OK) {
         world_destroy(world);
         return result;

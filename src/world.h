@@ -99,7 +99,8 @@ typedef struct JointState {
 } JointState;
 
 typedef struct World {
-    pbmpm_world_def def;
+    pbmpm_world_def def; /* its pointers: to memory.allocator and tasks */
+    pbmpm_task_hooks tasks;
     pbmpm_settings settings;
     Domain domain;
     Memory memory;

@@ -1,4 +1,4 @@
-"""Command line: ``python -m generator cdef|csharp|layout --headers include --output FILE``."""
+"""Command line: ``python -m generator cdef|csharp|layout|sized|header --headers include --output FILE``."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ _TARGETS = {
     "cdef": "declarations for cffi",
     "csharp": "P/Invoke declarations for C#",
     "layout": "the list of structures and fields in the library",
+    "sized": "the table of the sizes of structures in all versions, in the library",
+    "header": "one header without comments, kept in tests/abi",
 }
 
 
@@ -21,15 +23,19 @@ def main() -> int:
     arguments.add_argument("target", choices=_TARGETS, help="; ".join(f"{k}: {v}" for k, v in _TARGETS.items()))
     arguments.add_argument("--headers", type=Path, required=True, help="folder that holds pbmpm/pbmpm.h")
     arguments.add_argument("--output", type=Path, required=True, help="file to write")
+    arguments.add_argument("--versions", type=Path, help="sized: folder with the headers of older versions")
     options = arguments.parse_args()
+    if (options.versions is None) == (options.target == "sized"):
+        arguments.error("--versions goes with the target sized, and with no other")
     try:
         api = parse(options.headers)
     except (ParseError, OSError) as problem:
         print(f"generator: {problem}", file=sys.stderr)
         return 2
     emitter = importlib.import_module(f".{options.target}", __package__)
+    more = [options.versions] if options.versions else []
     options.output.parent.mkdir(parents=True, exist_ok=True)
-    options.output.write_text(emitter.emit(api), encoding="utf-8", newline="\n")
+    options.output.write_text(emitter.emit(api, *more), encoding="utf-8", newline="\n")
     return 0
 
 

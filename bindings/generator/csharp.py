@@ -148,7 +148,14 @@ def _vector_name(type_: Type) -> str:
 
 
 def _field_type(type_: Type) -> str:
+    if _is_optional(type_):
+        return "IntPtr"
     return _pointer(type_) if type_.length is None else _vector_name(type_)
+
+
+def _is_optional(type_: Type) -> bool:
+    """A member that refers to another structure, null as a rule: the binding sets it where the call is made."""
+    return type_.kind is Kind.STRUCT and type_.pointers == 1
 
 
 def _parameter_type(type_: Type) -> str:
@@ -156,7 +163,7 @@ def _parameter_type(type_: Type) -> str:
 
 
 def _holds_pointers(structure: Structure) -> bool:
-    return any(field.type.pointers > 0 for field in structure.fields)
+    return any(field.type.pointers > 0 and not _is_optional(field.type) for field in structure.fields)
 
 
 def _vectors(api: Api) -> list[tuple[str, int]]:

@@ -80,12 +80,13 @@ typedef void pbmpm_log_callback(const char *message, void *user);
  *  library. Bindings need not use it: everything it says can also be polled. */
 PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 
-/** Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
+/** Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
  *  null; `release` gets the size that was asked for. Called from the thread that calls the library, and
  *  from that of a step in the background (async.h); for one world never from two at once. */
 typedef struct pbmpm_allocator {
-    void *(*allocate)(size_t size, size_t alignment, void *user); /**< aligned to at least `alignment` */
-    void (*release)(void *memory, size_t size, void *user);       /**< null exactly when allocate is */
+    uint32_t size;                                                /**< sizeof(pbmpm_allocator), set by the caller */
+    void *(*allocate)(size_t size, size_t alignment, void *user); /**< not null */
+    void (*release)(void *memory, size_t size, void *user);       /**< not null */
     void *user;                                                   /**< passed on unchanged */
 } pbmpm_allocator;
 
@@ -94,10 +95,11 @@ typedef void pbmpm_task(int32_t index, void *context);
 
 /** Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
  *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
- *  of them have returned. Null functions: the world's own thread pool is used. */
+ *  of them have returned. Read at the creation of a world. */
 typedef struct pbmpm_task_hooks {
-    void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< returns a handle */
-    void (*finish)(void *handle, void *user);                                     /**< null exactly when enqueue is */
+    uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */
+    void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< not null; returns a handle */
+    void (*finish)(void *handle, void *user);                                     /**< not null */
     void *user;                                                                   /**< passed on unchanged */
 } pbmpm_task_hooks;
 
@@ -124,7 +126,7 @@ PBMPM_API pbmpm_isa pbmpm_active_isa(void);
 PBMPM_API const char *pbmpm_isa_name(pbmpm_isa isa);
 
 /** One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
- *  structure itself (offset 0, size of the whole). */
+ *  structure itself (offset 0, size of the whole). This structure and the identifiers never grow. */
 typedef struct pbmpm_layout_entry {
     const char *structure; /**< never null */
     const char *field;     /**< never null */

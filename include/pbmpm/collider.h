@@ -28,22 +28,25 @@ typedef struct pbmpm_collider_def {
     pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
-    pbmpm_shape shape;          /**< with the pose at the start */
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
+    uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
+                             snapshot.h */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_collider_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 
-/** Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
+/** Adds an obstacle, with the shape's pose at the start. It may stand on top of matter: that is pushed out over the next steps.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
-PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, pbmpm_collider_id *collider);
+PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape,
+                                             pbmpm_collider_id *collider);
 
 /** Takes an obstacle away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
 
-/** Reads the definition with the current pose. `def->size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def);
+/** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape);
 
 /** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
  *  matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.

@@ -25,7 +25,9 @@ typedef struct pbmpm_drain_def {
     uint32_t size;              /**< sizeof(pbmpm_drain_def), set by pbmpm_drain_def_init() */
     int32_t enabled;            /**< 1 (default) or 0 */
     pbmpm_material_id material; /**< what it takes; null (default): everything */
-    pbmpm_shape shape;          /**< any kind */
+    uint64_t key;       /**< what snapshots know it by: not 0, and no other drain of the world has it; 0 (default): its place in the world, see
+                             snapshot.h */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_drain_def;
 
 /** What a drain has taken since it was created. */
@@ -39,17 +41,17 @@ typedef struct pbmpm_drain_status {
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_drain_def_init(pbmpm_drain_def *def, size_t size);
 
-/** Adds a drain. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, pbmpm_drain_id *drain);
+/** Adds a drain of any shape. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, const pbmpm_shape *shape, pbmpm_drain_id *drain);
 
 /** Takes a drain away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain);
 
-/** Reads the definition. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def);
+/** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def, pbmpm_shape *shape);
 
-/** Changes a drain (its place, too); the counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */
-PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def);
+/** Changes a drain (its place, too). A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */
+PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def, const pbmpm_shape *shape);
 
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status);

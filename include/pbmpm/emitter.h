@@ -43,7 +43,6 @@ typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
     uint32_t seed;               /**< of places and directions; equal seeds give equal particles; default 1 */
     pbmpm_material_id material;  /**< of the particles; it cannot be destroyed while the emitter exists */
-    pbmpm_shape shape;           /**< any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within 2^21 cells of the origin */
     pbmpm_emitter_region region; /**< default PBMPM_EMIT_VOLUME */
     int32_t enabled;             /**< 1 (default): emits; 0: rests, and no time passes for it */
     float rate;                  /**< rest volume per second [m^3/s] (2D: m^2/s), in [0, 1e12]; default 0. A disc of the area A runs
@@ -57,6 +56,9 @@ typedef struct pbmpm_emitter_def {
                                       Only what obstacles leave open counts. A source inside a pool needs more: liquid at rest measures 1 +-
                                       0.1, and at depth up to 1.2 with the paper's solver */
     uint64_t budget;             /**< particles that it may emit in its life; 0 (default): no limit */
+    uint64_t key;       /**< what snapshots know it by: not 0, and no other emitter of the world has it; 0 (default): its place in the world, see
+                             snapshot.h */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_emitter_def;
 
 /** What an emitter has done since it was created. due = emitted + refused_full + refused_budget + refused_capacity. */
@@ -73,19 +75,23 @@ typedef struct pbmpm_emitter_status {
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_emitter_def_init(pbmpm_emitter_def *def, size_t size);
 
-/** Adds an emitter; it begins with the next step. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
+/** Adds an emitter; it begins with the next step. `shape`: any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within
+ *  2^21 cells of the origin. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
  *  OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, pbmpm_emitter_id *emitter);
+PBMPM_API pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, const pbmpm_shape *shape,
+                                            pbmpm_emitter_id *emitter);
 
 /** Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitter);
 
-/** Reads the definition with the current pose. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def);
+/** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID,
+ *  UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def, pbmpm_shape *shape);
 
-/** Changes an emitter; the fraction of a particle that was due and the counts are kept, the pose is taken at once.
+/** Changes an emitter. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
  *  Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY. */
-PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def);
+PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def,
+                                         const pbmpm_shape *shape);
 
 /** Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
  *  motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */

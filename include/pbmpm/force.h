@@ -54,13 +54,15 @@ typedef struct pbmpm_force_def {
     pbmpm_force_kind kind; /**< default PBMPM_FORCE_UNIFORM */
     int32_t enabled;       /**< 1 (default) or 0 */
     int32_t everywhere;    /**< 1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff. */
-    pbmpm_shape shape;     /**< any kind */
     pbmpm_falloff falloff; /**< default PBMPM_FALLOFF_NONE */
     float range;           /**< of the falloff [m], in [0, 1e9], > 0 for INVERSE_SQUARE; default 0: nothing outside of the shape */
     float strength;        /**< acceleration [m/s^2], in [-1e9, 1e9]; DRAG: coefficient [1/s], in [0, 1e9]; GRAB: not used; default 1 */
     float direction[3];    /**< UNIFORM: of the acceleration; VORTEX, DRAG and GRAB in 3D: the axis. Any length > 1e-6; default (0, 1, 0) */
     float velocity[3];     /**< DRAG and GRAB [m/s], in [-1e9, 1e9]; default 0 */
     float spin;            /**< DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0 */
+    uint64_t key;       /**< what snapshots know it by: not 0, and no other force of the world has it; 0 (default): its place in the world, see
+                             snapshot.h */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_force_def;
 
 /** What a force did in the last step. */
@@ -74,18 +76,19 @@ typedef struct pbmpm_force_status {
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
 PBMPM_API pbmpm_result pbmpm_force_def_init(pbmpm_force_def *def, size_t size);
 
-/** Adds a force. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, pbmpm_force_id *force);
+/** Adds a force that is felt around a shape of any kind. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def, const pbmpm_shape *shape, pbmpm_force_id *force);
 
 /** Takes a force away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force);
 
-/** Reads the definition. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
-PBMPM_API pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def);
+/** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def, pbmpm_shape *shape);
 
-/** Changes a force (its kind and place, too); takes effect with the next step. Errors as pbmpm_force_create(), but CAPACITY and
+/** Changes a force (its kind and place, too); takes effect with the next step. A null `def` or `shape` stays as it is, and so does what the
+ *  caller's version of one lacks. Errors as pbmpm_force_create(), but CAPACITY and
  *  OUT_OF_MEMORY. */
-PBMPM_API pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def);
+PBMPM_API pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const pbmpm_force_def *def, const pbmpm_shape *shape);
 
 /** Figures of the last step. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_status_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_status *status);

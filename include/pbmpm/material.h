@@ -111,6 +111,9 @@ typedef struct pbmpm_material_def {
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
                                      Bingham fluid with the viscosity mu / flow_rate [Pa s]. */
+    uint64_t key;       /**< what snapshots know it by: not 0, and no other material of the world has it; 0 (default): its place in the world, see
+                             snapshot.h */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_material_def;
 
 /** How stiff a material is with a world's settings and rate. */

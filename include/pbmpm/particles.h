@@ -15,10 +15,10 @@ typedef struct pbmpm_particles_def {
     uint32_t size;              /**< sizeof(pbmpm_particles_def), set by pbmpm_particles_def_init() */
     uint32_t count;             /**< number of particles in the arrays */
     pbmpm_material_id material; /**< their material */
+    float volume;               /**< rest volume of each particle [m^d]; 0 (default): (dx/2)^d */
     const float *positions;     /**< count * d floats [m], relative to the origin; inside the domain box if there is one */
     const float *velocities;    /**< count * d floats [m/s], or null for rest */
     const float *volumes;       /**< count floats: rest volumes [m^d], > 0, or null for `volume` */
-    float volume;               /**< rest volume of each particle [m^d]; 0 (default): (dx/2)^d */
 } pbmpm_particles_def;
 
 /** Particles that fill a shape on a jittered lattice. */
@@ -26,7 +26,6 @@ typedef struct pbmpm_fill_def {
     uint32_t size;              /**< sizeof(pbmpm_fill_def), set by pbmpm_fill_def_init() */
     uint32_t seed;              /**< of the jitter; equal seeds give equal particles; default 1 */
     pbmpm_material_id material;
-    pbmpm_shape shape;          /**< any kind but PBMPM_PLANE */
     float particles_per_axis;   /**< lattice points per cell and axis, in [0.25, 16]; default 2 (4 per cell in 2D, 8 in 3D) */
     float jitter;               /**< random offset as a share of the lattice spacing, in [0, 1]; default 0.5 */
     float velocity[3];          /**< of every particle [m/s]; default 0 */
@@ -43,11 +42,11 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
  *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F). */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
-/** Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
+/** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
  *  one lattice cell. Lattice points outside the domain box, or in an obstacle where it stands now, are left out; with a CAPACITY error nothing is added and `added`
  *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
  *  domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
-PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, uint32_t *added);
+PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added);
 
 /** Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed. */
 PBMPM_API pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count);

@@ -24,6 +24,7 @@ extern "C" {
 
 /** What one material has in a region. */
 typedef struct pbmpm_region_share {
+    uint32_t size;      /**< sizeof(pbmpm_region_share); set by the caller in the first element of an array */
     pbmpm_material_id material;
     uint64_t count;     /**< particles whose centre is inside */
     double mass;        /**< of these [kg] (2D: per metre of depth) */
@@ -32,8 +33,8 @@ typedef struct pbmpm_region_share {
 } pbmpm_region_share;
 
 /** What is inside a shape, by material: one entry for each material that has particles there, in the order of their indices.
- *  Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0.
- *  Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY, FORKED. */
+ *  Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0; otherwise shares[0].size must be set.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (size), OUT_OF_MEMORY, BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_region_share *shares, uint32_t capacity,
                                           uint32_t *count);
 

@@ -9,13 +9,24 @@ extern "C" {
 #endif
 
 enum {
-    PBMPM_SNAPSHOT_VERSION = 3 /**< of the format that this library writes, and the only one it reads */
+    PBMPM_SNAPSHOT_VERSION = 4, /**< of the format that this library writes */
+    PBMPM_SNAPSHOT_OLDEST = 4   /**< the first of the formats that it reads */
 };
+
+/** What a restore does beside the usual. */
+typedef enum pbmpm_restore_flags {
+    PBMPM_RESTORE_KEEP_PARAMETERS = 1, /**< for saves of before a patch: the world keeps its own parameters, see pbmpm_snapshot_restore() */
+    PBMPM_RESTORE_FLAGS_FORCE32 = 0x7fffffff
+} pbmpm_restore_flags;
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
  * storage order and with all fields; the settings; poses and targets of colliders; emitters, drains, forces and kill bounds with
  * their definitions and books; who sleeps; counters and totals. It does not hold what a world is made of: its definition, the
  * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
+ * It holds no user_data.
+ *
+ * Materials, colliders, emitters, drains and forces are found again by the `key` of their definitions, whatever their order. One without a key is
+ * found by its place: the index of its identifier. Things that a game destroys and makes again need keys.
  *
  * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
  * number of threads. It need not be the same world: one that was made by the same calls will do, in another process too.
@@ -41,13 +52,18 @@ PBMPM_API pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, u
  *  correspond by index. Views expire, events are cleared, and the figures of the last step are 0 until the next one.
  *
  *  The world must have the dimension, cell size and domain box of the snapshot's; the same materials with the same
- *  parameters at the same indices; colliders of the same shape, friction and kind at the same indices; emitters, drains and
- *  forces at the same indices; and room for the particles and their identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+ *  parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
+ *  identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+ *
+ *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the friction of the domain, materials
+ *  (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
+ *  that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
+ *  is awake.
  *
  *  Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
  *  of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);
- *  INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. */
-PBMPM_API pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes);
+ *  INVALID_ID, INVALID_ARGUMENT (null, unknown flags), BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes, uint32_t flags);
 
 #ifdef __cplusplus
 }

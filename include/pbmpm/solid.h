@@ -29,12 +29,12 @@ enum {
 typedef struct pbmpm_mesh_def {
     uint32_t size;            /**< sizeof(pbmpm_mesh_def), set by pbmpm_mesh_def_init() */
     int32_t dimension;        /**< 2 or 3; default 3 */
+    int32_t resolution;       /**< grid cells along the longest side of the mesh, in [4, 1024]; default 64 */
+    uint32_t vertex_count;    /**< up to PBMPM_MAX_MESH_VERTICES (hull: PBMPM_MAX_HULL_VERTICES) */
+    uint32_t element_count;   /**< up to PBMPM_MAX_MESH_ELEMENTS (hull: 0) */
     const float *vertices;    /**< vertex_count * dimension floats [m], within 1e6 */
     const uint32_t *elements; /**< element_count * dimension indices of vertices. The surface must be closed, and wound one way
                                    throughout (inward or outward). Equal vertices count as one. pbmpm_bake_hull(): null. */
-    uint32_t vertex_count;    /**< up to PBMPM_MAX_MESH_VERTICES (hull: PBMPM_MAX_HULL_VERTICES) */
-    uint32_t element_count;   /**< up to PBMPM_MAX_MESH_ELEMENTS (hull: 0) */
-    int32_t resolution;       /**< grid cells along the longest side of the mesh, in [4, 1024]; default 64 */
 } pbmpm_mesh_def;
 
 /** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
@@ -47,8 +47,8 @@ typedef struct pbmpm_heights_def {
     int32_t resolution;   /**< grid cells along the longest side, in [4, 1024]; 0 (default): cells as wide as the lattice's */
     uint32_t count[2];    /**< samples per axis, at least 2, up to PBMPM_MAX_HEIGHTS in all; 2D: the second is not used */
     float spacing[2];     /**< [m], in [1e-6, 1e6]; default 1 */
-    const float *heights; /**< count[0] * count[1] floats [m], within 1e6; sample (i, j) is heights[i + j * count[0]] */
     float thickness;      /**< how far the base lies below the lowest sample [m], in [1e-6, 1e6]; default 1 */
+    const float *heights; /**< count[0] * count[1] floats [m], within 1e6; sample (i, j) is heights[i + j * count[0]] */
 } pbmpm_heights_def;
 
 /** What is known of a baked solid. */

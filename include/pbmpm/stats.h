@@ -8,6 +8,10 @@
 extern "C" {
 #endif
 
+enum {
+    PBMPM_MAX_EVENTS = 1024 /**< that a world keeps until its next step */
+};
+
 /** Figures of the last step. Times are of the whole step (all substeps); state is that at its end. Momentum and angular
  *  momentum are relative to the world's origin; in 2D only component 2 of the angular momentum is used. */
 typedef struct pbmpm_stats {
@@ -76,6 +80,7 @@ typedef enum pbmpm_event_kind {
 
 /** Something that happened which the caller did not ask for. */
 typedef struct pbmpm_event {
+    uint32_t size;              /**< sizeof(pbmpm_event); set by the caller in the first element of an array */
     pbmpm_event_kind kind;      /**< what happened */
     uint32_t count;             /**< how many particles (deletions: always 1) */
     pbmpm_particle_id particle; /**< the particle, or the first one of several */
@@ -84,9 +89,10 @@ typedef struct pbmpm_event {
     uint64_t step;              /**< step_count when it happened */
 } pbmpm_event;
 
-/** Events of the last step, and of calls since then. The array belongs to the world and is valid until its next step or
- *  change. When more happened than the array holds, *missed says how many are not in it; totals are in pbmpm_stats. */
-PBMPM_API pbmpm_result pbmpm_world_events(pbmpm_world_id world, const pbmpm_event **events, uint32_t *count, uint32_t *missed);
+/** Events of the last step, and of calls since then. Writes up to `capacity` of them; *count is the number that the world keeps, at most
+ *  PBMPM_MAX_EVENTS; *missed (may be null) counts those that it had no room to keep: totals are in pbmpm_stats. `events` may be null when
+ *  capacity is 0; otherwise events[0].size must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_events(pbmpm_world_id world, pbmpm_event *events, uint32_t capacity, uint32_t *count, uint32_t *missed);
 
 #ifdef __cplusplus
 }

@@ -34,9 +34,10 @@ typedef struct pbmpm_world_def {
     float domain_min[3];        /**< lower corner of the box [m], relative to the origin; default 0 */
     float domain_max[3];        /**< upper corner; at least 4 cells above domain_min per axis; default 1 */
     float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0; see pbmpm_friction */
-    pbmpm_allocator allocator;  /**< both functions null (default): the C library's */
-    pbmpm_task_hooks tasks;     /**< both functions null (default): the world's own threads */
-    int32_t domain_measures_impulse; /**< 1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing */
+    int32_t domain_measures_impulse;   /**< 1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing */
+    const pbmpm_allocator *allocator;  /**< null (default): the C library's memory. Read at creation only. */
+    const pbmpm_task_hooks *tasks;     /**< null (default): the world's own threads. Read at creation only. */
+    uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_world_def;
 
 /** How the equations of a substep are solved. */
@@ -125,7 +126,7 @@ PBMPM_API pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_worl
  *  Errors: INVALID_ID (also on a second destroy), BUSY. Any thread. */
 PBMPM_API pbmpm_result pbmpm_world_destroy(pbmpm_world_id world);
 
-/** The definition the world was made from. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+/** The definition the world was made from; its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
 /** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.

@@ -1,5 +1,13 @@
 #include "calls.h"
 
+/* Unchecked: a check that fails on another thread would jump out of it. */
+static pbmpm_shape unit_box(void)
+{
+    pbmpm_shape shape;
+    pbmpm_shape_init(&shape, sizeof shape);
+    return shape;
+}
+
 static pbmpm_result call_get_def(const target *ids)
 {
     pbmpm_world_def def = {.size = sizeof def};
@@ -44,9 +52,9 @@ static pbmpm_result call_get_stats(const target *ids)
 
 static pbmpm_result call_events(const target *ids)
 {
-    const pbmpm_event *events;
+    pbmpm_event event = {.size = sizeof event};
     uint32_t count, missed;
-    return pbmpm_world_events(ids->world, &events, &count, &missed);
+    return pbmpm_world_events(ids->world, &event, 1, &count, &missed);
 }
 
 static pbmpm_result call_material_create(const target *ids)
@@ -84,16 +92,18 @@ static pbmpm_result call_material_destroy(const target *ids)
 
 static pbmpm_result call_collider_create(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_collider_def def;
     pbmpm_collider_id collider;
     pbmpm_collider_def_init(&def, sizeof def);
-    return pbmpm_collider_create(ids->world, &def, &collider);
+    return pbmpm_collider_create(ids->world, &def, &shape, &collider);
 }
 
 static pbmpm_result call_collider_get(const target *ids)
 {
     pbmpm_collider_def def = {.size = sizeof def};
-    return pbmpm_collider_get(ids->world, ids->collider, &def);
+    pbmpm_shape shape = {.size = sizeof shape};
+    return pbmpm_collider_get(ids->world, ids->collider, &def, &shape);
 }
 
 static pbmpm_result call_collider_move(const target *ids)
@@ -173,12 +183,13 @@ static pbmpm_result call_particles_add(const target *ids)
 
 static pbmpm_result call_particles_fill(const target *ids)
 {
+    pbmpm_shape shape = unit_box();
     pbmpm_fill_def fill;
     pbmpm_fill_def_init(&fill, sizeof fill);
     fill.material = ids->material;
-    fill.shape.position[0] = fill.shape.position[1] = 1.5f;
-    fill.shape.half_extents[0] = fill.shape.half_extents[1] = 0.1f;
-    return pbmpm_particles_fill(ids->world, &fill, NULL);
+    shape.position[0] = shape.position[1] = 1.5f;
+    shape.half_extents[0] = shape.half_extents[1] = 0.1f;
+    return pbmpm_particles_fill(ids->world, &fill, &shape, NULL);
 }
 
 static pbmpm_result call_particles_count(const target *ids)
@@ -212,17 +223,15 @@ static pbmpm_result call_wake(const target *ids)
 
 static pbmpm_result call_query_shape(const target *ids)
 {
-    pbmpm_shape shape;
+    const pbmpm_shape shape = unit_box();
     uint32_t count;
-    pbmpm_shape_init(&shape, sizeof shape);
     return pbmpm_query_shape(ids->world, &shape, NULL, 0, &count);
 }
 
 static pbmpm_result call_query_region(const target *ids)
 {
-    pbmpm_shape shape;
+    const pbmpm_shape shape = unit_box();
     uint32_t count;
-    pbmpm_shape_init(&shape, sizeof shape);
     return pbmpm_query_region(ids->world, &shape, NULL, 0, &count);
 }
 
@@ -264,7 +273,7 @@ static pbmpm_result call_snapshot_save(const target *ids)
 static pbmpm_result call_snapshot_restore(const target *ids)
 {
     call_snapshot_save(ids);
-    return pbmpm_snapshot_restore(ids->world, snapshot_room, sizeof snapshot_room);
+    return pbmpm_snapshot_restore(ids->world, snapshot_room, sizeof snapshot_room, 0);
 }
 
 static pbmpm_result call_publish(const target *ids)
@@ -299,32 +308,34 @@ static pbmpm_result call_particles_remove(const target *ids)
 
 static pbmpm_result call_particles_remove_in(const target *ids)
 {
-    pbmpm_shape shape;
-    pbmpm_shape_init(&shape, sizeof shape);
+    const pbmpm_shape shape = unit_box();
     return pbmpm_particles_remove_in(ids->world, &shape, NULL);
 }
 
 static pbmpm_result call_emitter_create(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_emitter_def def;
     pbmpm_emitter_id emitter;
     pbmpm_emitter_def_init(&def, sizeof def);
     def.material = ids->material;
-    return pbmpm_emitter_create(ids->world, &def, &emitter);
+    return pbmpm_emitter_create(ids->world, &def, &shape, &emitter);
 }
 
 static pbmpm_result call_emitter_get(const target *ids)
 {
     pbmpm_emitter_def def = {.size = sizeof def};
-    return pbmpm_emitter_get(ids->world, ids->emitter, &def);
+    pbmpm_shape shape = {.size = sizeof shape};
+    return pbmpm_emitter_get(ids->world, ids->emitter, &def, &shape);
 }
 
 static pbmpm_result call_emitter_set(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_emitter_def def;
     pbmpm_emitter_def_init(&def, sizeof def);
     def.material = ids->material;
-    return pbmpm_emitter_set(ids->world, ids->emitter, &def);
+    return pbmpm_emitter_set(ids->world, ids->emitter, &def, &shape);
 }
 
 static pbmpm_result call_emitter_move(const target *ids)
@@ -346,23 +357,26 @@ static pbmpm_result call_emitter_destroy(const target *ids)
 
 static pbmpm_result call_drain_create(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_drain_def def;
     pbmpm_drain_id drain;
     pbmpm_drain_def_init(&def, sizeof def);
-    return pbmpm_drain_create(ids->world, &def, &drain);
+    return pbmpm_drain_create(ids->world, &def, &shape, &drain);
 }
 
 static pbmpm_result call_drain_get(const target *ids)
 {
     pbmpm_drain_def def = {.size = sizeof def};
-    return pbmpm_drain_get(ids->world, ids->drain, &def);
+    pbmpm_shape shape = {.size = sizeof shape};
+    return pbmpm_drain_get(ids->world, ids->drain, &def, &shape);
 }
 
 static pbmpm_result call_drain_set(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_drain_def def;
     pbmpm_drain_def_init(&def, sizeof def);
-    return pbmpm_drain_set(ids->world, ids->drain, &def);
+    return pbmpm_drain_set(ids->world, ids->drain, &def, &shape);
 }
 
 static pbmpm_result call_drain_status(const target *ids)
@@ -403,23 +417,26 @@ static pbmpm_result call_advice(const target *ids)
 
 static pbmpm_result call_force_create(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_force_def def;
     pbmpm_force_id force;
     pbmpm_force_def_init(&def, sizeof def);
-    return pbmpm_force_create(ids->world, &def, &force);
+    return pbmpm_force_create(ids->world, &def, &shape, &force);
 }
 
 static pbmpm_result call_force_get(const target *ids)
 {
     pbmpm_force_def def = {.size = sizeof def};
-    return pbmpm_force_get(ids->world, ids->force, &def);
+    pbmpm_shape shape = {.size = sizeof shape};
+    return pbmpm_force_get(ids->world, ids->force, &def, &shape);
 }
 
 static pbmpm_result call_force_set(const target *ids)
 {
+    const pbmpm_shape shape = unit_box();
     pbmpm_force_def def;
     pbmpm_force_def_init(&def, sizeof def);
-    return pbmpm_force_set(ids->world, ids->force, &def);
+    return pbmpm_force_set(ids->world, ids->force, &def, &shape);
 }
 
 static pbmpm_result call_force_status(const target *ids)
@@ -520,11 +537,10 @@ target target_create(scene_tweak *tweak, void *user)
     target made = {.world = create_world(&def)};
     made.material = create_material(made.world, PBMPM_ELASTIC);
     made.spare = create_material(made.world, PBMPM_LIQUID);
-    pbmpm_collider_def collider;
-    OK(pbmpm_collider_def_init(&collider, sizeof collider));
-    collider.shape = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    const pbmpm_shape block = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    pbmpm_collider_def collider = default_collider();
     collider.kinematic = collider.measures_impulse = 1;
-    OK(pbmpm_collider_create(made.world, &collider, &made.collider));
+    OK(pbmpm_collider_create(made.world, &collider, &block, &made.collider));
     OK(load_triangle(made.world, &made.baked));
     fill_shape(made.world, made.material, box_shape(1, 1, 0, 0.4f, 0.4f, 0.5f), (const float[3]){0.5f, 0, 0});
     made.emitter = create_emitter(made.world, made.material);

@@ -32,10 +32,31 @@ pbmpm_material_def default_material(pbmpm_material_kind kind)
     return def;
 }
 
-static pbmpm_shape default_shape(pbmpm_shape_kind kind, float x, float y, float z)
+pbmpm_collider_def default_collider(void)
+{
+    pbmpm_collider_def def;
+    OK(pbmpm_collider_def_init(&def, sizeof def));
+    return def;
+}
+
+pbmpm_fill_def default_fill(pbmpm_material_id material)
+{
+    pbmpm_fill_def fill;
+    OK(pbmpm_fill_def_init(&fill, sizeof fill));
+    fill.material = material;
+    return fill;
+}
+
+pbmpm_shape default_shape(void)
 {
     pbmpm_shape shape;
     OK(pbmpm_shape_init(&shape, sizeof shape));
+    return shape;
+}
+
+static pbmpm_shape shape_at(pbmpm_shape_kind kind, float x, float y, float z)
+{
+    pbmpm_shape shape = default_shape();
     shape.kind = kind;
     shape.position[0] = x;
     shape.position[1] = y;
@@ -45,7 +66,7 @@ static pbmpm_shape default_shape(pbmpm_shape_kind kind, float x, float y, float 
 
 pbmpm_shape box_shape(float x, float y, float z, float half_x, float half_y, float half_z)
 {
-    pbmpm_shape shape = default_shape(PBMPM_BOX, x, y, z);
+    pbmpm_shape shape = shape_at(PBMPM_BOX, x, y, z);
     shape.half_extents[0] = half_x;
     shape.half_extents[1] = half_y;
     shape.half_extents[2] = half_z;
@@ -54,14 +75,14 @@ pbmpm_shape box_shape(float x, float y, float z, float half_x, float half_y, flo
 
 pbmpm_shape sphere_shape(float x, float y, float z, float radius)
 {
-    pbmpm_shape shape = default_shape(PBMPM_SPHERE, x, y, z);
+    pbmpm_shape shape = shape_at(PBMPM_SPHERE, x, y, z);
     shape.radius = radius;
     return shape;
 }
 
 pbmpm_shape plane_shape(float x, float y, float z, float nx, float ny, float nz)
 {
-    pbmpm_shape shape = default_shape(PBMPM_PLANE, x, y, z);
+    pbmpm_shape shape = shape_at(PBMPM_PLANE, x, y, z);
     shape.normal[0] = nx;
     shape.normal[1] = ny;
     shape.normal[2] = nz;
@@ -85,22 +106,21 @@ pbmpm_material_id create_material(pbmpm_world_id world, pbmpm_material_kind kind
 
 pbmpm_collider_id create_collider(pbmpm_world_id world, pbmpm_shape shape, bool kinematic)
 {
-    pbmpm_collider_def def;
+    pbmpm_collider_def def = default_collider();
     pbmpm_collider_id collider;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = shape;
     def.kinematic = kinematic;
-    OK(pbmpm_collider_create(world, &def, &collider));
+    OK(pbmpm_collider_create(world, &def, &shape, &collider));
     return collider;
 }
 
 pbmpm_emitter_id create_emitter(pbmpm_world_id world, pbmpm_material_id material)
 {
+    const pbmpm_shape shape = default_shape();
     pbmpm_emitter_def def;
     pbmpm_emitter_id emitter;
     OK(pbmpm_emitter_def_init(&def, sizeof def));
     def.material = material;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     return emitter;
 }
 
@@ -109,31 +129,28 @@ pbmpm_drain_id create_drain(pbmpm_world_id world, pbmpm_shape shape)
     pbmpm_drain_def def;
     pbmpm_drain_id drain;
     OK(pbmpm_drain_def_init(&def, sizeof def));
-    def.shape = shape;
-    OK(pbmpm_drain_create(world, &def, &drain));
+    OK(pbmpm_drain_create(world, &def, &shape, &drain));
     return drain;
 }
 
 pbmpm_force_id create_force(pbmpm_world_id world)
 {
+    const pbmpm_shape shape = default_shape();
     pbmpm_force_def def;
     pbmpm_force_id force;
     OK(pbmpm_force_def_init(&def, sizeof def));
     def.enabled = 0;
-    OK(pbmpm_force_create(world, &def, &force));
+    OK(pbmpm_force_create(world, &def, &shape, &force));
     return force;
 }
 
 uint32_t fill_shape(pbmpm_world_id world, pbmpm_material_id material, pbmpm_shape shape, const float velocity[3])
 {
-    pbmpm_fill_def fill;
+    pbmpm_fill_def fill = default_fill(material);
     uint32_t added = 0;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = material;
-    fill.shape = shape;
     for (int a = 0; a < 3; a++)
         fill.velocity[a] = velocity[a];
-    OK(pbmpm_particles_fill(world, &fill, &added));
+    OK(pbmpm_particles_fill(world, &fill, &shape, &added));
     return added;
 }
 

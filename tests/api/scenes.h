@@ -33,6 +33,9 @@ void scene_run(const scene *plan, const stage *made, int from, int to);
 pbmpm_world_def default_world(int32_t dimension, float cell_size, uint32_t capacity);
 pbmpm_settings default_settings(void);
 pbmpm_material_def default_material(pbmpm_material_kind kind);
+pbmpm_collider_def default_collider(void);
+pbmpm_fill_def default_fill(pbmpm_material_id material);
+pbmpm_shape default_shape(void); /**< a box of 1 m */
 pbmpm_shape box_shape(float x, float y, float z, float half_x, float half_y, float half_z);
 pbmpm_shape sphere_shape(float x, float y, float z, float radius);
 pbmpm_shape plane_shape(float x, float y, float z, float nx, float ny, float nz);

@@ -84,7 +84,7 @@ pool sleeping_pool(ledger *book)
         OK(pbmpm_world_destroy(first.world));
     }
     const pool made = make_pool(1, book);
-    OK(pbmpm_snapshot_restore(made.world, saved, saved_bytes));
+    OK(pbmpm_snapshot_restore(made.world, saved, saved_bytes, 0));
     return made;
 }
 
@@ -128,15 +128,15 @@ void move_paddle(const pool *made, float y, bool at_once)
 
 void an_emitter_begins(const pool *made)
 {
+    const pbmpm_shape spout = sphere_shape(AT_X, 0.5f, 0, 0.05f);
     pbmpm_emitter_def def = {.size = sizeof def};
-    OK(pbmpm_emitter_get(made->world, made->emitter, &def));
-    def.shape = sphere_shape(AT_X, 0.5f, 0, 0.05f);
+    OK(pbmpm_emitter_get(made->world, made->emitter, &def, NULL));
     def.direction[0] = 0;
     def.direction[1] = -1;
     def.speed = 1;
     def.rate = 300;
     def.budget = 10;
-    OK(pbmpm_emitter_set(made->world, made->emitter, &def));
+    OK(pbmpm_emitter_set(made->world, made->emitter, &def, &spout));
 }
 
 void a_call_wakes_a_shape(const pool *made)

@@ -112,9 +112,10 @@ static void ledger_release(void *memory, size_t size, void *user)
     free(block);
 }
 
-pbmpm_allocator ledger_allocator(ledger *book)
+const pbmpm_allocator *ledger_allocator(ledger *book)
 {
-    return (pbmpm_allocator){ledger_allocate, ledger_release, book};
+    book->allocator = (pbmpm_allocator){sizeof book->allocator, ledger_allocate, ledger_release, book};
+    return &book->allocator;
 }
 
 void ledger_expect_clean(const ledger *book, const char *label)
@@ -223,9 +224,9 @@ pbmpm_stats world_stats(pbmpm_world_id world)
 
 uint32_t world_events_of(pbmpm_world_id world, pbmpm_event_kind kind, pbmpm_event *first)
 {
-    const pbmpm_event *events = NULL;
-    uint32_t count = 0, missed = 0, found = 0;
-    OK(pbmpm_world_events(world, &events, &count, &missed));
+    pbmpm_event events[PBMPM_MAX_EVENTS] = {{.size = sizeof *events}};
+    uint32_t count = 0, found = 0;
+    OK(pbmpm_world_events(world, events, PBMPM_MAX_EVENTS, &count, NULL));
     for (uint32_t i = 0; i < count; i++) {
         if (events[i].kind != kind)
             continue;

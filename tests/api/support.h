@@ -43,9 +43,11 @@ typedef struct ledger {
     uint64_t overruns;     /**< guards found overwritten */
     uint64_t wrong_threads; /**< calls from another thread than the first one */
     unsigned long thread;  /**< the first caller */
+    pbmpm_allocator allocator; /**< that keeps this book */
 } ledger;
 
-pbmpm_allocator ledger_allocator(ledger *book);
+/** For pbmpm_world_def; part of the book. */
+const pbmpm_allocator *ledger_allocator(ledger *book);
 
 /** Fails unless everything was given back, with the right sizes and intact guards. */
 void ledger_expect_clean(const ledger *book, const char *label);
@@ -75,7 +77,7 @@ pbmpm_stats world_stats(pbmpm_world_id world);
 /** A hash of positions, velocities and J by particle (index of its identifier), whatever their order in memory. */
 uint64_t world_hash_unordered(pbmpm_world_id world);
 
-/** Events of one kind in the world's array: how many entries, and (unless null) the first of them. */
+/** Events of one kind that the world keeps: how many entries, and (unless null) the first of them. */
 uint32_t world_events_of(pbmpm_world_id world, pbmpm_event_kind kind, pbmpm_event *first);
 
 /** Fails unless every float of the fields position, velocity, affine velocity and J is finite. */

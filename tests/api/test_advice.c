@@ -221,12 +221,12 @@ static void test_parameters_that_do_nothing(void)
     set_solver(world, PBMPM_SOLVER_PRIMAL);
     ask(world);
     for (uint32_t i = 0; i < told_count; i++) TEST_ASSERT_TRUE(strncmp(told[i].text, "settings.integrator", 19) != 0);
-    pbmpm_collider_def wall = {.size = sizeof wall};
-    OK(pbmpm_collider_def_init(&wall, sizeof wall));
+    const pbmpm_shape shape = default_shape();
+    pbmpm_collider_def wall = default_collider();
     wall.friction = PBMPM_FRICTION_SLIP;
     wall.friction_coefficient = 0.7f;
     pbmpm_collider_id id;
-    OK(pbmpm_collider_create(world, &wall, &id));
+    OK(pbmpm_collider_create(world, &wall, &shape, &id));
     check_ignored(world, "friction_coefficient");
 }
 

@@ -58,8 +58,9 @@ static void gate_release(void *memory, size_t size, void *user)
 
 static void use_gate(pbmpm_world_def *def, void *user)
 {
+    static const pbmpm_allocator gated = {sizeof gated, gate_allocate, gate_release, NULL};
     (void)user;
-    def->allocator = (pbmpm_allocator){gate_allocate, gate_release, NULL};
+    def->allocator = &gated;
 }
 
 static void gate_set(bool armed, bool released)
@@ -155,7 +156,9 @@ static void finish_nothing(void *handle, void *user)
 
 static void use_hooks(pbmpm_world_def *def, void *user)
 {
-    def->tasks = (pbmpm_task_hooks){enqueue_at_once, finish_nothing, user};
+    static pbmpm_task_hooks hooks = {sizeof hooks, enqueue_at_once, finish_nothing, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
     def->thread_count = 4;
 }
 
@@ -350,8 +353,8 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     static const unsigned modes[] = {0x1f80, 0x5f80, 0x1f80, 0x9fc0}; /* the usual one; rounding up; the usual one; that of the kernels */
     const unsigned own = _mm_getcsr();
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
-    def.allocator = (pbmpm_allocator){noting_allocate, noting_release, NULL};
-    def.tasks = (pbmpm_task_hooks){noting_enqueue, noting_finish, NULL};
+    def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
+    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), noting_enqueue, noting_finish, NULL};
     def.thread_count = 2;
     own_thread = pthread_self();
     calls_elsewhere = wrong_modes = 0;

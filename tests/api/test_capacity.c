@@ -46,15 +46,14 @@ static void test_fill_says_how_many_it_needs(void)
 {
     const pbmpm_world_def small = default_world(2, 0.1f, 50), large = default_world(2, 0.1f, 5000);
     const pbmpm_world_id tight = create_world(&small), roomy = create_world(&large);
-    pbmpm_fill_def fill;
+    const pbmpm_shape shape = default_shape();
+    pbmpm_fill_def fill = default_fill(create_material(tight, PBMPM_LIQUID));
     uint32_t needed = 0, added = 0;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = create_material(tight, PBMPM_LIQUID);
     const snapshot before = snapshot_take(tight);
-    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(tight, &fill, &needed));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(tight, &fill, &shape, &needed));
     snapshot_expect_same(&before, tight, "fill beyond the capacity");
     fill.material = create_material(roomy, PBMPM_LIQUID);
-    OK(pbmpm_particles_fill(roomy, &fill, &added));
+    OK(pbmpm_particles_fill(roomy, &fill, &shape, &added));
     TEST_ASSERT_EQUAL_UINT32(added, needed);
 }
 
@@ -74,16 +73,15 @@ static void test_materials_stop_at_their_limit(void)
 static void test_colliders_stop_at_their_limit(void)
 {
     const pbmpm_world_id world = tank_2d(NULL, NULL);
-    pbmpm_collider_def def;
+    const pbmpm_collider_def def = default_collider();
+    const pbmpm_shape shape = sphere_shape(0.5f, 0.1f, 0, 0.05f);
     pbmpm_collider_id ids[PBMPM_MAX_COLLIDERS], more;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = sphere_shape(0.5f, 0.1f, 0, 0.05f);
     for (int i = 0; i < PBMPM_MAX_COLLIDERS; i++)
-        OK(pbmpm_collider_create(world, &def, &ids[i]));
-    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_collider_create(world, &def, &more));
+        OK(pbmpm_collider_create(world, &def, &shape, &ids[i]));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_collider_create(world, &def, &shape, &more));
     OK(pbmpm_world_step(world, 0.01f));
     OK(pbmpm_collider_destroy(world, ids[1000]));
-    OK(pbmpm_collider_create(world, &def, &more));
+    OK(pbmpm_collider_create(world, &def, &shape, &more));
 }
 
 static void test_worlds_stop_at_their_limit(void)
@@ -201,33 +199,32 @@ static pbmpm_result live(ledger *book, int32_t thread_count, pbmpm_world_id *wor
 {
     pbmpm_world_def def = default_world(2, 0.1f, 4096);
     pbmpm_material_def liquid = default_material(PBMPM_LIQUID), elastic = default_material(PBMPM_ELASTIC);
-    pbmpm_collider_def ground;
+    const pbmpm_collider_def ground = default_collider();
+    const pbmpm_shape below = plane_shape(0, -0.5f, 0, 0, 1, 0);
     pbmpm_collider_id collider;
     pbmpm_particles_def arrays;
-    pbmpm_fill_def fill;
+    pbmpm_fill_def fill = default_fill((pbmpm_material_id){0, 0});
+    pbmpm_shape block = default_shape();
     pbmpm_result result;
     const float position[2] = {0, 2};
     def.allocator = ledger_allocator(book);
     def.thread_count = thread_count;
-    OK(pbmpm_collider_def_init(&ground, sizeof ground));
     OK(pbmpm_particles_def_init(&arrays, sizeof arrays));
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    ground.shape = plane_shape(0, -0.5f, 0, 0, 1, 0);
     TRY(pbmpm_world_create(&def, world));
     TRY(pbmpm_material_create(*world, &liquid, &fill.material));
-    TRY(pbmpm_particles_fill(*world, &fill, NULL));
+    TRY(pbmpm_particles_fill(*world, &fill, &block, NULL));
     TRY(pbmpm_world_step(*world, 0.01f));
     TRY(pbmpm_material_create(*world, &elastic, &arrays.material));
-    TRY(pbmpm_collider_create(*world, &ground, &collider));
+    TRY(pbmpm_collider_create(*world, &ground, &below, &collider));
     arrays.count = 1;
     arrays.positions = position;
     TRY(pbmpm_particles_add(*world, &arrays, NULL));
     for (int i = 0; i < STORY_STEPS; i++) {
         TRY(pbmpm_world_step(*world, 0.02f));
-        fill.shape.position[0] += 1.5f; /* new blocks each time */
-        TRY(pbmpm_particles_fill(*world, &fill, NULL));
+        block.position[0] += 1.5f; /* new blocks each time */
+        TRY(pbmpm_particles_fill(*world, &fill, &block, NULL));
     }
-    TRY(pbmpm_particles_remove_in(*world, &fill.shape, NULL));
+    TRY(pbmpm_particles_remove_in(*world, &block, NULL));
     return pbmpm_world_hash(*world, hash);
 }
 #undef TRY

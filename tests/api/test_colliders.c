@@ -15,25 +15,17 @@ void tearDown(void)
     pbmpm_shutdown();
 }
 
-static pbmpm_collider_def default_collider(pbmpm_shape shape)
-{
-    pbmpm_collider_def def;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = shape;
-    return def;
-}
-
 static pbmpm_world_id open_world(int32_t dimension)
 {
     const pbmpm_world_def def = default_world(dimension, 0.1f, 8192);
     return create_world(&def);
 }
 
-static pbmpm_collider_def collider_of(pbmpm_world_id world, pbmpm_collider_id collider)
+static pbmpm_shape shape_of(pbmpm_world_id world, pbmpm_collider_id collider)
 {
-    pbmpm_collider_def def = {.size = sizeof def};
-    OK(pbmpm_collider_get(world, collider, &def));
-    return def;
+    pbmpm_shape shape = {.size = sizeof shape};
+    OK(pbmpm_collider_get(world, collider, NULL, &shape));
+    return shape;
 }
 
 /* ---- definitions ---- */
@@ -56,31 +48,36 @@ static void test_shape_has_the_documented_defaults(void)
 static void test_collider_has_the_documented_defaults(void)
 {
     pbmpm_collider_def def;
-    pbmpm_shape shape;
     memset(&def, 0xA5, sizeof def);
     OK(pbmpm_collider_def_init(&def, sizeof def));
-    OK(pbmpm_shape_init(&shape, sizeof shape));
     TEST_ASSERT_EQUAL_UINT32(sizeof def, def.size);
     TEST_ASSERT_EQUAL_INT(PBMPM_FRICTION_COULOMB, def.friction);
     TEST_ASSERT_EQUAL_FLOAT(0.2f, def.friction_coefficient);
     TEST_ASSERT_EQUAL_INT32(0, def.kinematic);
-    TEST_ASSERT_EQUAL_MEMORY(&shape, &def.shape, sizeof shape);
+    TEST_ASSERT_EQUAL_INT32(0, def.measures_impulse);
+    TEST_ASSERT_EQUAL_UINT64(0, def.key);
+    TEST_ASSERT_EQUAL_UINT64(0, def.user_data);
 }
 
 static void test_collider_is_read_back_and_destroyed(void)
 {
     const pbmpm_world_id world = open_world(3);
-    pbmpm_collider_def def = default_collider(sphere_shape(1, 2, 3, 0.75f));
+    const pbmpm_shape shape = sphere_shape(1, 2, 3, 0.75f);
+    pbmpm_collider_def def = default_collider(), read = {.size = sizeof read};
     pbmpm_collider_id collider;
     def.friction = PBMPM_FRICTION_STICK;
     def.friction_coefficient = 1.5f;
     def.kinematic = 1;
-    OK(pbmpm_collider_create(world, &def, &collider));
-    const pbmpm_collider_def read = collider_of(world, collider);
+    def.user_data = UINT64_MAX;
+    OK(pbmpm_collider_create(world, &def, &shape, &collider));
+    OK(pbmpm_collider_get(world, collider, &read, NULL));
     TEST_ASSERT_EQUAL_MEMORY(&def, &read, sizeof def);
+    const pbmpm_shape placed = shape_of(world, collider);
+    TEST_ASSERT_EQUAL_MEMORY(&shape, &placed, sizeof shape);
+    OK(pbmpm_collider_get(world, collider, NULL, NULL));
     OK(pbmpm_collider_destroy(world, collider));
     EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_collider_destroy(world, collider));
-    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_collider_get(world, collider, &def));
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_collider_get(world, collider, &def, NULL));
 }
 
 /* The length of a quaternion does not matter. */
@@ -112,17 +109,17 @@ static void test_move_is_reached_at_the_end_of_the_next_step(void)
     set_rate(world, 3, 1);
     OK(pbmpm_collider_move(world, collider, far_away, turned));
     OK(pbmpm_world_step(world, 0.01f));
-    pbmpm_collider_def read = collider_of(world, collider);
-    TEST_ASSERT_TRUE(read.shape.position[0] == far_away[0] && read.shape.position[1] == far_away[1]);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.6f, read.shape.rotation[2]);
+    pbmpm_shape read = shape_of(world, collider);
+    TEST_ASSERT_TRUE(read.position[0] == far_away[0] && read.position[1] == far_away[1]);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.6f, read.rotation[2]);
     const float back[3] = {0.25f, 0, 0};
     OK(pbmpm_collider_move(world, collider, back, NULL));
     OK(pbmpm_world_step(world, 0.01f));
-    read = collider_of(world, collider);
-    TEST_ASSERT_TRUE(read.shape.position[0] == 0.25f && read.shape.position[1] == 0.0f);
-    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.6f, read.shape.rotation[2]);
+    read = shape_of(world, collider);
+    TEST_ASSERT_TRUE(read.position[0] == 0.25f && read.position[1] == 0.0f);
+    TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.6f, read.rotation[2]);
     OK(pbmpm_world_step(world, 0.01f)); /* it stays where it was put */
-    TEST_ASSERT_TRUE(collider_of(world, collider).shape.position[0] == 0.25f);
+    TEST_ASSERT_TRUE(shape_of(world, collider).position[0] == 0.25f);
 }
 
 static void test_static_colliders_teleport_but_do_not_move(void)
@@ -131,9 +128,9 @@ static void test_static_colliders_teleport_but_do_not_move(void)
     const pbmpm_collider_id collider = create_collider(world, sphere_shape(0, 0, 0, 0.3f), false);
     const float target[3] = {4, 5, 0};
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_move(world, collider, target, NULL));
-    TEST_ASSERT_TRUE(collider_of(world, collider).shape.position[0] == 0.0f);
+    TEST_ASSERT_TRUE(shape_of(world, collider).position[0] == 0.0f);
     OK(pbmpm_collider_teleport(world, collider, target, NULL));
-    TEST_ASSERT_TRUE(collider_of(world, collider).shape.position[1] == 5.0f);
+    TEST_ASSERT_TRUE(shape_of(world, collider).position[1] == 5.0f);
 }
 
 /* ---- what matter feels ---- */
@@ -193,11 +190,12 @@ static void check_nothing_passes(int32_t dimension, pbmpm_solver solver, pbmpm_m
     settings.solver = solver;
     settings.iterations = 5;
     OK(pbmpm_world_set_settings(world, &settings));
-    pbmpm_collider_def wall = default_collider(box_shape(0, 0, 0, half, 50, 50));
+    const pbmpm_shape plate = box_shape(0, 0, 0, half, 50, 50);
+    pbmpm_collider_def wall = default_collider();
     wall.kinematic = wall.measures_impulse = 1;
     wall.friction = PBMPM_FRICTION_SLIP;
     pbmpm_collider_id id;
-    OK(pbmpm_collider_create(world, &wall, &id));
+    OK(pbmpm_collider_create(world, &wall, &plate, &id));
     fill_shape(world, create_material(world, kind), sphere_shape(-0.45f, 0.02f, 0, 0.25f), (const float[3]){40, 0, 0});
     double given = 0, start = world_stats(world).momentum[0];
     for (int i = 1; i <= 30; i++) {
@@ -244,11 +242,12 @@ static double speed_after_sliding(pbmpm_friction friction, float coefficient)
 {
     const pbmpm_world_id world = open_world(2);
     set_solver(world, PBMPM_SOLVER_PAPER); /* its body is stiff at this rate; one of 1e5 Pa goes on swinging on the ground that it sticks to */
-    pbmpm_collider_def ground = default_collider(plane_shape(0, 0, 0, 0, 1, 0));
+    const pbmpm_shape plane = plane_shape(0, 0, 0, 0, 1, 0);
+    pbmpm_collider_def ground = default_collider();
     pbmpm_collider_id collider;
     ground.friction = friction;
     ground.friction_coefficient = coefficient;
-    OK(pbmpm_collider_create(world, &ground, &collider));
+    OK(pbmpm_collider_create(world, &ground, &plane, &collider));
     const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
     fill_shape(world, jelly, box_shape(0, 0.25f, 0, 0.5f, 0.25f, 0.5f), (const float[3]){2, 0, 0});
     set_gravity(world, 0, -10, 0);

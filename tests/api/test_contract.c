@@ -155,8 +155,9 @@ static void test_world_def_has_the_documented_defaults(void)
     TEST_ASSERT_EQUAL_INT32(0, def.thread_count);
     TEST_ASSERT_EQUAL_INT32(0, def.domain_enabled);
     TEST_ASSERT_TRUE(def.domain_friction == 0.0f);
-    TEST_ASSERT_TRUE(!def.allocator.allocate && !def.allocator.release);
-    TEST_ASSERT_TRUE(!def.tasks.enqueue && !def.tasks.finish);
+    TEST_ASSERT_TRUE(!def.allocator && !def.tasks);
+    TEST_ASSERT_EQUAL_INT32(0, def.domain_measures_impulse);
+    TEST_ASSERT_EQUAL_UINT64(0, def.user_data);
 }
 
 static void test_settings_have_the_documented_defaults(void)
@@ -183,13 +184,55 @@ static void test_world_returns_its_definition(void)
     def.domain_max[0] = 9;
     def.domain_max[1] = 5;
     def.domain_friction = 0.25f;
+    def.user_data = UINT64_MAX;
     const pbmpm_world_id world = create_world(&def);
     OK(pbmpm_world_def_init(&read, sizeof read));
     OK(pbmpm_world_get_def(world, &read));
-    TEST_ASSERT_EQUAL_MEMORY(&def, &read, offsetof(pbmpm_world_def, domain_friction)); /* no padding up to there */
-    TEST_ASSERT_TRUE(read.domain_friction == 0.25f);
-    TEST_ASSERT_TRUE(!read.allocator.allocate && !read.allocator.release);
-    TEST_ASSERT_TRUE(!read.tasks.enqueue && !read.tasks.finish);
+    TEST_ASSERT_EQUAL_MEMORY(&def, &read, sizeof read); /* it has no padding */
+}
+
+static void *enqueue_at_once(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    (void)user;
+    for (int32_t i = 0; i < count; i++)
+        task(i, context);
+    return NULL;
+}
+
+static void finish_nothing(void *handle, void *user)
+{
+    (void)handle, (void)user;
+}
+
+/* A world makes copies: the host's structures need not outlive the creation. */
+static void test_world_returns_its_own_allocator_and_hooks(void)
+{
+    static ledger book;
+    static pbmpm_task_hooks hooks;
+    book = (ledger){0};
+    hooks = (pbmpm_task_hooks){sizeof hooks, enqueue_at_once, finish_nothing, &hooks};
+    pbmpm_world_def def = default_world(2, 0.1f, 100), read = {.size = sizeof read};
+    def.allocator = ledger_allocator(&book);
+    def.tasks = &hooks;
+    def.thread_count = 2;
+    const pbmpm_allocator allocator = book.allocator;
+    const pbmpm_task_hooks tasks = hooks;
+    const pbmpm_world_id world = create_world(&def);
+    memset(&book.allocator, 0xA5, sizeof allocator);
+    memset(&hooks, 0xA5, sizeof hooks);
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_world_get_def(world, &read));
+    TEST_ASSERT_TRUE(read.allocator != def.allocator && read.tasks != def.tasks);
+    TEST_ASSERT_EQUAL_UINT32(sizeof allocator, read.allocator->size);
+    TEST_ASSERT_TRUE(read.allocator->allocate == allocator.allocate && read.allocator->release == allocator.release);
+    TEST_ASSERT_EQUAL_PTR(&book, read.allocator->user);
+    TEST_ASSERT_EQUAL_UINT32(sizeof tasks, read.tasks->size);
+    TEST_ASSERT_TRUE(read.tasks->enqueue == tasks.enqueue && read.tasks->finish == tasks.finish && read.tasks->user == tasks.user);
+    const pbmpm_world_id twin = create_world(&read); /* what was read makes another one */
+    OK(pbmpm_world_destroy(world));
+    OK(pbmpm_world_step(twin, 0.01f));
+    OK(pbmpm_world_destroy(twin));
+    ledger_expect_clean(&book, "a copy of the allocator");
 }
 
 static void test_world_identifiers_are_never_reused(void)
@@ -382,6 +425,9 @@ static void expect_hint(pbmpm_result result, const char *call, const char *hint)
 static void test_zeroed_definitions_are_told_what_fills_them(void)
 {
     const pbmpm_world_id world = tank_2d(NULL, NULL);
+    const pbmpm_shape shape = default_shape();
+    const pbmpm_collider_def collider_def = default_collider();
+    pbmpm_world_def world_def = default_world(2, 0.1f, 10);
     pbmpm_world_id other;
     pbmpm_material_id material;
     pbmpm_collider_id collider;
@@ -391,34 +437,48 @@ static void test_zeroed_definitions_are_told_what_fills_them(void)
     pbmpm_ray_hit hit = {.size = sizeof hit};
     uint32_t count;
     uint64_t bytes;
-    memset(&material, 0, sizeof material), memset(&emitter, 0, sizeof emitter), memset(&drain, 0, sizeof drain), memset(&force, 0, sizeof force);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    const pbmpm_emitter_id spout = create_emitter(world, water);
+    const pbmpm_drain_id hole = create_drain(world, shape);
+    const pbmpm_force_id wind = create_force(world);
     EXPECT_HINT("pbmpm_world_def_init()", pbmpm_world_create, ZERO(pbmpm_world_def), &other);
+    world_def.allocator = ZERO(pbmpm_allocator);
+    EXPECT_HINT("sizeof(pbmpm_allocator)", pbmpm_world_create, &world_def, &other);
+    world_def.allocator = NULL;
+    world_def.tasks = ZERO(pbmpm_task_hooks);
+    EXPECT_HINT("sizeof(pbmpm_task_hooks)", pbmpm_world_create, &world_def, &other);
     EXPECT_HINT("pbmpm_settings_init()", pbmpm_world_set_settings, world, ZERO(pbmpm_settings));
     EXPECT_HINT("pbmpm_material_def_init()", pbmpm_material_create, world, ZERO(pbmpm_material_def), &material);
-    EXPECT_HINT("pbmpm_material_def_init()", pbmpm_material_set, world, material, ZERO(pbmpm_material_def));
-    EXPECT_HINT("pbmpm_collider_def_init()", pbmpm_collider_create, world, ZERO(pbmpm_collider_def), &collider);
+    EXPECT_HINT("pbmpm_material_def_init()", pbmpm_material_set, world, water, ZERO(pbmpm_material_def));
+    EXPECT_HINT("pbmpm_collider_def_init()", pbmpm_collider_create, world, ZERO(pbmpm_collider_def), &shape, &collider);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_collider_create, world, &collider_def, ZERO(pbmpm_shape), &collider);
     EXPECT_HINT("pbmpm_particles_def_init()", pbmpm_particles_add, world, ZERO(pbmpm_particles_def), NULL);
-    EXPECT_HINT("pbmpm_fill_def_init()", pbmpm_particles_fill, world, ZERO(pbmpm_fill_def), NULL);
+    EXPECT_HINT("pbmpm_fill_def_init()", pbmpm_particles_fill, world, ZERO(pbmpm_fill_def), &shape, NULL);
     EXPECT_HINT("pbmpm_shape_init()", pbmpm_particles_remove_in, world, ZERO(pbmpm_shape), NULL);
     EXPECT_HINT("pbmpm_shape_init()", pbmpm_query_shape, world, ZERO(pbmpm_shape), NULL, 0, &count);
     EXPECT_HINT("pbmpm_shape_init()", pbmpm_query_region, world, ZERO(pbmpm_shape), NULL, 0, &count);
     EXPECT_HINT("pbmpm_shape_init()", pbmpm_world_wake, world, ZERO(pbmpm_shape));
     EXPECT_HINT("pbmpm_ray_init()", pbmpm_query_ray, world, ZERO(pbmpm_ray), &hit);
-    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_create, world, ZERO(pbmpm_emitter_def), &emitter);
-    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_set, world, emitter, ZERO(pbmpm_emitter_def));
-    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_create, world, ZERO(pbmpm_drain_def), &drain);
-    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_set, world, drain, ZERO(pbmpm_drain_def));
-    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_create, world, ZERO(pbmpm_force_def), &force);
-    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_set, world, force, ZERO(pbmpm_force_def));
+    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_create, world, ZERO(pbmpm_emitter_def), &shape, &emitter);
+    EXPECT_HINT("pbmpm_emitter_def_init()", pbmpm_emitter_set, world, spout, ZERO(pbmpm_emitter_def), NULL);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_emitter_set, world, spout, NULL, ZERO(pbmpm_shape));
+    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_create, world, ZERO(pbmpm_drain_def), &shape, &drain);
+    EXPECT_HINT("pbmpm_drain_def_init()", pbmpm_drain_set, world, hole, ZERO(pbmpm_drain_def), NULL);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_drain_set, world, hole, NULL, ZERO(pbmpm_shape));
+    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_create, world, ZERO(pbmpm_force_def), &shape, &force);
+    EXPECT_HINT("pbmpm_force_def_init()", pbmpm_force_set, world, wind, ZERO(pbmpm_force_def), NULL);
+    EXPECT_HINT("pbmpm_shape_init()", pbmpm_force_set, world, wind, NULL, ZERO(pbmpm_shape));
     EXPECT_HINT("pbmpm_kill_bounds_init()", pbmpm_world_set_kill_bounds, world, ZERO(pbmpm_kill_bounds));
     EXPECT_HINT("pbmpm_mesh_def_init()", pbmpm_bake_mesh, ZERO(pbmpm_mesh_def), NULL, 0, &bytes);
     EXPECT_HINT("pbmpm_mesh_def_init()", pbmpm_bake_hull, ZERO(pbmpm_mesh_def), NULL, 0, &bytes);
     EXPECT_HINT("pbmpm_heights_def_init()", pbmpm_bake_heights, ZERO(pbmpm_heights_def), NULL, 0, &bytes);
     EXPECT_HINT("sizeof", pbmpm_world_get_stats, world, ZERO(pbmpm_stats));
     EXPECT_HINT("sizeof", pbmpm_particles_view, world, PBMPM_POSITION, ZERO(pbmpm_view));
+    EXPECT_HINT("sizeof", pbmpm_world_events, world, ZERO(pbmpm_event), 1, &count, NULL);
+    EXPECT_HINT("sizeof", pbmpm_query_region, world, &shape, ZERO(pbmpm_region_share), 1, &count);
     pbmpm_settings other_size = default_settings();
-    other_size.size -= 4;
-    EXPECT_HINT("headers", pbmpm_world_set_settings, world, &other_size);
+    other_size.size -= 1;
+    EXPECT_HINT("no version of pbmpm_settings", pbmpm_world_set_settings, world, &other_size);
 }
 
 int main(void)
@@ -435,6 +495,7 @@ int main(void)
     RUN_TEST(test_world_def_has_the_documented_defaults);
     RUN_TEST(test_settings_have_the_documented_defaults);
     RUN_TEST(test_world_returns_its_definition);
+    RUN_TEST(test_world_returns_its_own_allocator_and_hooks);
     RUN_TEST(test_world_identifiers_are_never_reused);
     RUN_TEST(test_failed_creation_gives_the_null_identifier);
     RUN_TEST(test_settings_are_read_back);

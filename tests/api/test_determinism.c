@@ -89,9 +89,10 @@ static uint64_t hash_in_mode(unsigned mode, int32_t thread_count)
     pbmpm_world_def def = default_world(3, 0.1f, 8192);
     pbmpm_settings settings = default_settings();
     pbmpm_material_def liquid = default_material(PBMPM_LIQUID), elastic = default_material(PBMPM_ELASTIC);
-    pbmpm_collider_def obstacle;
+    pbmpm_collider_def obstacle = default_collider();
+    pbmpm_shape slab = box_shape(0.1f, -0.8f, 0, 0.7f, 0.1f, 0.7f), ball = sphere_shape(0, 0, 0, 0.37f);
     pbmpm_collider_id collider;
-    pbmpm_fill_def fill;
+    pbmpm_fill_def fill = default_fill((pbmpm_material_id){0, 0});
     pbmpm_world_id world;
     pbmpm_stats stats = {.size = sizeof stats};
     pbmpm_view view = {.size = sizeof view};
@@ -101,21 +102,16 @@ static uint64_t hash_in_mode(unsigned mode, int32_t thread_count)
     uint64_t hash = 0;
     def.thread_count = thread_count;
     settings.gravity[1] = -9.81f;
-    OK(pbmpm_collider_def_init(&obstacle, sizeof obstacle));
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    obstacle.shape = box_shape(0.1f, -0.8f, 0, 0.7f, 0.1f, 0.7f);
-    obstacle.shape.rotation[0] = 0.3f;
+    slab.rotation[0] = 0.3f;
     obstacle.kinematic = 1;
     IN_MODE(mode, pbmpm_world_create(&def, &world));
     IN_MODE(mode, pbmpm_world_set_settings(world, &settings));
-    IN_MODE(mode, pbmpm_collider_create(world, &obstacle, &collider));
+    IN_MODE(mode, pbmpm_collider_create(world, &obstacle, &slab, &collider));
     IN_MODE(mode, pbmpm_material_create(world, &liquid, &fill.material));
-    fill.shape.radius = 0.37f;
-    fill.shape.kind = PBMPM_SPHERE;
-    IN_MODE(mode, pbmpm_particles_fill(world, &fill, NULL));
+    IN_MODE(mode, pbmpm_particles_fill(world, &fill, &ball, NULL));
     IN_MODE(mode, pbmpm_material_create(world, &elastic, &fill.material));
-    fill.shape.position[1] = 1.0f;
-    IN_MODE(mode, pbmpm_particles_fill(world, &fill, NULL));
+    ball.position[1] = 1.0f;
+    IN_MODE(mode, pbmpm_particles_fill(world, &fill, &ball, NULL));
     for (int i = 0; i < 30; i++) {
         IN_MODE(mode, pbmpm_collider_move(world, collider, position, rotation));
         IN_MODE(mode, pbmpm_world_step(world, 1.0f / 90));
@@ -226,8 +222,8 @@ static void test_functions_of_the_host_run_in_its_mode(void)
 {
     const unsigned own = _mm_getcsr() & ~0x3fu; /* without the sticky flags */
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
-    def.allocator = (pbmpm_allocator){noting_allocate, noting_release, NULL};
-    def.tasks = (pbmpm_task_hooks){noting_enqueue, noting_finish, NULL};
+    def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
+    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), noting_enqueue, noting_finish, NULL};
     def.thread_count = 2;
     seen_in_host = 0;
     host_calls = 0;

@@ -33,12 +33,24 @@ static pbmpm_force_def default_force(pbmpm_force_kind kind)
 
 /* ---- Ranges ---- */
 
-static pbmpm_result use_emitter(const void *structure)
+static pbmpm_result offer_emitter(const pbmpm_emitter_def *def, const pbmpm_shape *shape)
 {
     pbmpm_emitter_id emitter;
-    const pbmpm_result result = pbmpm_emitter_create(good.world, structure, &emitter);
+    const pbmpm_result result = pbmpm_emitter_create(good.world, def, shape, &emitter);
     if (result == PBMPM_OK) OK(pbmpm_emitter_destroy(good.world, emitter));
     return result;
+}
+
+static pbmpm_result use_emitter(const void *structure)
+{
+    const pbmpm_shape shape = sphere_shape(1, 1, 0, 0.1f);
+    return offer_emitter(structure, &shape);
+}
+
+static pbmpm_result use_emitter_shape(const void *structure)
+{
+    const pbmpm_emitter_def def = default_emitter(good.material);
+    return offer_emitter(&def, structure);
 }
 
 static void test_ranges_of_emitters(void)
@@ -52,17 +64,19 @@ static void test_ranges_of_emitters(void)
         {FIELD(pbmpm_emitter_def, particles_per_axis), FLOAT32, 0.25, 16, false, false},
         {FIELD(pbmpm_emitter_def, fill_limit), FLOAT32, 0.1f, 100, false, false},
         {FIELD(pbmpm_emitter_def, direction[0]), FLOAT32, -INFINITY, INFINITY, false, false},
-        {FIELD(pbmpm_emitter_def, shape.radius), FLOAT32, 0, INFINITY, true, false},
     };
-    pbmpm_emitter_def def = default_emitter(good.material);
-    def.shape = sphere_shape(1, 1, 0, 0.1f);
+    static const rule places[] = {{FIELD(pbmpm_shape, radius), FLOAT32, 0, INFINITY, true, false}};
+    const pbmpm_emitter_def def = default_emitter(good.material);
+    const pbmpm_shape shape = sphere_shape(1, 1, 0, 0.1f);
     CHECK_RULES(rules, def, use_emitter);
+    CHECK_RULES(places, shape, use_emitter_shape);
 }
 
 static pbmpm_result use_force(const void *structure)
 {
+    const pbmpm_shape shape = default_shape();
     pbmpm_force_id force;
-    const pbmpm_result result = pbmpm_force_create(good.world, structure, &force);
+    const pbmpm_result result = pbmpm_force_create(good.world, structure, &shape, &force);
     if (result == PBMPM_OK) OK(pbmpm_force_destroy(good.world, force));
     return result;
 }
@@ -112,23 +126,24 @@ static void test_ranges_of_kill_bounds(void)
 /* What an emitter cannot be: endless, huge, or so far away that its particles leave the range of cells. */
 static void test_shapes_of_emitters(void)
 {
-    pbmpm_emitter_def def = default_emitter(good.material);
-    def.shape = plane_shape(0, 0, 0, 0, 1, 0);
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter(&def));
-    def.shape = box_shape(0, 0, 0, 103, 103, 1); /* 2060^2 cells: more than 2^22 */
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter(&def));
-    def.shape = box_shape(3e5f, 0, 0, 1, 1, 1);
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter(&def));
+    pbmpm_shape shape = plane_shape(0, 0, 0, 0, 1, 0);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter_shape(&shape));
+    shape = box_shape(0, 0, 0, 103, 103, 1); /* 2060^2 cells: more than 2^22 */
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter_shape(&shape));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_set(good.world, good.emitter, NULL, &shape));
+    shape = box_shape(3e5f, 0, 0, 1, 1, 1);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_emitter_shape(&shape));
     const float far_away[3] = {3e5f, 0, 0};
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_move(good.world, good.emitter, far_away, NULL));
-    def.shape = box_shape(0, 0, 0, 102, 102, 1);
-    OK(use_emitter(&def));
+    shape = box_shape(0, 0, 0, 102, 102, 1);
+    OK(use_emitter_shape(&shape));
     snapshot_expect_same(&before, good.world, "emitters");
 }
 
 static void test_null_pointers_and_sizes(void)
 {
     const pbmpm_world_id w = good.world;
+    const pbmpm_shape shape = default_shape();
     pbmpm_emitter_id emitter;
     pbmpm_drain_id drain;
     pbmpm_force_id force;
@@ -143,29 +158,39 @@ static void test_null_pointers_and_sizes(void)
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_def_init(&drain_def, 3));
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_def_init(&force_def, 3));
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_kill_bounds_init(&(pbmpm_kill_bounds){0}, 3));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_create(w, NULL, &emitter));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_create(w, &emitter_def, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_get(w, good.emitter, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_set(w, good.emitter, NULL));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_create(w, NULL, &shape, &emitter));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_create(w, &emitter_def, NULL, &emitter));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_create(w, &emitter_def, &shape, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_move(w, good.emitter, NULL, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_emitter_status_get(w, good.emitter, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_create(w, NULL, &drain));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_create(w, &drain_def, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_get(w, good.drain, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_set(w, good.drain, NULL));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_create(w, NULL, &shape, &drain));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_create(w, &drain_def, NULL, &drain));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_create(w, &drain_def, &shape, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_drain_status_get(w, good.drain, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_set_kill_bounds(w, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_get_kill_bounds(w, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_get_flow(w, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_create(w, NULL, &force));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_create(w, &force_def, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_get(w, good.force, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_set(w, good.force, NULL));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_create(w, NULL, &shape, &force));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_create(w, &force_def, NULL, &force));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_create(w, &force_def, &shape, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_force_status_get(w, good.force, NULL));
-    emitter_def.size = drain_def.size = force_def.size = 5;
-    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_create(w, &emitter_def, &emitter));
-    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_create(w, &drain_def, &drain));
-    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_create(w, &force_def, &force));
+    pbmpm_shape odd = shape;
+    odd.size = emitter_def.size = drain_def.size = force_def.size = 5;
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_create(w, &emitter_def, &shape, &emitter));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_get(w, good.emitter, &emitter_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_set(w, good.emitter, &emitter_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_get(w, good.emitter, NULL, &odd));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_set(w, good.emitter, NULL, &odd));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_create(w, &drain_def, &shape, &drain));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_get(w, good.drain, &drain_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_set(w, good.drain, &drain_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_get(w, good.drain, NULL, &odd));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_set(w, good.drain, NULL, &odd));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_create(w, &force_def, &shape, &force));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_get(w, good.force, &force_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_set(w, good.force, &force_def, NULL));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_get(w, good.force, NULL, &odd));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_set(w, good.force, NULL, &odd));
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_emitter_status_get(w, good.emitter, &(pbmpm_emitter_status){.size = 5}));
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_drain_status_get(w, good.drain, &(pbmpm_drain_status){.size = 5}));
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_force_status_get(w, good.force, &(pbmpm_force_status){.size = 5}));
@@ -175,41 +200,86 @@ static void test_null_pointers_and_sizes(void)
 
 static void test_capacities(void)
 {
+    const pbmpm_shape shape = default_shape();
     const pbmpm_emitter_def emitter_def = default_emitter(good.material);
     const pbmpm_drain_def drain_def = default_drain();
     const pbmpm_force_def force_def = default_force(PBMPM_FORCE_UNIFORM);
     pbmpm_emitter_id emitter;
     pbmpm_drain_id drain;
     pbmpm_force_id force;
-    for (int i = 1; i < PBMPM_MAX_EMITTERS; i++) OK(pbmpm_emitter_create(good.world, &emitter_def, &emitter));
-    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_emitter_create(good.world, &emitter_def, &emitter));
-    for (int i = 1; i < PBMPM_MAX_DRAINS; i++) OK(pbmpm_drain_create(good.world, &drain_def, &drain));
-    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_drain_create(good.world, &drain_def, &drain));
-    for (int i = 1; i < PBMPM_MAX_FORCES; i++) OK(pbmpm_force_create(good.world, &force_def, &force));
-    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_force_create(good.world, &force_def, &force));
+    for (int i = 1; i < PBMPM_MAX_EMITTERS; i++) OK(pbmpm_emitter_create(good.world, &emitter_def, &shape, &emitter));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_emitter_create(good.world, &emitter_def, &shape, &emitter));
+    for (int i = 1; i < PBMPM_MAX_DRAINS; i++) OK(pbmpm_drain_create(good.world, &drain_def, &shape, &drain));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_drain_create(good.world, &drain_def, &shape, &drain));
+    for (int i = 1; i < PBMPM_MAX_FORCES; i++) OK(pbmpm_force_create(good.world, &force_def, &shape, &force));
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_force_create(good.world, &force_def, &shape, &force));
 }
 
 /* ---- What is read back is what was set ---- */
 
 static void test_definitions_are_kept(void)
 {
+    const pbmpm_shape shape = sphere_shape(5, 5, 0, 0.5f);
+    pbmpm_shape back = {.size = sizeof back};
     pbmpm_emitter_def emitter = default_emitter(good.material), emitter_back = {.size = sizeof emitter_back};
     emitter.rate = 0.25f;
     emitter.budget = 7;
-    OK(pbmpm_emitter_set(good.world, good.emitter, &emitter));
-    OK(pbmpm_emitter_get(good.world, good.emitter, &emitter_back));
+    emitter.user_data = UINT64_MAX;
+    OK(pbmpm_emitter_set(good.world, good.emitter, &emitter, &shape));
+    OK(pbmpm_emitter_get(good.world, good.emitter, &emitter_back, &back));
     TEST_ASSERT_EQUAL_MEMORY(&emitter, &emitter_back, sizeof emitter);
+    TEST_ASSERT_EQUAL_MEMORY(&shape, &back, sizeof shape);
     pbmpm_drain_def drain = default_drain(), drain_back = {.size = sizeof drain_back};
-    drain.shape = sphere_shape(5, 5, 0, 0.5f);
     drain.material = good.spare;
-    OK(pbmpm_drain_set(good.world, good.drain, &drain));
-    OK(pbmpm_drain_get(good.world, good.drain, &drain_back));
+    drain.user_data = UINT64_MAX;
+    back = (pbmpm_shape){.size = sizeof back};
+    OK(pbmpm_drain_set(good.world, good.drain, &drain, &shape));
+    OK(pbmpm_drain_get(good.world, good.drain, &drain_back, &back));
     TEST_ASSERT_EQUAL_MEMORY(&drain, &drain_back, sizeof drain);
+    TEST_ASSERT_EQUAL_MEMORY(&shape, &back, sizeof shape);
     pbmpm_force_def force = default_force(PBMPM_FORCE_VORTEX), force_back = {.size = sizeof force_back};
     force.strength = 3.5f;
-    OK(pbmpm_force_set(good.world, good.force, &force));
-    OK(pbmpm_force_get(good.world, good.force, &force_back));
+    force.user_data = UINT64_MAX;
+    back = (pbmpm_shape){.size = sizeof back};
+    OK(pbmpm_force_set(good.world, good.force, &force, &shape));
+    OK(pbmpm_force_get(good.world, good.force, &force_back, &back));
     TEST_ASSERT_EQUAL_MEMORY(&force, &force_back, sizeof force);
+    TEST_ASSERT_EQUAL_MEMORY(&shape, &back, sizeof shape);
+}
+
+/* A definition or a shape that is not given stays as it is, and is not asked for. */
+#define CHECK_HALVES(kind, id, changed)                                                                                 \
+    do {                                                                                                                \
+        const pbmpm_shape ball = sphere_shape(5, 5, 0, 0.5f);                                                           \
+        pbmpm_##kind##_def def = {.size = sizeof def};                                                                  \
+        pbmpm_shape shape = {.size = sizeof shape};                                                                     \
+        OK(pbmpm_##kind##_get(good.world, id, NULL, &shape));                                                           \
+        OK(pbmpm_##kind##_set(good.world, id, &(changed), NULL));                                                       \
+        pbmpm_shape same = {.size = sizeof same};                                                                       \
+        OK(pbmpm_##kind##_get(good.world, id, &def, &same));                                                            \
+        TEST_ASSERT_EQUAL_MEMORY(&(changed), &def, sizeof def);                                                         \
+        TEST_ASSERT_EQUAL_MEMORY(&shape, &same, sizeof same);                                                           \
+        OK(pbmpm_##kind##_set(good.world, id, NULL, &ball));                                                            \
+        OK(pbmpm_##kind##_set(good.world, id, NULL, NULL));                                                             \
+        OK(pbmpm_##kind##_get(good.world, id, NULL, NULL));                                                             \
+        def = (pbmpm_##kind##_def){.size = sizeof def};                                                                 \
+        OK(pbmpm_##kind##_get(good.world, id, &def, NULL));                                                             \
+        OK(pbmpm_##kind##_get(good.world, id, NULL, &same));                                                            \
+        TEST_ASSERT_EQUAL_MEMORY(&(changed), &def, sizeof def);                                                         \
+        TEST_ASSERT_EQUAL_MEMORY(&ball, &same, sizeof same);                                                            \
+    } while (0)
+
+static void test_halves_are_kept(void)
+{
+    pbmpm_emitter_def emitter = default_emitter(good.material);
+    pbmpm_drain_def drain = default_drain();
+    pbmpm_force_def force = default_force(PBMPM_FORCE_VORTEX);
+    emitter.rate = 0.25f;
+    drain.material = good.spare;
+    force.strength = 3.5f;
+    CHECK_HALVES(emitter, good.emitter, emitter);
+    CHECK_HALVES(drain, good.drain, drain);
+    CHECK_HALVES(force, good.force, force);
 }
 
 static void test_a_material_in_an_emitter_is_in_use(void)
@@ -253,10 +323,10 @@ static void test_emission_does_not_depend_on_the_steps(void)
         const pbmpm_world_id world = open_world(1000, &water);
         pbmpm_emitter_def def = default_emitter(water);
         pbmpm_emitter_id emitter;
-        def.shape = box_shape(0, 0, 0, 1, 1, 1);
+        const pbmpm_shape shape = box_shape(0, 0, 0, 1, 1, 1);
         def.rate = 40 * 0.05f * 0.05f;
         def.fill_limit = 100;
-        OK(pbmpm_emitter_create(world, &def, &emitter));
+        OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
         set_rate(world, cuts[k][1], 2);
         for (int i = 1; i <= 3 * cuts[k][0]; i++) {
             OK(pbmpm_world_step(world, 1.0f / (float)cuts[k][0]));
@@ -278,25 +348,25 @@ static void test_refusals_are_counted_by_reason(void)
     pbmpm_emitter_def def = default_emitter(water);
     pbmpm_emitter_id emitter;
     pbmpm_event event;
-    def.shape = box_shape(0, 0, 0, 2, 2, 1);
+    const pbmpm_shape shape = box_shape(0, 0, 0, 2, 2, 1);
     def.rate = 100 * 0.05f * 0.05f;
     def.budget = 30;
     def.fill_limit = 100;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     OK(pbmpm_world_step(world, 1.0f));
     TEST_ASSERT_EQUAL_UINT64(30, emitter_status(world, emitter).emitted);
     TEST_ASSERT_EQUAL_UINT64(70, emitter_status(world, emitter).refused_budget);
     TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_EMISSION_REFUSED, &event));
     TEST_ASSERT_EQUAL_UINT32(70, event.count);
     def.budget = 0;
-    OK(pbmpm_emitter_set(world, emitter, &def));
+    OK(pbmpm_emitter_set(world, emitter, &def, NULL));
     OK(pbmpm_world_step(world, 1.0f));
     const pbmpm_emitter_status status = emitter_status(world, emitter);
     TEST_ASSERT_EQUAL_UINT64(50, status.emitted);
     TEST_ASSERT_EQUAL_UINT64(80, status.refused_capacity);
     TEST_ASSERT_EQUAL_UINT64(150, flow_of(world).refused);
     def.enabled = 0;
-    OK(pbmpm_emitter_set(world, emitter, &def));
+    OK(pbmpm_emitter_set(world, emitter, &def, NULL));
     OK(pbmpm_world_step(world, 1.0f));
     TEST_ASSERT_EQUAL_UINT64(150, flow_of(world).refused); /* no time passes for it */
     TEST_ASSERT_EQUAL_UINT32(0, world_events_of(world, PBMPM_EVENT_EMISSION_REFUSED, NULL));
@@ -316,10 +386,10 @@ static double filled_share(int dimension, float side, bool lid, float fill_limit
         if (axis != 1 || lid) create_collider(world, plane_shape(side * n[0], side * n[1], side * n[2], -n[0], -n[1], -n[2]), false);
     }
     set_gravity(world, 0, -9.81f, 0);
-    def.shape = box_shape(half, half, half, half, half, half);
+    const pbmpm_shape shape = box_shape(half, half, half, half, half, half);
     def.rate = 5 * volume;
     def.fill_limit = fill_limit;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     for (int i = 0; i < 180; i++) OK(pbmpm_world_step(world, 1.0f / 60));
     const double share = emitter_status(world, emitter).emitted * pow(0.05, dimension) / (double)volume;
     OK(pbmpm_world_destroy(world));
@@ -348,8 +418,9 @@ static void test_a_monstrous_rate_ends(void)
     const pbmpm_world_id world = open_world(100, &water);
     pbmpm_emitter_def def = default_emitter(water);
     pbmpm_emitter_id emitter;
+    const pbmpm_shape shape = default_shape();
     def.rate = 1e12f;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     for (int i = 0; i < 10; i++) OK(pbmpm_world_step(world, 0.1f));
     const pbmpm_emitter_status status = emitter_status(world, emitter);
     TEST_ASSERT_EQUAL_UINT64(world_count(world), status.emitted);
@@ -369,9 +440,9 @@ static void test_drains_count_what_they_take(void)
     const double mass = world_stats(world).mass;
     pbmpm_drain_def def = default_drain();
     pbmpm_drain_id drains[2];
-    def.shape = plane_shape(0, -0.5f, 0, 0, 1, 0);
+    const pbmpm_shape shape = plane_shape(0, -0.5f, 0, 0, 1, 0);
     def.material = water;
-    for (int k = 0; k < 2; k++) OK(pbmpm_drain_create(world, &def, &drains[k]));
+    for (int k = 0; k < 2; k++) OK(pbmpm_drain_create(world, &def, &shape, &drains[k]));
     for (int i = 0; i < 100; i++) OK(pbmpm_world_step(world, 0.02f));
     pbmpm_drain_status first = {.size = sizeof first}, second = {.size = sizeof second};
     OK(pbmpm_drain_status_get(world, drains[0], &first));
@@ -383,7 +454,7 @@ static void test_drains_count_what_they_take(void)
     TEST_ASSERT_EQUAL_UINT64(wet, flow_of(world).drained);
     TEST_ASSERT_EQUAL_UINT64(0, world_stats(world).deleted_total);
     def.material = (pbmpm_material_id){0, 0};
-    OK(pbmpm_drain_set(world, drains[1], &def));
+    OK(pbmpm_drain_set(world, drains[1], &def, NULL));
     OK(pbmpm_world_step(world, 0.02f));
     TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
 }
@@ -427,8 +498,9 @@ static void test_a_move_across_the_world(void)
     const pbmpm_world_id world = open_world(1000, &water);
     pbmpm_emitter_def def = default_emitter(water);
     pbmpm_emitter_id emitter;
+    const pbmpm_shape shape = default_shape();
     def.rate = 100 * 0.05f * 0.05f;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     OK(pbmpm_emitter_move(world, emitter, (const float[3]){2e5f, -2e5f, 0}, NULL));
     OK(pbmpm_world_step(world, 1.0f));
     TEST_ASSERT_EQUAL_UINT64(100, emitter_status(world, emitter).emitted);
@@ -448,15 +520,16 @@ static void test_warm_steps_take_no_memory(void)
     const pbmpm_world_id world = tank_2d(use_ledger, &book);
     pbmpm_emitter_def def = default_emitter(create_material(world, PBMPM_LIQUID));
     pbmpm_emitter_id emitter;
-    def.shape = sphere_shape(0.5f, 0.9f, 0, 0.05f);
+    const pbmpm_shape shape = sphere_shape(0.5f, 0.9f, 0, 0.05f);
     def.region = PBMPM_EMIT_DISC;
     def.speed = 1;
     def.rate = 0.1f;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     create_drain(world, box_shape(0.1f, 0.1f, 0, 0.1f, 0.1f, 1));
     pbmpm_force_def force = default_force(PBMPM_FORCE_VORTEX);
+    const pbmpm_shape middle = default_shape();
     pbmpm_force_id whirl;
-    OK(pbmpm_force_create(world, &force, &whirl));
+    OK(pbmpm_force_create(world, &force, &middle, &whirl));
     for (int i = 0; i < 200; i++) OK(pbmpm_world_step(world, 0.005f));
     const uint64_t calls = book.calls;
     for (int i = 0; i < 100; i++) OK(pbmpm_world_step(world, 0.005f));
@@ -478,10 +551,10 @@ static void test_a_step_without_memory_is_made_up_for(void)
         pbmpm_emitter_id emitter;
         pbmpm_force_def force = default_force(PBMPM_FORCE_RADIAL);
         pbmpm_force_id push;
-        def.shape = sphere_shape(0.5f, 0.8f, 0, 0.1f);
+        const pbmpm_shape shape = sphere_shape(0.5f, 0.8f, 0, 0.1f), middle = default_shape();
         def.rate = 1;
-        OK(pbmpm_emitter_create(world, &def, &emitter));
-        OK(pbmpm_force_create(world, &force, &push));
+        OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
+        OK(pbmpm_force_create(world, &force, &middle, &push));
         for (uint64_t step = 0; step < 12; step++) {
             pbmpm_result result = PBMPM_ERROR_OUT_OF_MEMORY;
             for (uint64_t nth = 1; failing && result != PBMPM_OK; nth++) {
@@ -509,6 +582,7 @@ int main(void)
     RUN_TEST(test_null_pointers_and_sizes);
     RUN_TEST(test_capacities);
     RUN_TEST(test_definitions_are_kept);
+    RUN_TEST(test_halves_are_kept);
     RUN_TEST(test_a_material_in_an_emitter_is_in_use);
     RUN_TEST(test_emission_does_not_depend_on_the_steps);
     RUN_TEST(test_refusals_are_counted_by_reason);

@@ -126,8 +126,9 @@ static void slow_release(void *memory, size_t size, void *user)
 
 static void use_slow_memory(pbmpm_world_def *def, void *user)
 {
+    static const pbmpm_allocator slow = {sizeof slow, slow_allocate, slow_release, NULL};
     (void)user;
-    def->allocator = (pbmpm_allocator){slow_allocate, slow_release, NULL};
+    def->allocator = &slow;
 }
 
 static void *step_once(void *user)

@@ -60,14 +60,13 @@ static exchange make_threaded_exchange(int32_t threads, int32_t dimension, pbmpm
     if (kind == PBMPM_LIQUID && solver == PBMPM_SOLVER_DUAL) material.kinematic_viscosity = 0.02f;
     OK(pbmpm_material_create(e.world, &material, &id));
     fill_shape(e.world, id, box_shape(0.5f, 0.6f, 0.6f, 0.4f, 0.4f, 0.4f), (const float[3]){2, -1, 0.5f});
-    pbmpm_collider_def collider;
-    OK(pbmpm_collider_def_init(&collider, sizeof collider));
+    pbmpm_collider_def collider = default_collider();
     bake_ball(dimension, 0.35);
-    collider.shape = baked_shape(load_baked(e.world), 0.9f, 0.3f, 0.7f);
+    const pbmpm_shape ball = baked_shape(load_baked(e.world), 0.9f, 0.3f, 0.7f);
     collider.kinematic = 1;
     collider.friction_coefficient = 0.5f;
     collider.measures_impulse = measure;
-    OK(pbmpm_collider_create(e.world, &collider, &e.collider));
+    OK(pbmpm_collider_create(e.world, &collider, &ball, &e.collider));
     return e;
 }
 
@@ -176,19 +175,17 @@ static void test_many_plates_share_the_weight(void)
     set_gravity(world, 0, -10, 0);
     set_rate(world, 2, 10);
     for (int i = 0; i < PLATES; i++) {
-        pbmpm_collider_def made;
-        OK(pbmpm_collider_def_init(&made, sizeof made));
-        made.shape = box_shape(0.05f + 0.1f * (float)i, -0.2f, 0, 0.05f, 0.2f, 0.5f);
+        pbmpm_collider_def made = default_collider();
+        const pbmpm_shape shape = box_shape(0.05f + 0.1f * (float)i, -0.2f, 0, 0.05f, 0.2f, 0.5f);
         made.measures_impulse = 1;
-        OK(pbmpm_collider_create(world, &made, &plate[i]));
+        OK(pbmpm_collider_create(world, &made, &shape, &plate[i]));
     }
     for (int side = 0; side < 2; side++) {
-        pbmpm_collider_def made;
+        pbmpm_collider_def made = default_collider();
         pbmpm_collider_id wall;
-        OK(pbmpm_collider_def_init(&made, sizeof made));
-        made.shape = plane_shape(side ? 1.6f : 0, 0, 0, side ? -1 : 1, 0, 0);
+        const pbmpm_shape shape = plane_shape(side ? 1.6f : 0, 0, 0, side ? -1 : 1, 0, 0);
         made.friction = PBMPM_FRICTION_SLIP; /* bears no weight */
-        OK(pbmpm_collider_create(world, &made, &wall));
+        OK(pbmpm_collider_create(world, &made, &shape, &wall));
     }
     fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.8f, 0.3f, 0, 0.8f, 0.3f, 0.5f), (const float[3]){0, 0, 0});
     double sum = 0.0, mass = 0.0;
@@ -209,13 +206,12 @@ static void check_torque(pbmpm_solver solver)
     settings.solver = solver;
     settings.iterations = 6;
     OK(pbmpm_world_set_settings(world, &settings));
-    pbmpm_collider_def made;
+    pbmpm_collider_def made = default_collider();
     pbmpm_collider_id ball;
-    OK(pbmpm_collider_def_init(&made, sizeof made));
-    made.shape = sphere_shape(1.0f, 0.5f, 0, 0.4f);
+    const pbmpm_shape shape = sphere_shape(1.0f, 0.5f, 0, 0.4f);
     made.kinematic = made.measures_impulse = 1;
     made.friction = PBMPM_FRICTION_STICK;
-    OK(pbmpm_collider_create(world, &made, &ball));
+    OK(pbmpm_collider_create(world, &made, &shape, &ball));
     const pbmpm_material_id jelly = create_material(world, PBMPM_ELASTIC);
     const pbmpm_shape hole = sphere_shape(1.0f, 0.5f, 0, 0.4f);
     fill_shape(world, jelly, sphere_shape(1.0f, 0.5f, 0, 0.9f), (const float[3]){0, 0, 0});
@@ -265,13 +261,12 @@ static double float_box(double share, double *level)
     settings.iterations = 20;
     OK(pbmpm_world_set_settings(world, &settings));
     const uint32_t count = fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, -0.5f, 0, 1, 0.5f, 0), (const float[3]){0, 0, 0});
-    pbmpm_collider_def made;
+    pbmpm_collider_def made = default_collider();
     pbmpm_collider_id box;
-    OK(pbmpm_collider_def_init(&made, sizeof made));
-    made.shape = box_shape(0, 0.35f, 0, 0.25f, 0.3f, 0);
+    const pbmpm_shape shape = box_shape(0, 0.35f, 0, 0.25f, 0.3f, 0);
     made.kinematic = made.measures_impulse = 1;
     made.friction_coefficient = 0;
-    OK(pbmpm_collider_create(world, &made, &box));
+    OK(pbmpm_collider_create(world, &made, &shape, &box));
     const double area = 0.5 * 0.6, mass = share * 1000.0 * area, dt = 1.0 / RATE;
     double y = 0.35, v = 0.0, sum = 0.0;
     for (int step = 0; step < SECONDS * RATE; step++) {

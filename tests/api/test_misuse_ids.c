@@ -171,15 +171,15 @@ static void test_null_pointers(void)
     pbmpm_world_id made;
     pbmpm_material_def material_def = default_material(PBMPM_LIQUID);
     pbmpm_material_id material;
-    pbmpm_collider_def collider_def;
+    const pbmpm_collider_def collider_def = default_collider();
     pbmpm_collider_id collider;
     pbmpm_particles_def particles;
+    const pbmpm_fill_def fill = default_fill(good.material);
     pbmpm_particle_id ids[1];
     const pbmpm_shape shape = sphere_shape(1, 1, 0, 0.3f);
     const pbmpm_layout_entry *entries;
-    const pbmpm_event *events;
+    pbmpm_event event = {.size = sizeof event};
     uint32_t count;
-    OK(pbmpm_collider_def_init(&collider_def, sizeof collider_def));
     OK(pbmpm_particles_def_init(&particles, sizeof particles));
 #define REFUSE(call) EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, call)
     REFUSE(pbmpm_world_def_init(NULL, sizeof world_def));
@@ -199,15 +199,15 @@ static void test_null_pointers(void)
     REFUSE(pbmpm_world_generation(w, NULL));
     REFUSE(pbmpm_world_hash(w, NULL));
     REFUSE(pbmpm_world_get_stats(w, NULL));
-    REFUSE(pbmpm_world_events(w, NULL, &count, &count));
-    REFUSE(pbmpm_world_events(w, &events, NULL, &count));
+    REFUSE(pbmpm_world_events(w, NULL, 1, &count, &count));
+    REFUSE(pbmpm_world_events(w, &event, 1, NULL, &count));
     REFUSE(pbmpm_material_create(w, NULL, &material));
     REFUSE(pbmpm_material_create(w, &material_def, NULL));
     REFUSE(pbmpm_material_get(w, good.material, NULL));
     REFUSE(pbmpm_material_set(w, good.material, NULL));
-    REFUSE(pbmpm_collider_create(w, NULL, &collider));
-    REFUSE(pbmpm_collider_create(w, &collider_def, NULL));
-    REFUSE(pbmpm_collider_get(w, good.collider, NULL));
+    REFUSE(pbmpm_collider_create(w, NULL, &shape, &collider));
+    REFUSE(pbmpm_collider_create(w, &collider_def, NULL, &collider));
+    REFUSE(pbmpm_collider_create(w, &collider_def, &shape, NULL));
     REFUSE(pbmpm_collider_move(w, good.collider, NULL, NULL));
     REFUSE(pbmpm_collider_teleport(w, good.collider, NULL, NULL));
     REFUSE(pbmpm_query_collider(w, good.collider, ids, 1, NULL));
@@ -219,7 +219,11 @@ static void test_null_pointers(void)
     particles.material = good.material;
     particles.count = 1;
     REFUSE(pbmpm_particles_add(w, &particles, ids)); /* positions are null */
-    REFUSE(pbmpm_particles_fill(w, NULL, &count));
+    REFUSE(pbmpm_particles_fill(w, NULL, &shape, &count));
+    REFUSE(pbmpm_particles_fill(w, &fill, NULL, &count));
+    REFUSE(pbmpm_query_region(w, NULL, NULL, 0, &count));
+    REFUSE(pbmpm_query_region(w, &shape, NULL, 1, &count));
+    REFUSE(pbmpm_query_region(w, &shape, NULL, 0, NULL));
     REFUSE(pbmpm_particles_remove(w, NULL, 1));
     REFUSE(pbmpm_particles_remove_in(w, NULL, &count));
     REFUSE(pbmpm_particles_count(w, NULL));
@@ -236,8 +240,8 @@ static void test_null_pointers(void)
 
 static void refuse_sizes_in_init(void)
 {
-    unsigned char room[1024];
-    static const size_t wrong[] = {0, 1, 3, 1000, (size_t)-1};
+    unsigned char room[8192];
+    static const size_t wrong[] = {0, 1, 3, 4097, 5000, (size_t)-1};
     memset(room, 0x5A, sizeof room);
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_def_init((pbmpm_world_def *)(void *)room, wrong[i]));
@@ -253,7 +257,7 @@ static void refuse_sizes_in_init(void)
 
 static void test_unknown_structure_sizes(void)
 {
-    static const uint32_t wrong[] = {0, 1, 4, 20000, UINT32_MAX};
+    static const uint32_t wrong[] = {0, 1, 4, 4097, 5000, UINT32_MAX};
     const pbmpm_world_id w = good.world;
     refuse_sizes_in_init();
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
@@ -262,24 +266,21 @@ static void test_unknown_structure_sizes(void)
         pbmpm_settings settings = default_settings();
         pbmpm_material_def material_def = default_material(PBMPM_ELASTIC);
         pbmpm_material_id material;
-        pbmpm_collider_def collider_def;
+        const pbmpm_shape sound = sphere_shape(1, 1, 0, 0.3f);
+        pbmpm_shape shape = sound;
+        pbmpm_collider_def collider_def = default_collider();
         pbmpm_collider_id collider;
         pbmpm_particles_def particles;
-        pbmpm_fill_def fill;
-        pbmpm_shape shape = sphere_shape(1, 1, 0, 0.3f);
+        pbmpm_fill_def fill = default_fill(good.material);
         pbmpm_stats stats;
         pbmpm_view view;
         const float position[2] = {1, 1};
         uint32_t count;
-        OK(pbmpm_collider_def_init(&collider_def, sizeof collider_def));
         OK(pbmpm_particles_def_init(&particles, sizeof particles));
-        OK(pbmpm_fill_def_init(&fill, sizeof fill));
         particles.count = 1;
         particles.positions = position;
-        particles.material = fill.material = good.material;
+        particles.material = good.material;
         world_def.size = settings.size = material_def.size = particles.size = stats.size = view.size = shape.size = wrong[i];
-        fill.shape.size = wrong[i];
-        collider_def.shape.size = wrong[i]; /* a structure inside another */
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_create(&world_def, &made));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_get_def(w, &world_def));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_get_settings(w, &settings));
@@ -287,17 +288,18 @@ static void test_unknown_structure_sizes(void)
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_material_create(w, &material_def, &material));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_material_get(w, good.material, &material_def));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_material_set(w, good.material, &material_def));
-        REFUSED(pbmpm_collider_create(w, &collider_def, &collider));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_create(w, &collider_def, &shape, &collider));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_get(w, good.collider, NULL, &shape));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_add(w, &particles, NULL));
-        REFUSED(pbmpm_particles_fill(w, &fill, NULL));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_fill(w, &fill, &shape, NULL));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_remove_in(w, &shape, NULL));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_query_shape(w, &shape, NULL, 0, &count));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_world_get_stats(w, &stats));
         EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_view(w, PBMPM_POSITION, &view));
         collider_def.size = fill.size = wrong[i];
-        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_create(w, &collider_def, &collider));
-        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_get(w, good.collider, &collider_def));
-        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_fill(w, &fill, NULL));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_create(w, &collider_def, &sound, &collider));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_collider_get(w, good.collider, &collider_def, NULL));
+        EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_fill(w, &fill, &sound, NULL));
     }
     snapshot_expect_same(&before, w, "unknown sizes");
 }

@@ -111,7 +111,8 @@ static void test_counts_beyond_all_room(void)
 
 static pbmpm_result use_fill(const void *structure)
 {
-    const pbmpm_result result = pbmpm_particles_fill(good.world, structure, NULL);
+    const pbmpm_shape shape = box_shape(0.25f, 0.25f, 0, 0.1f, 0.1f, 0.1f);
+    const pbmpm_result result = pbmpm_particles_fill(good.world, structure, &shape, NULL);
     if (result == PBMPM_OK) { /* back to the state before */
         const pbmpm_shape corner = box_shape(0.25f, 0.25f, 0, 0.25f, 0.25f, 0.25f);
         OK(pbmpm_particles_remove_in(good.world, &corner, NULL));
@@ -129,10 +130,7 @@ static void test_fills(void)
         {FIELD(pbmpm_fill_def, velocity[0]), FLOAT32, -INFINITY, INFINITY, false, false},
         {FIELD(pbmpm_fill_def, velocity[1]), FLOAT32, -INFINITY, INFINITY, false, false},
     };
-    pbmpm_fill_def fill;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = good.material;
-    fill.shape = box_shape(0.25f, 0.25f, 0, 0.1f, 0.1f, 0.1f);
+    const pbmpm_fill_def fill = default_fill(good.material);
     CHECK_RULES(rules, fill, use_fill);
 }
 
@@ -143,12 +141,10 @@ static void test_immense_fills(void)
     for (int dimension = 2; dimension <= 3; dimension++) {
         const pbmpm_world_def def = default_world(dimension, 0.01f, 100);
         const pbmpm_world_id world = create_world(&def);
-        pbmpm_fill_def fill;
-        OK(pbmpm_fill_def_init(&fill, sizeof fill));
-        fill.material = create_material(world, PBMPM_LIQUID);
+        const pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
         for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
-            fill.shape = box_shape(0, 0, 0, sizes[i], sizes[i], sizes[i]);
-            const pbmpm_result result = pbmpm_particles_fill(world, &fill, NULL);
+            const pbmpm_shape shape = box_shape(0, 0, 0, sizes[i], sizes[i], sizes[i]);
+            const pbmpm_result result = pbmpm_particles_fill(world, &fill, &shape, NULL);
             TEST_ASSERT_TRUE(result == PBMPM_ERROR_CAPACITY || result == PBMPM_ERROR_INVALID_ARGUMENT);
             TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
         }
@@ -234,11 +230,9 @@ static void offer_gravity(pbmpm_world_id world, float gravity)
 /* A collider that may be refused. */
 static void offer_collider(pbmpm_world_id world, pbmpm_shape shape)
 {
-    pbmpm_collider_def def;
+    const pbmpm_collider_def def = default_collider();
     pbmpm_collider_id collider;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = shape;
-    const pbmpm_result result = pbmpm_collider_create(world, &def, &collider);
+    const pbmpm_result result = pbmpm_collider_create(world, &def, &shape, &collider);
     TEST_ASSERT_TRUE(result == PBMPM_OK || result == PBMPM_ERROR_INVALID_ARGUMENT);
 }
 
@@ -279,21 +273,23 @@ static void test_random_bits(void)
         pbmpm_settings settings;
         pbmpm_material_def material;
         pbmpm_collider_def collider;
+        pbmpm_shape shape;
         pbmpm_material_id material_id;
         pbmpm_collider_id collider_id;
         pbmpm_world_def def;
         pbmpm_world_id world;
-        uint32_t *const words[] = {(void *)&settings, (void *)&material, (void *)&collider, (void *)&def};
-        const size_t sizes[] = {sizeof settings, sizeof material, sizeof collider, offsetof(pbmpm_world_def, allocator)};
+        uint32_t *const words[] = {(void *)&settings, (void *)&material, (void *)&collider, (void *)&shape, (void *)&def};
+        const size_t sizes[] = {sizeof settings, sizeof material, sizeof collider, sizeof shape, offsetof(pbmpm_world_def, allocator)};
+        enum { STRUCTURES = sizeof sizes / sizeof *sizes };
         def = default_world(2, 0.1f, 64);
-        for (size_t s = 0; s < 4; s++)
+        for (size_t s = 0; s < STRUCTURES; s++)
             for (size_t w = 0; w < sizes[s] / 4; w++)
-                if (s < 3 || random_next(&seed) % 8 == 0)
+                if (s < STRUCTURES - 1 || random_next(&seed) % 8 == 0)
                     words[s][w] = random_next(&seed);
         settings.size = sizeof settings;
         material.size = sizeof material;
         collider.size = sizeof collider;
-        collider.shape.size = sizeof collider.shape;
+        shape.size = sizeof shape;
         def.size = sizeof def;
         def.particle_capacity = def.particle_capacity % 1024;
         def.thread_count %= 4;
@@ -304,7 +300,7 @@ static void test_random_bits(void)
         pbmpm_world_set_settings(good.world, &settings);
         if (pbmpm_material_create(good.world, &material, &material_id) == PBMPM_OK)
             OK(pbmpm_material_destroy(good.world, material_id));
-        if (pbmpm_collider_create(good.world, &collider, &collider_id) == PBMPM_OK)
+        if (pbmpm_collider_create(good.world, &collider, &shape, &collider_id) == PBMPM_OK)
             OK(pbmpm_collider_destroy(good.world, collider_id));
     }
     OK(pbmpm_world_set_settings(good.world, &before.settings));

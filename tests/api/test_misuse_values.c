@@ -89,20 +89,21 @@ static void no_finish(void *handle, void *user)
 
 static void test_half_given_callbacks(void)
 {
-    const pbmpm_world_def plain = default_world(2, 0.1f, 16);
-    pbmpm_world_def def = plain;
+    const pbmpm_allocator allocators[] = {
+        {sizeof *allocators, no_memory, NULL, NULL}, {sizeof *allocators, NULL, no_release, NULL}, {.size = sizeof *allocators}};
+    const pbmpm_task_hooks hooks[] = {
+        {sizeof *hooks, no_enqueue, NULL, NULL}, {sizeof *hooks, NULL, no_finish, NULL}, {.size = sizeof *hooks}};
+    pbmpm_world_def def = default_world(2, 0.1f, 16);
     pbmpm_world_id world;
-    def.allocator.allocate = no_memory;
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
-    def = plain;
-    def.allocator.release = no_release;
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
-    def = plain;
-    def.tasks.enqueue = no_enqueue;
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
-    def = plain;
-    def.tasks.finish = no_finish;
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
+    for (int i = 0; i < 3; i++) {
+        def.allocator = &allocators[i];
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
+    }
+    def.allocator = NULL;
+    for (int i = 0; i < 3; i++) {
+        def.tasks = &hooks[i];
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
+    }
 }
 
 static pbmpm_result use_settings(const void *structure)
@@ -227,11 +228,9 @@ static void test_a_bulk_modulus_is_none_or_large_enough(void)
 
 static pbmpm_result use_collider_shape(const void *structure)
 {
-    pbmpm_collider_def def;
+    const pbmpm_collider_def def = default_collider();
     pbmpm_collider_id collider;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    memcpy(&def.shape, structure, sizeof def.shape);
-    const pbmpm_result result = pbmpm_collider_create(good.world, &def, &collider);
+    const pbmpm_result result = pbmpm_collider_create(good.world, &def, structure, &collider);
     if (result == PBMPM_OK)
         OK(pbmpm_collider_destroy(good.world, collider));
     return result;
@@ -250,11 +249,8 @@ static pbmpm_result use_removal_shape(const void *structure)
 
 static pbmpm_result use_fill_shape(const void *structure)
 {
-    pbmpm_fill_def fill;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = good.material;
-    memcpy(&fill.shape, structure, sizeof fill.shape);
-    return pbmpm_particles_fill(good.world, &fill, NULL);
+    const pbmpm_fill_def fill = default_fill(good.material);
+    return pbmpm_particles_fill(good.world, &fill, structure, NULL);
 }
 
 static void check_shapes_with(use *apply, bool planes)
@@ -328,8 +324,9 @@ static void test_shapes_of_fills(void)
 
 static pbmpm_result use_collider(const void *structure)
 {
+    const pbmpm_shape shape = default_shape();
     pbmpm_collider_id collider;
-    const pbmpm_result result = pbmpm_collider_create(good.world, structure, &collider);
+    const pbmpm_result result = pbmpm_collider_create(good.world, structure, &shape, &collider);
     if (result == PBMPM_OK)
         OK(pbmpm_collider_destroy(good.world, collider));
     return result;
@@ -343,16 +340,15 @@ static void test_colliders(void)
         {FIELD(pbmpm_collider_def, kinematic), INT32, 0, 1, false, false},
         {FIELD(pbmpm_collider_def, measures_impulse), INT32, 0, 1, false, false},
     };
-    pbmpm_collider_def def;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
+    const pbmpm_collider_def def = default_collider();
     CHECK_RULES(rules, def, use_collider);
 }
 
 static void test_poses(void)
 {
     static const float wrong[] = {NAN, INFINITY, -INFINITY};
-    pbmpm_collider_def old = {.size = sizeof old}, now = {.size = sizeof now};
-    OK(pbmpm_collider_get(good.world, good.collider, &old));
+    pbmpm_shape old = {.size = sizeof old}, now = {.size = sizeof now};
+    OK(pbmpm_collider_get(good.world, good.collider, NULL, &old));
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         for (int a = 0; a < 4; a++) {
             float position[3] = {0.5f, 0.5f, 0}, rotation[4] = {0, 0, 0, 1};
@@ -369,7 +365,7 @@ static void test_poses(void)
     const float position[3] = {0.5f, 0.5f, 0}, vanishing[4] = {0, 0, 0, 0.4f}, tilted[4] = {0.6f, 0, 0, 0.8f};
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_move(good.world, good.collider, position, vanishing));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_move(good.world, good.collider, position, tilted));
-    OK(pbmpm_collider_get(good.world, good.collider, &now));
+    OK(pbmpm_collider_get(good.world, good.collider, NULL, &now));
     TEST_ASSERT_EQUAL_MEMORY(&old, &now, sizeof now);
     snapshot_expect_same(&before, good.world, "poses");
 }
@@ -416,22 +412,62 @@ static void test_names_of_values_that_are_none(void)
     }
 }
 
-static pbmpm_result use_force(const void *structure)
+static pbmpm_result offer_force(const pbmpm_force_def *def, const pbmpm_shape *shape)
 {
     pbmpm_force_id force;
-    const pbmpm_result result = pbmpm_force_create(good.world, structure, &force);
+    const pbmpm_result result = pbmpm_force_create(good.world, def, shape, &force);
     if (result == PBMPM_OK)
         OK(pbmpm_force_destroy(good.world, force));
     return result;
 }
 
-static pbmpm_result use_emitter(const void *structure)
+static pbmpm_force_def resting_force(void)
+{
+    pbmpm_force_def def;
+    OK(pbmpm_force_def_init(&def, sizeof def));
+    def.enabled = 0; /* a change of what acts would wake */
+    return def;
+}
+
+static pbmpm_result use_force(const void *structure)
+{
+    const pbmpm_shape shape = default_shape();
+    return offer_force(structure, &shape);
+}
+
+static pbmpm_result use_force_shape(const void *structure)
+{
+    const pbmpm_force_def def = resting_force();
+    return offer_force(&def, structure);
+}
+
+static pbmpm_result offer_emitter(const pbmpm_emitter_def *def, const pbmpm_shape *shape)
 {
     pbmpm_emitter_id emitter;
-    const pbmpm_result result = pbmpm_emitter_create(good.world, structure, &emitter);
+    const pbmpm_result result = pbmpm_emitter_create(good.world, def, shape, &emitter);
     if (result == PBMPM_OK)
         OK(pbmpm_emitter_destroy(good.world, emitter));
     return result;
+}
+
+static pbmpm_emitter_def resting_emitter(void)
+{
+    pbmpm_emitter_def def;
+    OK(pbmpm_emitter_def_init(&def, sizeof def));
+    def.material = good.material;
+    return def;
+}
+
+static pbmpm_result use_emitter(const void *structure)
+{
+    const pbmpm_shape shape = default_shape();
+    return offer_emitter(structure, &shape);
+}
+
+static pbmpm_result use_emitter_shape(const void *structure)
+{
+    const pbmpm_emitter_def def = resting_emitter();
+    return offer_emitter(&def, structure);
 }
 
 /* Puts each of no_value[] and the first one past the end at `offset` into a sound structure. */
@@ -464,20 +500,15 @@ static void test_enumerations_in_structures(void)
     CHECK_ENUM(shape, kind, PBMPM_BAKED, use_query_shape);
     CHECK_ENUM(shape, kind, PBMPM_BAKED, use_removal_shape);
     CHECK_ENUM(shape, kind, PBMPM_BAKED, use_collider_shape);
-    pbmpm_collider_def collider;
-    OK(pbmpm_collider_def_init(&collider, sizeof collider));
+    CHECK_ENUM(shape, kind, PBMPM_BAKED, use_force_shape);
+    CHECK_ENUM(shape, kind, PBMPM_BAKED, use_emitter_shape);
+    const pbmpm_collider_def collider = default_collider();
     CHECK_ENUM(collider, friction, PBMPM_FRICTION_SLIP, use_collider);
-    pbmpm_force_def force;
-    OK(pbmpm_force_def_init(&force, sizeof force));
-    force.enabled = 0; /* a change of what acts would wake */
+    const pbmpm_force_def force = resting_force();
     CHECK_ENUM(force, kind, PBMPM_FORCE_GRAB, use_force);
     CHECK_ENUM(force, falloff, PBMPM_FALLOFF_INVERSE_SQUARE, use_force);
-    CHECK_ENUM(force, shape.kind, PBMPM_BAKED, use_force);
-    pbmpm_emitter_def emitter;
-    OK(pbmpm_emitter_def_init(&emitter, sizeof emitter));
-    emitter.material = good.material;
+    const pbmpm_emitter_def emitter = resting_emitter();
     CHECK_ENUM(emitter, region, PBMPM_EMIT_DISC, use_emitter);
-    CHECK_ENUM(emitter, shape.kind, PBMPM_BAKED, use_emitter);
 }
 
 int main(void)

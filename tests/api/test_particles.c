@@ -49,8 +49,6 @@ static void test_definitions_have_the_documented_defaults(void)
     TEST_ASSERT_EQUAL_UINT32(sizeof fill, fill.size);
     TEST_ASSERT_EQUAL_UINT32(1, fill.seed);
     TEST_ASSERT_TRUE(fill.material.index == 0 && fill.material.generation == 0);
-    TEST_ASSERT_EQUAL_UINT32(sizeof fill.shape, fill.shape.size);
-    TEST_ASSERT_EQUAL_INT(PBMPM_BOX, fill.shape.kind);
     TEST_ASSERT_EQUAL_FLOAT(2.0f, fill.particles_per_axis);
     TEST_ASSERT_EQUAL_FLOAT(0.5f, fill.jitter);
     for (int a = 0; a < 3; a++)
@@ -166,15 +164,14 @@ static void test_fill_covers_each_shape(void)
 
 static void test_fill_depends_on_its_seed_only(void)
 {
+    const pbmpm_shape shape = default_shape();
     pbmpm_world_id worlds[3];
     uint64_t hashes[3];
     for (int i = 0; i < 3; i++) {
-        pbmpm_fill_def fill;
         worlds[i] = empty_world(2);
-        OK(pbmpm_fill_def_init(&fill, sizeof fill));
-        fill.material = create_material(worlds[i], PBMPM_LIQUID);
+        pbmpm_fill_def fill = default_fill(create_material(worlds[i], PBMPM_LIQUID));
         fill.seed = i == 2 ? 7 : 3;
-        OK(pbmpm_particles_fill(worlds[i], &fill, NULL));
+        OK(pbmpm_particles_fill(worlds[i], &fill, &shape, NULL));
         hashes[i] = world_hash(worlds[i]);
     }
     TEST_ASSERT_EQUAL_HEX64(hashes[0], hashes[1]);
@@ -184,13 +181,12 @@ static void test_fill_depends_on_its_seed_only(void)
 static void test_fill_without_jitter_is_a_lattice(void)
 {
     const pbmpm_world_id world = empty_world(2);
-    pbmpm_fill_def fill;
+    const pbmpm_shape shape = default_shape();
+    pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
     uint32_t added = 0;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = create_material(world, PBMPM_LIQUID);
     fill.particles_per_axis = 4;
     fill.jitter = 0;
-    OK(pbmpm_particles_fill(world, &fill, &added));
+    OK(pbmpm_particles_fill(world, &fill, &shape, &added));
     TEST_ASSERT_EQUAL_UINT32(32 * 32, added);
     const pbmpm_view position = view_of(world, PBMPM_POSITION);
     const float spacing = 0.125f / 4, phase = fmodf(view_float(&position, 0, 0) + 100, spacing);
@@ -219,19 +215,16 @@ static void test_fill_leaves_out_what_lies_in_obstacles(void)
 {
     for (int32_t dimension = 2; dimension <= 3; dimension++) {
         const pbmpm_world_id world = empty_world(dimension);
-        const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
         const float spacing = 0.125f / 2, half = 4 * spacing;
-        pbmpm_fill_def fill;
+        pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
+        pbmpm_shape shape = box_shape(0, 0, 0, 2 * half, 2 * half, 2 * half);
         uint32_t added = 0;
         create_collider(world, box_shape(0, 0, 0, half, half, half), true);
-        OK(pbmpm_fill_def_init(&fill, sizeof fill));
-        fill.material = water;
         fill.jitter = 0;
-        fill.shape = box_shape(0, 0, 0, 2 * half, 2 * half, 2 * half);
-        OK(pbmpm_particles_fill(world, &fill, &added));
+        OK(pbmpm_particles_fill(world, &fill, &shape, &added));
         TEST_ASSERT_EQUAL_UINT32(dimension == 3 ? 16 * 16 * 16 - 8 * 8 * 8 : 16 * 16 - 8 * 8, added);
-        fill.shape = box_shape(0, 0, 0, 0.5f * half, 0.5f * half, 0.5f * half);
-        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &added));
+        shape = box_shape(0, 0, 0, 0.5f * half, 0.5f * half, 0.5f * half);
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &shape, &added));
         TEST_ASSERT_EQUAL_UINT32(0, added);
     }
 }

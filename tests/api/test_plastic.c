@@ -130,10 +130,10 @@ static void check_goes_on(int32_t dimension, const way *chosen)
     run_on(&made, first);
     world_expect_finite(made.world, chosen->name);
     TEST_ASSERT_TRUE_MESSAGE(first[0] != first[9], "nothing moves");
-    OK(pbmpm_snapshot_restore(made.world, state, bytes));
+    OK(pbmpm_snapshot_restore(made.world, state, bytes, 0));
     run_on(&made, again);
     TEST_ASSERT_EQUAL_MEMORY_MESSAGE(first, again, sizeof first, chosen->name);
-    OK(pbmpm_snapshot_restore(twin.world, state, bytes)); /* another world, three threads */
+    OK(pbmpm_snapshot_restore(twin.world, state, bytes, 0)); /* another world, three threads */
     run_on(&twin, again);
     TEST_ASSERT_EQUAL_MEMORY_MESSAGE(first, again, sizeof first, chosen->name);
     free(state);
@@ -158,7 +158,7 @@ static void test_a_snapshot_of_other_sand_is_refused(void)
     void *state = malloc(bytes);
     OK(pbmpm_snapshot_save(made.world, state, bytes, NULL));
     const snapshot before = snapshot_take(foreign.world);
-    EXPECT(PBMPM_ERROR_FOREIGN, pbmpm_snapshot_restore(foreign.world, state, bytes));
+    EXPECT(PBMPM_ERROR_FOREIGN, pbmpm_snapshot_restore(foreign.world, state, bytes, 0));
     snapshot_expect_same(&before, foreign.world, "other sand");
     free(state);
 }
@@ -225,7 +225,7 @@ static void test_a_change_of_friction_takes_effect(void)
 static void test_regions_and_removal_know_the_materials(void)
 {
     yard made = make_yard(2, &ways[0], 1, NULL, NULL);
-    pbmpm_region_share shares[3];
+    pbmpm_region_share shares[3] = {{.size = sizeof *shares}};
     uint32_t materials = 0, removed = 0;
     const pbmpm_shape all = box_shape(0.6f, 0.4f, 0, 0.6f, 0.4f, 1), clay = box_shape(0.9f, 0.15f, 0, 0.2f, 0.2f, 1);
     TEST_ASSERT_EQUAL_UINT32(made.sand_count + made.clay_count, world_count(made.world));

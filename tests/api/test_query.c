@@ -97,7 +97,7 @@ static void test_region_of_a_single_particle(void)
 {
     const pbmpm_world_id world = single(NULL);
     const pbmpm_shape around = sphere_shape(3, 4, 0, 0.5f), beside = sphere_shape(5, 4, 0, 1.5f);
-    pbmpm_region_share share = {.count = 99};
+    pbmpm_region_share share = {.size = sizeof share, .count = 99};
     uint32_t count = 99;
     OK(pbmpm_query_region(world, &around, &share, 1, &count));
     TEST_ASSERT_EQUAL_UINT32(1, count);
@@ -191,7 +191,7 @@ static void test_nulls_and_sizes(void)
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_query_region(world, &shape, NULL, 0, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_snapshot_size(world, NULL, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_snapshot_save(world, NULL, 100, NULL));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_snapshot_restore(world, NULL, 100));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_snapshot_restore(world, NULL, 100, 0));
 }
 
 /* ---- memory ---- */

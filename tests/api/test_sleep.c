@@ -109,12 +109,11 @@ static void test_nothing_falls_asleep_that_may_not(void)
 static void test_what_is_measured_stays_awake(void)
 {
     pool made = make_pool(1, NULL);
-    pbmpm_collider_def def;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = box_shape(1.0f, 0, 0, 0.3f, 0.1f, 1);
+    const pbmpm_shape shape = box_shape(1.0f, 0, 0, 0.3f, 0.1f, 1);
+    pbmpm_collider_def def = default_collider();
     def.measures_impulse = 1;
     pbmpm_collider_id plate;
-    OK(pbmpm_collider_create(made.world, &def, &plate));
+    OK(pbmpm_collider_create(made.world, &def, &shape, &plate));
     fill_pool(&made);
     steps(&made, PATIENCE);
     const pbmpm_stats stats = world_stats(made.world);
@@ -176,13 +175,13 @@ static void a_drain_appears(const pool *made) { create_drain(made->world, sphere
 
 static void change_force(const pool *made, bool everywhere, bool enabled)
 {
+    const pbmpm_shape shape = sphere_shape(AT_X, 0.2f, 0, 0.1f);
     pbmpm_force_def def = {.size = sizeof def};
-    OK(pbmpm_force_get(made->world, made->force, &def));
+    OK(pbmpm_force_get(made->world, made->force, &def, NULL));
     def.enabled = enabled;
     def.everywhere = everywhere;
-    def.shape = sphere_shape(AT_X, 0.2f, 0, 0.1f);
     def.strength = 20;
-    OK(pbmpm_force_set(made->world, made->force, &def));
+    OK(pbmpm_force_set(made->world, made->force, &def, &shape));
 }
 
 static void a_force_is_switched_on(const pool *made) { change_force(made, false, true); }

@@ -47,7 +47,7 @@ static void test_a_snapshot_holds_who_sleeps(void)
     OK(pbmpm_snapshot_size(made.world, &bytes, NULL));
     char *buffer = malloc(bytes);
     OK(pbmpm_snapshot_save(made.world, buffer, bytes, NULL));
-    OK(pbmpm_snapshot_restore(other.world, buffer, bytes));
+    OK(pbmpm_snapshot_restore(other.world, buffer, bytes, 0));
     for (int i = 0; i < 200; i++) {
         steps(&made, 1);
         steps(&other, 1);
@@ -68,7 +68,7 @@ static void test_a_snapshot_without_sleeping_wakes_all(void)
     char *buffer = malloc(bytes);
     OK(pbmpm_snapshot_save(awake.world, buffer, bytes, NULL));
     made = sleeping_pool(NULL);
-    OK(pbmpm_snapshot_restore(made.world, buffer, bytes));
+    OK(pbmpm_snapshot_restore(made.world, buffer, bytes, 0));
     TEST_ASSERT_EQUAL_UINT32(0, world_stats(made.world).particles_asleep);
     for (int i = 0; i < 50; i++) {
         steps(&awake, 1);
@@ -156,11 +156,11 @@ static void check_half_asleep(int32_t dimension, const way *chosen)
         void *state = malloc(bytes);
         const pbmpm_result kept = pbmpm_snapshot_save(made.world, state, bytes, NULL);
         const course first = go_on(made.world);
-        const pbmpm_result back = pbmpm_snapshot_restore(made.world, state, bytes);
+        const pbmpm_result back = pbmpm_snapshot_restore(made.world, state, bytes, 0);
         const course again = go_on(made.world);
-        const pbmpm_result twin = pbmpm_snapshot_restore(other.world, state, bytes);
+        const pbmpm_result twin = pbmpm_snapshot_restore(other.world, state, bytes, 0);
         const course elsewhere = go_on(other.world);
-        const pbmpm_result last = pbmpm_snapshot_restore(made.world, state, bytes);
+        const pbmpm_result last = pbmpm_snapshot_restore(made.world, state, bytes, 0);
         free(state);
         TEST_ASSERT_TRUE(kept == PBMPM_OK && back == PBMPM_OK && twin == PBMPM_OK && last == PBMPM_OK);
         TEST_ASSERT_TRUE_MESSAGE(first.woken > 0 || first.asleep[0] != first.asleep[LOOKS - 1], chosen->name);

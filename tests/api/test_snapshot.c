@@ -49,7 +49,7 @@ static saved save(pbmpm_world_id world)
 
 static void restore(pbmpm_world_id world, const saved *from)
 {
-    OK(pbmpm_snapshot_restore(world, from->data, from->bytes));
+    OK(pbmpm_snapshot_restore(world, from->data, from->bytes, 0));
 }
 
 /* ---- going on ---- */
@@ -154,22 +154,20 @@ static stage busy_pool(scene_tweak *tweak)
     pbmpm_drain_id hole;
     pbmpm_force_id vortex;
     const float there[3] = {0.5f, 1.0f, 0};
+    const pbmpm_shape spout = sphere_shape(0.3f, 1.0f, 0, 0.05f), low = sphere_shape(0.6f, 0.1f, 0, 0.2f), middle = sphere_shape(0.6f, 0.4f, 0, 0.2f);
     OK(pbmpm_emitter_def_init(&source, sizeof source));
     source.material = water;
-    source.shape = sphere_shape(0.3f, 1.0f, 0, 0.05f);
     source.rate = 0.2f;
     source.speed = 1.0f;
     source.spread = 0.4f;
-    OK(pbmpm_emitter_create(made.world, &source, &emitter));
+    OK(pbmpm_emitter_create(made.world, &source, &spout, &emitter));
     OK(pbmpm_emitter_move(made.world, emitter, there, NULL));
     OK(pbmpm_drain_def_init(&drain, sizeof drain));
     drain.material = water;
-    drain.shape = sphere_shape(0.6f, 0.1f, 0, 0.2f);
-    OK(pbmpm_drain_create(made.world, &drain, &hole));
+    OK(pbmpm_drain_create(made.world, &drain, &low, &hole));
     OK(pbmpm_force_def_init(&force, sizeof force));
     force.kind = PBMPM_FORCE_VORTEX;
-    force.shape = sphere_shape(0.6f, 0.4f, 0, 0.2f);
-    OK(pbmpm_force_create(made.world, &force, &vortex));
+    OK(pbmpm_force_create(made.world, &force, &middle, &vortex));
     OK(pbmpm_kill_bounds_init(&bounds, sizeof bounds));
     bounds.enabled = 1;
     bounds.low[0] = -1;
@@ -326,7 +324,7 @@ static void test_capacity_of_the_buffer(void)
     const bool untouched = copy[0] == 0x5a && copy[whole.bytes - 1] == 0x5a;
     const pbmpm_result taken = pbmpm_snapshot_save(world, copy + 1, whole.bytes, NULL); /* of any alignment */
     const bool same = memcmp(copy + 1, whole.data, whole.bytes) == 0;
-    const pbmpm_result restored = pbmpm_snapshot_restore(world, copy + 1, whole.bytes);
+    const pbmpm_result restored = pbmpm_snapshot_restore(world, copy + 1, whole.bytes, 0);
     free(copy);
     EXPECT(PBMPM_ERROR_CAPACITY, refused);
     TEST_ASSERT_TRUE(untouched);
@@ -343,7 +341,7 @@ static snapshot unchanged;
 
 static void expect_damage(const unsigned char *data, uint64_t bytes, const char *what)
 {
-    const pbmpm_result result = pbmpm_snapshot_restore(damaged_world, data, bytes);
+    const pbmpm_result result = pbmpm_snapshot_restore(damaged_world, data, bytes, 0);
     TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_ERROR_DAMAGED", pbmpm_result_name(result), what);
     TEST_ASSERT_TRUE_MESSAGE(pbmpm_last_error()[0] != '\0', what);
 }
@@ -388,7 +386,7 @@ static void test_every_truncation_is_found(void)
         unsigned char *part = malloc(bytes ? bytes : 1); /* of that size, so that a sanitizer sees what is read beyond */
         TEST_ASSERT_NOT_NULL(part);
         memcpy(part, middle.data, bytes);
-        const pbmpm_result result = pbmpm_snapshot_restore(damaged_world, part, bytes);
+        const pbmpm_result result = pbmpm_snapshot_restore(damaged_world, part, bytes, 0);
         free(part);
         EXPECT(PBMPM_ERROR_DAMAGED, result);
     }
@@ -412,14 +410,14 @@ static void test_random_damage_is_found(void)
         memcpy(copy + a * 8, middle.data + b * 8, 8);
         memcpy(copy + b * 8, middle.data + a * 8, 8);
         found &= memcmp(copy, middle.data, middle.bytes) == 0 ||
-                 pbmpm_snapshot_restore(damaged_world, copy, middle.bytes) == PBMPM_ERROR_DAMAGED;
+                 pbmpm_snapshot_restore(damaged_world, copy, middle.bytes, 0) == PBMPM_ERROR_DAMAGED;
     }
     for (int round = 0; round < 300; round++) {
         for (uint64_t i = 0; i < middle.bytes; i++)
             copy[i] = (unsigned char)random_next(&stream);
         if (round % 2)
             memcpy(copy, middle.data, 32); /* behind a sound header */
-        found &= pbmpm_snapshot_restore(damaged_world, copy, middle.bytes) == PBMPM_ERROR_DAMAGED;
+        found &= pbmpm_snapshot_restore(damaged_world, copy, middle.bytes, 0) == PBMPM_ERROR_DAMAGED;
     }
     free(copy);
     TEST_ASSERT_TRUE(found);
@@ -431,7 +429,7 @@ static void test_random_damage_is_found(void)
 static void expect_foreign(pbmpm_world_id world, const saved *from, pbmpm_result expected, const char *word)
 {
     const snapshot before = snapshot_take(world);
-    EXPECT(expected, pbmpm_snapshot_restore(world, from->data, from->bytes));
+    EXPECT(expected, pbmpm_snapshot_restore(world, from->data, from->bytes, 0));
     TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), word), pbmpm_last_error());
     snapshot_expect_same(&before, world, word);
 }
@@ -498,11 +496,11 @@ static void test_other_colliders_are_refused(void)
     expect_foreign(with_ball, &none, PBMPM_ERROR_FOREIGN, "index 0");
     /* the pose may differ: it comes back */
     const float elsewhere[3] = {0.25f, 0.5f, 0};
-    pbmpm_collider_def def = {.size = sizeof def};
+    pbmpm_shape shape = {.size = sizeof shape};
     OK(pbmpm_collider_teleport(with_ball, ball, elsewhere, NULL));
     restore(with_ball, &from);
-    OK(pbmpm_collider_get(with_ball, ball, &def));
-    TEST_ASSERT_TRUE(def.shape.position[0] == 0.5f && def.shape.position[1] == 0.1f);
+    OK(pbmpm_collider_get(with_ball, ball, NULL, &shape));
+    TEST_ASSERT_TRUE(shape.position[0] == 0.5f && shape.position[1] == 0.1f);
 }
 
 int main(void)

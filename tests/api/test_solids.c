@@ -115,8 +115,8 @@ static void test_a_solid_is_inspected_loaded_shared_and_destroyed(void)
 static void test_solids_that_do_not_fit(void)
 {
     const pbmpm_world_id world = open_world(3, 100), other = open_world(3, 100);
+    const pbmpm_collider_def def = default_collider();
     pbmpm_baked_id id;
-    pbmpm_collider_def def;
     pbmpm_collider_id collider;
     bake_ball(2, 1.0);
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_baked_create(world, baked.data, baked.bytes, &id));
@@ -124,11 +124,10 @@ static void test_solids_that_do_not_fit(void)
     TEST_ASSERT_TRUE(id.index == 0 && id.generation == 0);
     bake_ball(3, 1.0);
     id = load_baked(other);
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = baked_shape(id, 0, 0, 0);
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_create(world, &def, &collider)); /* another world's */
+    const pbmpm_shape shape = baked_shape(id, 0, 0, 0);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_create(world, &def, &shape, &collider)); /* another world's */
     OK(pbmpm_baked_destroy(other, id));
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_create(other, &def, &collider)); /* stale */
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_create(other, &def, &shape, &collider)); /* stale */
 }
 
 static void test_as_many_solids_as_documented(void)
@@ -225,13 +224,12 @@ static void check_container(int32_t dimension, pbmpm_solver solver, pbmpm_fricti
     settings.iterations = 8;
     settings.substeps = 2;
     OK(pbmpm_world_set_settings(world, &settings));
-    pbmpm_collider_def def;
+    pbmpm_collider_def def = default_collider();
     pbmpm_collider_id collider;
-    OK(pbmpm_collider_def_init(&def, sizeof def));
-    def.shape = baked_shape(load_baked(world), 0, 0, 0);
+    const pbmpm_shape shape = baked_shape(load_baked(world), 0, 0, 0);
     def.kinematic = 1;
     def.friction = friction;
-    OK(pbmpm_collider_create(world, &def, &collider));
+    OK(pbmpm_collider_create(world, &def, &shape, &collider));
     const uint32_t added = fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, -0.4f, 0, 0.9f, 0.4f, 0.9f), (const float[3]){3, 2, 0});
     const int steps = dimension == 3 ? 60 : 240;
     for (int i = 1; i <= steps; i++) {

@@ -126,15 +126,6 @@ static void test_lines_through_emptiness(void)
 
 /* ---- fills ---- */
 
-static pbmpm_fill_def fill_of(pbmpm_world_id world, pbmpm_shape shape)
-{
-    pbmpm_fill_def fill;
-    OK(pbmpm_fill_def_init(&fill, sizeof fill));
-    fill.material = create_material(world, PBMPM_LIQUID);
-    fill.shape = shape;
-    return fill;
-}
-
 /* Of a shape that is much larger than the domain only what is inside of the domain is looked at. */
 static void test_fills_beyond_the_domain(void)
 {
@@ -146,11 +137,12 @@ static void test_fills_beyond_the_domain(void)
         const pbmpm_world_id world = create_world(&def);
         const float half = dimension == 2 ? 400 : 12;
         uint32_t huge = 0, fitting = 0;
-        pbmpm_fill_def fill = fill_of(world, box_shape(0, 0, 0, half, half, half));
-        WITHIN(0.5, OK(pbmpm_particles_fill(world, &fill, &huge)));
+        const pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
+        pbmpm_shape shape = box_shape(0, 0, 0, half, half, half);
+        WITHIN(0.5, OK(pbmpm_particles_fill(world, &fill, &shape, &huge)));
         for (int a = 0; a < 3; a++) /* a multiple of the spacing around the same centre: the same lattice */
-            fill.shape.half_extents[a] = 0.8f;
-        OK(pbmpm_particles_fill(world, &fill, &fitting));
+            shape.half_extents[a] = 0.8f;
+        OK(pbmpm_particles_fill(world, &fill, &shape, &fitting));
         TEST_ASSERT_EQUAL_UINT32(fitting, huge);
         TEST_ASSERT_EQUAL_UINT32(dimension == 2 ? 1600 : 64000, huge);
         OK(pbmpm_world_destroy(world));
@@ -169,13 +161,14 @@ static void test_fills_beyond_all_room(void)
         shapes[2].radius = 200;
         shapes[2].half_extents[0] = 100;
         for (int k = 0; k < 3; k++) {
-            pbmpm_fill_def fill = fill_of(world, shapes[k]);
+            const pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
+            pbmpm_shape shape = shapes[k];
             uint32_t needed = 0;
             if (dimension == 3)
                 for (int a = 0; a < 3; a++)
-                    fill.shape.half_extents[a] /= 16, fill.shape.radius /= a == 0 ? 16 : 1;
+                    shape.half_extents[a] /= 16, shape.radius /= a == 0 ? 16 : 1;
             const double points = dimension == 2 ? 16000.0 * 16000 : 1e9;
-            WITHIN(dimension == 2 ? 0.3 : 5.0, EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(world, &fill, &needed)));
+            WITHIN(dimension == 2 ? 0.3 : 5.0, EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_fill(world, &fill, &shape, &needed)));
             if (k < 2)
                 TEST_ASSERT_DOUBLE_WITHIN(1e-3 * points, share[k][dimension - 2] * points, needed);
         }
@@ -191,15 +184,16 @@ static void test_fills_of_nothing(void)
     def.domain_enabled = 1;
     const pbmpm_world_id world = create_world(&def);
     uint32_t added = 9;
-    pbmpm_fill_def fill = fill_of(world, box_shape(3, 0.5f, 0, 0.5f, 0.5f, 0.5f));
+    const pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
+    pbmpm_shape shape = box_shape(3, 0.5f, 0, 0.5f, 0.5f, 0.5f);
     const uint64_t before = world_hash(world);
-    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &added));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_fill(world, &fill, &shape, &added));
     TEST_ASSERT_EQUAL_UINT32(0, added);
     TEST_ASSERT_EQUAL_HEX64(before, world_hash(world));
-    fill.shape.position[0] = 1.4f; /* reaches in */
-    OK(pbmpm_particles_fill(world, &fill, &added));
+    shape.position[0] = 1.4f; /* reaches in */
+    OK(pbmpm_particles_fill(world, &fill, &shape, &added));
     TEST_ASSERT_TRUE(added > 0);
-    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_particles_fill(world, &(pbmpm_fill_def){.size = sizeof fill}, &added));
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_particles_fill(world, &(pbmpm_fill_def){.size = sizeof fill}, &shape, &added));
 }
 
 /* ---- emitters ---- */
@@ -207,13 +201,13 @@ static void test_fills_of_nothing(void)
 /* Half as many particles as there is room for are due in a step of 0.01 s. */
 static pbmpm_emitter_id spring(pbmpm_world_id world, int32_t dimension)
 {
+    const pbmpm_shape shape = sphere_shape(1, 1, 1, 0.2f);
     pbmpm_emitter_def def;
     pbmpm_emitter_id emitter;
     OK(pbmpm_emitter_def_init(&def, sizeof def));
     def.material = create_material(world, PBMPM_LIQUID);
-    def.shape = sphere_shape(1, 1, 1, 0.2f);
     def.rate = dimension == 2 ? 100 * 500 * 0.0025f : 100 * 500 * 0.000125f;
-    OK(pbmpm_emitter_create(world, &def, &emitter));
+    OK(pbmpm_emitter_create(world, &def, &shape, &emitter));
     return emitter;
 }
 
@@ -228,9 +222,9 @@ static void test_an_emitter_that_is_moved_far_away(void)
         WITHIN(0.15, OK(pbmpm_world_step(world, 0.01f)));
         TEST_ASSERT_TRUE(world_count(world) > 0);
         TEST_ASSERT_TRUE(world_stats(world).memory_bytes < 30000000);
-        pbmpm_emitter_def now = {.size = sizeof now};
-        OK(pbmpm_emitter_get(world, emitter, &now));
-        TEST_ASSERT_TRUE(now.shape.position[0] == places[k][0] && now.shape.position[1] == places[k][1]);
+        pbmpm_shape now = {.size = sizeof now};
+        OK(pbmpm_emitter_get(world, emitter, NULL, &now));
+        TEST_ASSERT_TRUE(now.position[0] == places[k][0] && now.position[1] == places[k][1]);
         OK(pbmpm_world_destroy(world));
     }
 }

@@ -257,10 +257,10 @@ static void test_events_that_did_not_fit_are_counted(void)
     const pbmpm_world_id world = create_world(&def);
     const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
     const uint32_t added = fill_shape(world, water, box_shape(0, 0, 0, 5, 5, 5), (const float[3]){1000, 0, 0});
-    const pbmpm_event *events = NULL;
+    pbmpm_event events[PBMPM_MAX_EVENTS] = {{.size = sizeof *events}};
     uint32_t count = 0, missed = 0, told = 0;
     OK(pbmpm_world_step(world, 0.01f));
-    OK(pbmpm_world_events(world, &events, &count, &missed));
+    OK(pbmpm_world_events(world, events, PBMPM_MAX_EVENTS, &count, &missed));
     for (uint32_t i = 0; i < count; i++) {
         TEST_ASSERT_EQUAL_INT(PBMPM_EVENT_SPEED_CLAMPED, events[i].kind);
         told += events[i].count;
@@ -268,6 +268,65 @@ static void test_events_that_did_not_fit_are_counted(void)
     TEST_ASSERT_TRUE(added > 30000);
     TEST_ASSERT_EQUAL_UINT64(added, world_stats(world).clamped_total);
     TEST_ASSERT_EQUAL_UINT32(added, told + missed);
+}
+
+/* Offers a world of one particle more of them than it has room for: one event each time. */
+static void refuse_particles(pbmpm_world_id world, uint32_t times)
+{
+    static const float positions[2 * 64];
+    pbmpm_particles_def def;
+    OK(pbmpm_particles_def_init(&def, sizeof def));
+    def.material = create_material(world, PBMPM_LIQUID);
+    def.positions = positions;
+    for (uint32_t i = 0; i < times; i++) {
+        def.count = 2 + i % 62;
+        EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world, &def, NULL));
+    }
+}
+
+/* The caller's array may be shorter than what the world keeps, or none. */
+static void test_events_are_copied_as_far_as_there_is_room(void)
+{
+    enum { TOLD = 5, ROOM = 2 };
+    const pbmpm_world_def def = default_world(2, 0.1f, 1);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_event all[TOLD + 1] = {{.size = sizeof *all}}, few[ROOM + 1];
+    uint32_t count = 0, missed = 9;
+    refuse_particles(world, TOLD);
+    OK(pbmpm_world_events(world, all, TOLD + 1, &count, &missed));
+    TEST_ASSERT_EQUAL_UINT32(TOLD, count);
+    TEST_ASSERT_EQUAL_UINT32(0, missed);
+    for (uint32_t i = 0; i < TOLD; i++) {
+        TEST_ASSERT_EQUAL_UINT32(sizeof *all, all[i].size);
+        TEST_ASSERT_EQUAL_INT(PBMPM_EVENT_CAPACITY, all[i].kind);
+        TEST_ASSERT_EQUAL_UINT32(2 + i, all[i].count);
+    }
+    memset(few, 0xA5, sizeof few);
+    few[0].size = sizeof *few;
+    OK(pbmpm_world_events(world, few, ROOM, &count, NULL));
+    TEST_ASSERT_EQUAL_UINT32(TOLD, count);
+    TEST_ASSERT_EQUAL_MEMORY(all, few, ROOM * sizeof *few);
+    TEST_ASSERT_EACH_EQUAL_HEX8(0xA5, &few[ROOM], sizeof *few);
+    count = 0;
+    OK(pbmpm_world_events(world, NULL, 0, &count, NULL));
+    TEST_ASSERT_EQUAL_UINT32(TOLD, count);
+}
+
+static void test_a_world_keeps_so_many_events(void)
+{
+    static pbmpm_event events[PBMPM_MAX_EVENTS + 1];
+    const pbmpm_world_def def = default_world(2, 0.1f, 1);
+    const pbmpm_world_id world = create_world(&def);
+    uint32_t count = 0, missed = 0;
+    refuse_particles(world, PBMPM_MAX_EVENTS + 3);
+    events[0].size = sizeof *events;
+    OK(pbmpm_world_events(world, events, PBMPM_MAX_EVENTS + 1, &count, &missed));
+    TEST_ASSERT_EQUAL_UINT32(PBMPM_MAX_EVENTS, count);
+    TEST_ASSERT_EQUAL_UINT32(3, missed);
+    OK(pbmpm_world_step(world, 0.01f));
+    OK(pbmpm_world_events(world, NULL, 0, &count, &missed));
+    TEST_ASSERT_EQUAL_UINT32(0, count);
+    TEST_ASSERT_EQUAL_UINT32(0, missed);
 }
 
 int main(void)
@@ -284,5 +343,7 @@ int main(void)
     RUN_TEST(test_overstrained_particles_are_deleted_and_told);
     RUN_TEST(test_overflowing_gradients_do_not_spread);
     RUN_TEST(test_events_that_did_not_fit_are_counted);
+    RUN_TEST(test_events_are_copied_as_far_as_there_is_room);
+    RUN_TEST(test_a_world_keeps_so_many_events);
     return UNITY_END();
 }

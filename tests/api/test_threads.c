@@ -20,7 +20,7 @@ void tearDown(void)
  * other one tries every call. */
 typedef struct gate {
     ledger book;
-    pbmpm_allocator real;
+    pbmpm_allocator gated;
     pthread_mutex_t mutex;
     pthread_cond_t changed;
     bool armed;    /* the next allocation stops */
@@ -40,20 +40,21 @@ static void *gate_allocate(size_t size, size_t alignment, void *user)
             pthread_cond_wait(&door->changed, &door->mutex);
     }
     pthread_mutex_unlock(&door->mutex);
-    return door->real.allocate(size, alignment, door->real.user);
+    return door->book.allocator.allocate(size, alignment, &door->book);
 }
 
 static void gate_release(void *memory, size_t size, void *user)
 {
     gate *door = user;
-    door->real.release(memory, size, door->real.user);
+    door->book.allocator.release(memory, size, &door->book);
 }
 
 static void use_gate(pbmpm_world_def *def, void *user)
 {
     gate *door = user;
-    door->real = ledger_allocator(&door->book);
-    def->allocator = (pbmpm_allocator){gate_allocate, gate_release, door};
+    ledger_allocator(&door->book);
+    door->gated = (pbmpm_allocator){sizeof door->gated, gate_allocate, gate_release, door};
+    def->allocator = &door->gated;
 }
 
 typedef struct stepper {
@@ -304,13 +305,17 @@ static void host_finish_nothing(void *handle, void *user)
 
 static void use_host(pbmpm_world_def *def, void *user)
 {
-    def->tasks = (pbmpm_task_hooks){host_enqueue, host_finish, user};
+    static pbmpm_task_hooks hooks = {sizeof hooks, host_enqueue, host_finish, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
     def->thread_count = 4;
 }
 
 static void use_host_at_once(pbmpm_world_def *def, void *user)
 {
-    def->tasks = (pbmpm_task_hooks){host_enqueue_at_once, host_finish_nothing, user};
+    static pbmpm_task_hooks hooks = {sizeof hooks, host_enqueue_at_once, host_finish_nothing, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
     def->thread_count = 7;
 }
 

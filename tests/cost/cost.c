@@ -62,8 +62,7 @@ static void fill(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_s
     pbmpm_fill_def def;
     ok(pbmpm_fill_def_init(&def, sizeof def));
     def.material = material;
-    def.shape = *shape;
-    ok(pbmpm_particles_fill(world, &def, NULL));
+    ok(pbmpm_particles_fill(world, &def, shape, NULL));
 }
 
 /* How many particles there will be, at most. */
@@ -169,6 +168,7 @@ static void add_unused_baked(pbmpm_world_id world, int dimension)
 
 static void add_unused(pbmpm_world_id world, int dimension)
 {
+    pbmpm_shape shape;
     pbmpm_emitter_def emitter;
     pbmpm_emitter_id emitter_id;
     pbmpm_drain_def drain;
@@ -177,17 +177,18 @@ static void add_unused(pbmpm_world_id world, int dimension)
     pbmpm_force_id force_id;
     add_unused_materials(world);
     add_unused_baked(world, dimension);
+    ok(pbmpm_shape_init(&shape, sizeof shape));
     ok(pbmpm_emitter_def_init(&emitter, sizeof emitter));
     emitter.material = add_material(world, PBMPM_LIQUID);
     emitter.rate = 1.0f;
     emitter.enabled = 0;
-    ok(pbmpm_emitter_create(world, &emitter, &emitter_id));
+    ok(pbmpm_emitter_create(world, &emitter, &shape, &emitter_id));
     ok(pbmpm_drain_def_init(&drain, sizeof drain));
     drain.enabled = 0;
-    ok(pbmpm_drain_create(world, &drain, &drain_id));
+    ok(pbmpm_drain_create(world, &drain, &shape, &drain_id));
     ok(pbmpm_force_def_init(&force, sizeof force));
     force.enabled = 0;
-    ok(pbmpm_force_create(world, &force, &force_id));
+    ok(pbmpm_force_create(world, &force, &shape, &force_id));
 }
 
 /* ---- Measuring ---- */
@@ -232,7 +233,7 @@ static void print_steps(const Options *options, float cell)
     void *state = malloc(bytes);
     ok(pbmpm_snapshot_save(world, state, bytes, &bytes));
     measured_step(world);
-    ok(pbmpm_snapshot_restore(world, state, bytes));
+    ok(pbmpm_snapshot_restore(world, state, bytes, 0));
     free(state);
     set_iterations(world, options, 2 * ITERATIONS);
     measured_step(world);

@@ -35,13 +35,12 @@ static class EffectTests
         {
             var source = EmitterDef.Default;
             source.Material = world.AddMaterial(MaterialDef.Default);
-            source.Shape = Shape.Box(new Float3(1, 1.5f, 0), new Float3(0.2f, 0.1f, 0));
             source.Rate = 0.6f;
             source.Budget = 60;
-            var emitter = world.AddEmitter(source);
-            var sink = DrainDef.Default;
-            sink.Shape = Shape.Plane(new Float3(0, 0.2f, 0), new Float3(0, 1, 0));
-            var drain = world.AddDrain(sink);
+            var emitter = world.AddEmitter(source, Shape.Box(new Float3(1, 1.5f, 0), new Float3(0.2f, 0.1f, 0)));
+            var drain = world.AddDrain(DrainDef.Default, Shape.Plane(new Float3(0, 0.1f, 0), new Float3(0, 1, 0)));
+            world.SetDrain(drain, Shape.Plane(new Float3(0, 0.2f, 0), new Float3(0, 1, 0)));
+            Expect.Equal(0.2f, world.ShapeOf(drain).Position.Y, "where the drain was put");
             Run(world, 60);
             var emitted = world.StatusOf(emitter);
             var drained = world.StatusOf(drain);
@@ -66,7 +65,7 @@ static class EffectTests
             world.SetEmitter(emitter, source);
             world.MoveEmitter(emitter, new Float3(0.5f, 1.5f, 0));
             world.MoveEmitter(emitter, new Float3(0.5f, 1.5f, 0), new Float4(0, 0, 0, 1));
-            sink = world.GetDrain(drain);
+            var sink = world.GetDrain(drain);
             sink.Enabled = 0;
             world.SetDrain(drain, sink);
             Expect.Equal(0, world.GetDrain(drain).Enabled, "a drain that was switched off");
@@ -85,7 +84,7 @@ static class EffectTests
             var wind = ForceDef.Default;
             wind.Direction = new Float3(1, 0, 0);
             wind.Strength = 3;
-            var force = world.AddForce(wind);
+            var force = world.AddForce(wind, Shape.Default);
             var mass = world.Stats.Mass;
             Run(world, 1);
             Expect.Near(mass * 3 * Scenes.Frame, world.StatusOf(force).Impulse.X, 1e-4 * mass, "impulse");
@@ -120,12 +119,10 @@ static class EffectTests
             var loaded = world.Load(solid);
             var definition = ColliderDef.Default;
             definition.MeasuresImpulse = 1;
-            definition.Shape = Shape.Solid(new Float3(1, 0.5f, 0), loaded);
-            var collider = world.AddCollider(definition);
+            var collider = world.AddCollider(definition, Shape.Solid(new Float3(1, 0.5f, 0), loaded));
             Expect.Refused(Result.ErrorInUse, () => world.Unload(loaded), "a solid that an obstacle has");
             var fill = Scenes.Water(world);
-            fill.Shape = Shape.Box(new Float3(1, 1, 0), new Float3(0.3f, 0.2f, 0));
-            world.Fill(fill);
+            world.Fill(fill, Shape.Box(new Float3(1, 1, 0), new Float3(0.3f, 0.2f, 0)));
             Run(world, 3);
             Expect.True(world.ImpulseOn(collider).Linear.Y < 0, "water presses down");
             world.RemoveCollider(collider);

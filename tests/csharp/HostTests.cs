@@ -1,6 +1,7 @@
 using System;
 using System.Runtime.InteropServices;
 using Pbmpm;
+using Pbmpm.Native;
 
 /// <summary>A host that gives the library its own task system, and calls that come in the middle of a step.</summary>
 static class HostTests
@@ -20,12 +21,14 @@ static class HostTests
         var definition = WorldDef.Default;
         definition.ParticleCapacity = 70000;
         definition.ThreadCount = 2;
-        definition.Tasks.Enqueue = Marshal.GetFunctionPointerForDelegate(enqueue);
-        definition.Tasks.Finish = Marshal.GetFunctionPointerForDelegate(finish);
-        var world = new World(definition);
+        var tasks = new TaskHooks
+        {
+            Enqueue = Marshal.GetFunctionPointerForDelegate(enqueue),
+            Finish = Marshal.GetFunctionPointerForDelegate(finish),
+        };
+        var world = new World(definition, tasks);
         var fill = Scenes.Water(world);
-        fill.Shape = Shape.Box(new Float3(1, 1, 1), new Float3(1, 1, 1));
-        Expect.Equal(64000, world.Fill(fill), "particles");
+        Expect.Equal(64000, world.Fill(fill, Shape.Box(new Float3(1, 1, 1), new Float3(1, 1, 1))), "particles");
         return world;
     }
 

@@ -100,7 +100,7 @@ static class ParticleTests
                 w => w.Step(Scenes.Frame),
                 w => w.Set(Field.Velocity, new float[4]),
                 w => w.Set(Field.Velocity, ids, new float[4]),
-                w => w.Fill(Scenes.Water(w)),
+                w => w.Fill(Scenes.Water(w), Scenes.Block),
                 w => w.RemoveIn(Shape.Box(new Float3(1, 1, 0), new Float3(0.3f, 0.3f, 1))),
                 w => w.Remove(ids, 1),
             };

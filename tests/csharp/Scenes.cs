@@ -26,7 +26,7 @@ static class Scenes
     public static World Pool(int dimension, int threads = 1)
     {
         var world = Box(dimension, threads: threads);
-        Expect.True(world.Fill(Water(world)) > 0, "the block has particles");
+        Expect.True(world.Fill(Water(world), Block) > 0, "the block has particles");
         return world;
     }
 
@@ -34,7 +34,8 @@ static class Scenes
     {
         var fill = FillDef.Default;
         fill.Material = world.AddMaterial(MaterialDef.Default);
-        fill.Shape = Shape.Box(new Float3(1, 1, 1), new Float3(0.2f, 0.2f, 0.2f));
         return fill;
     }
+
+    public static Shape Block => Shape.Box(new Float3(1, 1, 1), new Float3(0.2f, 0.2f, 0.2f));
 }

@@ -110,17 +110,16 @@ static class WorldTests
         {
             var definition = ColliderDef.Default;
             definition.Kinematic = 1;
-            definition.Shape = Shape.Sphere(new Float3(1, 1, 0), 0.1f);
-            var collider = world.AddCollider(definition);
+            var collider = world.AddCollider(definition, Shape.Sphere(new Float3(1, 1, 0), 0.1f));
             Expect.True(world.Query(collider, new ParticleId[0]) > 0, "the ball stands in the water");
             world.TeleportCollider(collider, new Float3(0.5f, 1, 0));
-            Expect.Equal(0.5f, world.GetCollider(collider).Shape.Position.X, "place after a teleport");
+            Expect.Equal(0.5f, world.ShapeOf(collider).Position.X, "place after a teleport");
             Expect.Equal(0, world.Query(collider, new ParticleId[0]), "particles inside the ball beside the water");
             var quarter = new Float4(0, 0, (float)Math.Sqrt(0.5), (float)Math.Sqrt(0.5));
             world.MoveCollider(collider, new Float3(0.6f, 1, 0), quarter);
             world.Step(Scenes.Frame);
-            Expect.Near(0.6, world.GetCollider(collider).Shape.Position.X, 1e-6, "place after a move and a step");
-            Expect.Near(quarter.Z, world.GetCollider(collider).Shape.Rotation.Z, 1e-6, "turn after a move and a step");
+            Expect.Near(0.6, world.ShapeOf(collider).Position.X, 1e-6, "place after a move and a step");
+            Expect.Near(quarter.Z, world.ShapeOf(collider).Rotation.Z, 1e-6, "turn after a move and a step");
             world.MoveCollider(collider, new Float3(0.7f, 1, 0));
             world.TeleportCollider(collider, new Float3(0.7f, 1, 0), new Float4(0, 0, 0, 1));
             world.RemoveCollider(collider);
@@ -143,8 +142,7 @@ static class WorldTests
             };
             foreach (var shape in shapes)
             {
-                definition.Shape = shape;
-                var found = world.GetCollider(world.AddCollider(definition)).Shape;
+                var found = world.ShapeOf(world.AddCollider(definition, shape));
                 Expect.Equal(shape.Kind, found.Kind, "kind");
                 Expect.Equal(shape.HalfExtents.X, found.HalfExtents.X, "half extent");
                 Expect.Equal(shape.Radius, found.Radius, "radius");
@@ -158,7 +156,7 @@ static class WorldTests
         using (var world = Scenes.Box(2, capacity: 10))
         {
             var fill = Scenes.Water(world);
-            Expect.Refused(Result.ErrorCapacity, () => world.Fill(fill), "filling beyond the capacity");
+            Expect.Refused(Result.ErrorCapacity, () => world.Fill(fill, Scenes.Block), "filling beyond the capacity");
             Expect.Equal(0, world.ParticleCount, "particles");
             var seen = 0;
             foreach (var happened in world.Events)

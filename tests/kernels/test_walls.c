@@ -194,14 +194,15 @@ static void test_a_full_box_has_its_density(void)
 /* A box of one cell at `place` [cells] on all axes. */
 static void add_box(World *world, double place)
 {
-    pbmpm_collider_def def = collider_defaults();
+    const pbmpm_collider_def def = collider_defaults();
+    pbmpm_shape shape = shape_defaults();
     pbmpm_collider_id id;
-    def.shape.kind = PBMPM_BOX;
+    shape.kind = PBMPM_BOX;
     for (int a = 0; a < 3; a++) {
-        def.shape.position[a] = (float)(place * CELL);
-        def.shape.half_extents[a] = (float)(0.5 * CELL);
+        shape.position[a] = (float)(place * CELL);
+        shape.half_extents[a] = (float)(0.5 * CELL);
     }
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, NULL, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, &shape, NULL, 1, &id));
 }
 
 /* Whether a block's particles feel a node whose support the box cuts. */

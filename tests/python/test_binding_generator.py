@@ -9,7 +9,7 @@ from pathlib import Path
 import cffi
 import pytest
 
-from generator import cdef, layout, model, parser
+from generator import cdef, header, layout, model, parser, sized
 
 
 @pytest.fixture(scope="module")
@@ -32,6 +32,22 @@ def test_committed_layout_list_is_current(api: model.Api, root: Path) -> None:
     committed = (root / "src" / "layout_table.inc").read_text(encoding="utf-8")
     assert committed == layout.emit(api), (
         "run: cd bindings && python -m generator layout --headers ../include --output ../src/layout_table.inc"
+    )
+
+
+def test_committed_table_of_sizes_is_current(api: model.Api, root: Path) -> None:
+    committed = (root / "src" / "sized_table.inc").read_text(encoding="utf-8")
+    assert committed == sized.emit(api, root / "tests" / "abi"), (
+        "run: cd bindings && python -m generator sized --headers ../include --versions ../tests/abi --output ../src/sized_table.inc"
+    )
+
+
+def test_the_header_of_this_version_is_kept(api: model.Api, root: Path) -> None:
+    """Clients of this version are tested against later libraries with it; see docs/abi.md."""
+    version = header.version_of(api)
+    kept = root / "tests" / "abi" / version / "include" / "pbmpm" / "pbmpm.h"
+    assert kept.read_text(encoding="utf-8") == header.emit(api), (
+        f"run: cd bindings && python -m generator header --headers ../include --output ../tests/abi/{version}/include/pbmpm/pbmpm.h"
     )
 
 
@@ -58,7 +74,7 @@ def test_constants_come_from_macros_and_nameless_enumerations(api: model.Api) ->
 def test_types_of_fields(api: model.Api) -> None:
     fields = find(api.structures, "pbmpm_world_def").fields
     assert find(fields, "domain_min").type == model.Type(model.Kind.SCALAR, "float", length=3)
-    assert find(fields, "allocator").type == model.Type(model.Kind.STRUCT, "pbmpm_allocator")
+    assert find(fields, "allocator").type == model.Type(model.Kind.STRUCT, "pbmpm_allocator", const=True, pointers=1)
     allocate = find(find(api.structures, "pbmpm_allocator").fields, "allocate").type
     assert (allocate.kind, allocate.pointers) == (model.Kind.FUNCTION, 1)
     assert [parameter.name for parameter in allocate.signature.parameters] == ["size", "alignment", "user"]
@@ -68,8 +84,8 @@ def test_types_of_parameters(api: model.Api) -> None:
     move = find(api.functions, "pbmpm_collider_move").signature
     assert move.result == model.Type(model.Kind.ENUM, "pbmpm_result")
     assert move.parameters[2] == model.Parameter("position", model.Type(model.Kind.SCALAR, "float", True, 0, 3))
-    events = find(api.functions, "pbmpm_world_events").signature.parameters[1]
-    assert events.type == model.Type(model.Kind.STRUCT, "pbmpm_event", const=True, pointers=2)
+    entries = find(api.functions, "pbmpm_layout_table").signature.parameters[0]
+    assert entries.type == model.Type(model.Kind.STRUCT, "pbmpm_layout_entry", const=True, pointers=2)
     log = find(api.functions, "pbmpm_set_log_callback").signature.parameters[0]
     assert log.type == model.Type(model.Kind.CALLBACK, "pbmpm_log_callback", pointers=1)
 

@@ -67,8 +67,8 @@ def test_a_library_may_have_appended_to_a_structure_with_a_size() -> None:
 
 def test_a_structure_without_a_size_may_not_grow() -> None:
     own = _library.own_layout(ffi)
-    with pytest.raises(ImportError, match="pbmpm_event"):
-        _library.check_layout(own, {**own, ("pbmpm_event", ""): (0, own["pbmpm_event", ""][1] + 8)})
+    with pytest.raises(ImportError, match="pbmpm_layout_entry"):
+        _library.check_layout(own, {**own, ("pbmpm_layout_entry", ""): (0, own["pbmpm_layout_entry", ""][1] + 8)})
 
 
 def fake_library(version: int, abi: int) -> SimpleNamespace:

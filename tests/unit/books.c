@@ -32,7 +32,7 @@ Memory books_memory(Books *books, uint64_t budget)
 {
     Memory memory;
     *books = (Books){0};
-    memory_init(&memory, &(pbmpm_allocator){allocate, release, books}, budget);
+    memory_init(&memory, &(pbmpm_allocator){sizeof(pbmpm_allocator), allocate, release, books}, budget);
     return memory;
 }
 

@@ -22,7 +22,7 @@ static void matter_open(Matter *m, int dimension)
 {
     *m = (Matter){0};
     m->memory = books_memory(&m->books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&m->memory, 1, &(pbmpm_task_hooks){0}, &m->pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&m->memory, 1, NULL, &m->pool));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&m->particles, &m->memory, dimension, CAPACITY));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_init(&m->grid, &m->memory, dimension, CAPACITY));
 }

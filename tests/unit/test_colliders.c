@@ -151,7 +151,7 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
 {
     *s = (Setting){0};
     s->memory = books_memory(&s->books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&s->memory, 1, &(pbmpm_task_hooks){0}, &s->pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&s->memory, 1, NULL, &s->pool));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&s->particles, &s->memory, dimension, 5000));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_init(&s->grid, &s->memory, dimension, 5000));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_init(&s->colliders, &s->memory));
@@ -216,9 +216,9 @@ static pbmpm_collider_id add_collider(Setting *s, const pbmpm_shape *shape, pbmp
     pbmpm_collider_id id;
     def.friction = friction;
     def.kinematic = 1;
-    def.shape = *shape;
-    TEST_ASSERT_NULL(collider_problem(&def, s->grid.dimension, NULL));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s->colliders, &s->memory, &def, NULL, 77, &id));
+    TEST_ASSERT_NULL(collider_problem(&def));
+    TEST_ASSERT_NULL(shape_problem(shape, s->grid.dimension));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s->colliders, &s->memory, &def, shape, NULL, 77, &id));
     return id;
 }
 
@@ -308,8 +308,8 @@ static void check_carried(int dimension, int parts)
     colliders_end_step(&s.colliders);
     const Collider *collider = colliders_find(&s.colliders, id);
     TEST_ASSERT_FALSE(collider->moving);
-    TEST_ASSERT_EQUAL_MEMORY(to, collider->def.shape.position, sizeof to);
-    TEST_ASSERT_EQUAL_MEMORY(turned, collider->def.shape.rotation, sizeof turned);
+    TEST_ASSERT_EQUAL_MEMORY(to, collider->shape.position, sizeof to);
+    TEST_ASSERT_EQUAL_MEMORY(turned, collider->shape.rotation, sizeof turned);
     setting_close(&s);
 }
 
@@ -507,15 +507,16 @@ static void test_slots_and_generations(void)
 {
     static Setting s;
     const pbmpm_collider_def def = collider_defaults();
+    const pbmpm_shape box = shape_defaults();
     pbmpm_collider_id id, first;
     setting_open(&s, 3, 1);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 5, &first));
-    for (int i = 1; i < PBMPM_MAX_COLLIDERS; i++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 5 + (uint32_t)i, &id));
-    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_CAPACITY, colliders_add(&s.colliders, &s.memory, &def, NULL, 9999, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, &box, NULL, 5, &first));
+    for (int i = 1; i < PBMPM_MAX_COLLIDERS; i++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, &box, NULL, 5 + (uint32_t)i, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_CAPACITY, colliders_add(&s.colliders, &s.memory, &def, &box, NULL, 9999, &id));
     TEST_ASSERT_NOT_NULL(colliders_find(&s.colliders, first));
     colliders_find(&s.colliders, first)->generation = 0;
     TEST_ASSERT_NULL(colliders_find(&s.colliders, first));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, NULL, 10000, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&s.colliders, &s.memory, &def, &box, NULL, 10000, &id));
     TEST_ASSERT_EQUAL_UINT32(first.index, id.index);
     TEST_ASSERT_NULL(colliders_find(&s.colliders, first));
     TEST_ASSERT_NULL(colliders_find(&s.colliders, (pbmpm_collider_id){0}));

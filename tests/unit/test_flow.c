@@ -66,17 +66,17 @@ static void check_marks(int dimension, uint32_t seed)
     make_world(dimension, seed);
     Random random = (Random){seed + 1000};
     const Particles *p = &world->particles;
-    pbmpm_drain_def def = drain_defaults();
+    const pbmpm_drain_def def = drain_defaults();
+    const pbmpm_shape shape = random_shape(&random, dimension);
     pbmpm_drain_id id;
-    def.shape = random_shape(&random, dimension);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, sinks_add(&world->sinks, &world->memory, &def, dimension, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, sinks_add(&world->sinks, &world->memory, &def, &shape, dimension, 1, &id));
     world->sinks.bounds.enabled = 1;
     for (int a = 0; a < 3; a++) {
         world->sinks.bounds.low[a] = (float)random_in(&random, -4.0, -2.0);
         world->sinks.bounds.high[a] = (float)random_in(&random, 1.0, 4.0);
     }
     const uint32_t marked = sinks_mark(world, 0);
-    const Solid solid = solid_of(&def.shape, dimension);
+    const Solid solid = solid_of(&shape, dimension);
     uint32_t drained = 0, killed = 0;
     for (uint32_t row = 0; row < p->count; row++) {
         double point[3] = {0}, normal[3];
@@ -133,16 +133,16 @@ static void check_reach(int dimension, uint32_t seed)
     TEST_ASSERT_TRUE(node_floats() <= sizeof before / sizeof *before);
     memcpy(before, world->grid.node.data, node_floats() * sizeof(float));
     Random random = (Random){seed + 1000};
+    const pbmpm_shape shape = random_shape(&random, dimension);
     pbmpm_force_def def = force_defaults();
     pbmpm_force_id id;
     def.everywhere = 0;
-    def.shape = random_shape(&random, dimension);
     def.range = (float)random_in(&random, 0.0, 1.0);
     def.strength = 500.0f; /* 0.2 cells per substep */
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, dimension, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &shape, dimension, 1, &id));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
     const float *node = world->grid.node.data;
-    const Solid solid = solid_of(&def.shape, dimension);
+    const Solid solid = solid_of(&shape, dimension);
     double impulse = 0.0;
     for (int32_t block = 0; block < world->grid.node_blocks; block++) {
         float reach = 0.0f;
@@ -175,10 +175,11 @@ static void test_forces_reach_every_node_and_no_further(void)
 static void test_forces_that_are_off_cost_nothing(void)
 {
     make_world(2, 1);
+    const pbmpm_shape shape = shape_defaults();
     pbmpm_force_def def = force_defaults();
     pbmpm_force_id id;
     def.enabled = 0;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, 2, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &shape, 2, 1, &id));
     predict();
     const uint64_t used = world->memory.used;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
@@ -209,12 +210,13 @@ static void test_slots_are_used_again_and_never_mistaken(void)
     Memory memory = books_memory(&books, 0);
     Emitters emitters = {0};
     const pbmpm_emitter_def def = emitter_defaults();
+    const pbmpm_shape shape = shape_defaults();
     pbmpm_emitter_id first, second, third;
     TEST_ASSERT_NULL(emitters_find(&emitters, (pbmpm_emitter_id){0, 1}));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, 7, &first));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, 8, &second));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, &shape, 7, &first));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, &shape, 8, &second));
     emitters_find(&emitters, first)->generation = 0;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, 9, &third));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&emitters, &memory, &def, &shape, 9, &third));
     TEST_ASSERT_EQUAL_UINT32(first.index, third.index);
     TEST_ASSERT_NULL(emitters_find(&emitters, first));
     TEST_ASSERT_NOT_NULL(emitters_find(&emitters, second));
@@ -231,10 +233,11 @@ static void test_no_memory_for_slots(void)
     books.fail_at = 1;
     Forces forces = {0};
     const pbmpm_force_def def = force_defaults();
+    const pbmpm_shape shape = shape_defaults();
     pbmpm_force_id id;
-    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, forces_add(&forces, &memory, &def, 2, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, forces_add(&forces, &memory, &def, &shape, 2, 1, &id));
     TEST_ASSERT_EQUAL_UINT32(0, forces.used);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&forces, &memory, &def, 2, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&forces, &memory, &def, &shape, 2, 1, &id));
     forces_free(&forces, &memory);
     books_expect_closed(&books, &memory);
 }

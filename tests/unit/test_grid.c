@@ -24,7 +24,7 @@ typedef struct Sorted {
 static void sorted_open(Sorted *s, int dimension, int threads)
 {
     s->memory = books_memory(&s->books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&s->memory, threads, &(pbmpm_task_hooks){0}, &s->pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&s->memory, threads, NULL, &s->pool));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&s->particles, &s->memory, dimension, CAPACITY));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_init(&s->grid, &s->memory, dimension, CAPACITY));
 }

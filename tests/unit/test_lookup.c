@@ -18,7 +18,7 @@ static Lookup lookup;
 void setUp(void)
 {
     memory = books_memory(&books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&memory, 3, &(pbmpm_task_hooks){0}, &pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&memory, 3, NULL, &pool));
 }
 
 void tearDown(void)

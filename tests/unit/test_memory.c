@@ -33,7 +33,7 @@ static void test_blocks_are_zeroed_aligned_and_accounted(void)
 static void test_the_c_library_serves_without_an_allocator(void)
 {
     Memory memory;
-    memory_init(&memory, &(pbmpm_allocator){0}, 0);
+    memory_init(&memory, NULL, 0);
     void *block = memory_take(&memory, 12345);
     TEST_ASSERT_NOT_NULL(block);
     TEST_ASSERT_EQUAL_UINT64(0, (uintptr_t)block % 64);

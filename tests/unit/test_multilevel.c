@@ -34,7 +34,7 @@ static void hats_open(Hats *h, int dimension, int width, int threads, uint32_t s
     Random random = {seed};
     *h = (Hats){0};
     h->memory = books_memory(&h->books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&h->memory, threads, &(pbmpm_task_hooks){0}, &h->pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&h->memory, threads, NULL, &h->pool));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&h->particles, &h->memory, dimension, CAPACITY));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_init(&h->grid, &h->memory, dimension, CAPACITY));
     for (int i = 0; i < 800; i++) {

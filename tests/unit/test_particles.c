@@ -20,7 +20,7 @@ static Particles particles;
 static void open_particles(int dimension, bool with_deformation)
 {
     memory = books_memory(&books, 0);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&memory, 2, &(pbmpm_task_hooks){0}, &pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(&memory, 2, NULL, &pool));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, dimension, CAPACITY));
     if (with_deformation) TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&particles, &memory));
 }

@@ -44,9 +44,8 @@ static void check_loop(Pool *pool, Work *work, int32_t count, int32_t grain, int
 
 static Pool *open_pool(Memory *memory, int threads, const pbmpm_task_hooks *hooks)
 {
-    static const pbmpm_task_hooks none = {0};
     Pool *pool;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(memory, threads, hooks ? hooks : &none, &pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, pool_create(memory, threads, hooks, &pool));
     TEST_ASSERT_EQUAL_INT(threads, pool_thread_count(pool));
     return pool;
 }
@@ -171,7 +170,7 @@ static void test_hooks_do_the_work(void)
     Books books;
     Memory memory = books_memory(&books, 0);
     Host host = {0};
-    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){enqueue, finish, &host});
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), enqueue, finish, &host});
     for (int round = 0; round < 100; round++) {
         host.backwards = round % 2;
         check_loop(pool, &work, 10 + round * 29, 3, 3);
@@ -192,7 +191,7 @@ static void test_no_memory_for_a_pool(void)
     Memory memory = books_memory(&books, 0);
     Pool *pool = (Pool *)&books;
     books.fail_at = 1;
-    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, pool_create(&memory, 4, &(pbmpm_task_hooks){0}, &pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, pool_create(&memory, 4, NULL, &pool));
     TEST_ASSERT_NULL(pool);
     pool_destroy(&memory, pool, true); /* nothing to destroy */
     books_expect_closed(&books, &memory);

@@ -29,8 +29,7 @@ static class Tank
     {
         var fill = FillDef.Default;
         fill.Material = world.AddMaterial(MaterialDef.Default);
-        fill.Shape = Shape.Box(new Float3(0.5f, 0.4f, 0), new Float3(0.5f, 0.4f, 0.5f));
-        world.Fill(fill);
+        world.Fill(fill, Shape.Box(new Float3(0.5f, 0.4f, 0), new Float3(0.5f, 0.4f, 0.5f)));
     }
 
     static float HighestPoint(World world)

@@ -10,11 +10,11 @@ namespace Pbmpm
     public static class Constants
     {
         public const int VersionMajor = 0;
-        public const int VersionMinor = 1;
+        public const int VersionMinor = 2;
         public const int VersionPatch = 0;
         /// <summary>Number of the binary interface (the shared library's SOVERSION). It changes only when an existing
         /// function, constant or field changes its meaning, type or place.</summary>
-        public const int AbiVersion = 0;
+        public const int AbiVersion = 1;
         /// <summary>per world</summary>
         public const int MaxMaterials = 256;
         /// <summary>baked solids per world</summary>
@@ -49,8 +49,12 @@ namespace Pbmpm
         public const int MaxEmitters = 256;
         /// <summary>per world</summary>
         public const int MaxForces = 64;
-        /// <summary>of the format that this library writes, and the only one it reads</summary>
-        public const int SnapshotVersion = 3;
+        /// <summary>of the format that this library writes</summary>
+        public const int SnapshotVersion = 4;
+        /// <summary>the first of the formats that it reads</summary>
+        public const int SnapshotOldest = 4;
+        /// <summary>that a world keeps until its next step</summary>
+        public const int MaxEvents = 1024;
     }
 
     /// <summary>What a call came to. Zero is success; everything else left the world as it was before the call, except
@@ -350,6 +354,13 @@ namespace Pbmpm
         InverseSquare = 3,
     }
 
+    /// <summary>What a restore does beside the usual.</summary>
+    public enum RestoreFlags : int
+    {
+        /// <summary>for saves of before a patch: the world keeps its own parameters, see pbmpm_snapshot_restore()</summary>
+        RestoreKeepParameters = 1,
+    }
+
     /// <summary>What an event tells.</summary>
     public enum EventKind : int
     {
@@ -593,6 +604,11 @@ namespace Pbmpm
         /// <summary>visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
         /// Bingham fluid with the viscosity mu / flow_rate [Pa s].</summary>
         public float FlowRate;
+        /// <summary>what snapshots know it by: not 0, and no other material of the world has it; 0 (default): its place in the world, see
+        /// snapshot.h</summary>
+        public ulong Key;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static MaterialDef Default
@@ -721,12 +737,14 @@ namespace Pbmpm
         public Float3 DomainMax;
         /// <summary>Coulomb coefficient of the walls, in [0, 100]; default 0; see pbmpm_friction</summary>
         public float DomainFriction;
-        /// <summary>both functions null (default): the C library's</summary>
-        public Allocator Allocator;
-        /// <summary>both functions null (default): the world's own threads</summary>
-        public TaskHooks Tasks;
         /// <summary>1: pbmpm_domain_impulse() tells what matter does to the walls; 0 (default): costs nothing</summary>
         public int DomainMeasuresImpulse;
+        /// <summary>null (default): the C library's memory. Read at creation only.</summary>
+        public IntPtr Allocator;
+        /// <summary>null (default): the world's own threads. Read at creation only.</summary>
+        public IntPtr Tasks;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static WorldDef Default
@@ -804,8 +822,6 @@ namespace Pbmpm
         /// <summary>of the jitter; equal seeds give equal particles; default 1</summary>
         public uint Seed;
         public MaterialId Material;
-        /// <summary>any kind but PBMPM_PLANE</summary>
-        public Shape Shape;
         /// <summary>lattice points per cell and axis, in [0.25, 16]; default 2 (4 per cell in 2D, 8 in 3D)</summary>
         public float ParticlesPerAxis;
         /// <summary>random offset as a share of the lattice spacing, in [0, 1]; default 0.5</summary>
@@ -838,10 +854,13 @@ namespace Pbmpm
         public float FrictionCoefficient;
         /// <summary>0 (default): never moves. 1: pbmpm_collider_move() moves it.</summary>
         public int Kinematic;
-        /// <summary>with the pose at the start</summary>
-        public Shape Shape;
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
+        /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
+        /// snapshot.h</summary>
+        public ulong Key;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static ColliderDef Default
@@ -896,8 +915,11 @@ namespace Pbmpm
         public int Enabled;
         /// <summary>what it takes; null (default): everything</summary>
         public MaterialId Material;
-        /// <summary>any kind</summary>
-        public Shape Shape;
+        /// <summary>what snapshots know it by: not 0, and no other drain of the world has it; 0 (default): its place in the world, see
+        /// snapshot.h</summary>
+        public ulong Key;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static DrainDef Default
@@ -1007,8 +1029,6 @@ namespace Pbmpm
         public uint Seed;
         /// <summary>of the particles; it cannot be destroyed while the emitter exists</summary>
         public MaterialId Material;
-        /// <summary>any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within 2^21 cells of the origin</summary>
-        public Shape Shape;
         /// <summary>default PBMPM_EMIT_VOLUME</summary>
         public EmitterRegion Region;
         /// <summary>1 (default): emits; 0: rests, and no time passes for it</summary>
@@ -1031,6 +1051,11 @@ namespace Pbmpm
         public float FillLimit;
         /// <summary>particles that it may emit in its life; 0 (default): no limit</summary>
         public ulong Budget;
+        /// <summary>what snapshots know it by: not 0, and no other emitter of the world has it; 0 (default): its place in the world, see
+        /// snapshot.h</summary>
+        public ulong Key;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static EmitterDef Default
@@ -1092,8 +1117,6 @@ namespace Pbmpm
         public int Enabled;
         /// <summary>1 (default): s = 1 everywhere, the shape only gives the centre. 0: s by shape and falloff.</summary>
         public int Everywhere;
-        /// <summary>any kind</summary>
-        public Shape Shape;
         /// <summary>default PBMPM_FALLOFF_NONE</summary>
         public Falloff Falloff;
         /// <summary>of the falloff [m], in [0, 1e9], &gt; 0 for INVERSE_SQUARE; default 0: nothing outside of the shape</summary>
@@ -1106,6 +1129,11 @@ namespace Pbmpm
         public Float3 Velocity;
         /// <summary>DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0</summary>
         public float Spin;
+        /// <summary>what snapshots know it by: not 0, and no other force of the world has it; 0 (default): its place in the world, see
+        /// snapshot.h</summary>
+        public ulong Key;
+        /// <summary>the host's own; the library only keeps it; default 0</summary>
+        public ulong UserData;
 
         /// <summary>The library's defaults.</summary>
         public static ForceDef Default
@@ -1137,6 +1165,8 @@ namespace Pbmpm
     [StructLayout(LayoutKind.Sequential)]
     public partial struct RegionShare
     {
+        /// <summary>sizeof(pbmpm_region_share); set by the caller in the first element of an array</summary>
+        public uint Size;
         public MaterialId Material;
         /// <summary>particles whose centre is inside</summary>
         public ulong Count;
@@ -1290,6 +1320,8 @@ namespace Pbmpm
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Event
     {
+        /// <summary>sizeof(pbmpm_event); set by the caller in the first element of an array</summary>
+        public uint Size;
         /// <summary>what happened</summary>
         public EventKind Kind;
         /// <summary>how many particles (deletions: always 1)</summary>
@@ -1307,15 +1339,17 @@ namespace Pbmpm
 
 namespace Pbmpm.Native
 {
-    /// <summary>Memory for one world. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
+    /// <summary>Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
     /// null; `release` gets the size that was asked for. Called from the thread that calls the library, and
     /// from that of a step in the background (async.h); for one world never from two at once.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Allocator
     {
-        /// <summary>aligned to at least `alignment`</summary>
+        /// <summary>sizeof(pbmpm_allocator), set by the caller</summary>
+        public uint Size;
+        /// <summary>not null</summary>
         public IntPtr Allocate;
-        /// <summary>null exactly when allocate is</summary>
+        /// <summary>not null</summary>
         public IntPtr Release;
         /// <summary>passed on unchanged</summary>
         public IntPtr User;
@@ -1323,20 +1357,22 @@ namespace Pbmpm.Native
 
     /// <summary>Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
     /// once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
-    /// of them have returned. Null functions: the world's own thread pool is used.</summary>
+    /// of them have returned. Read at the creation of a world.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
-        /// <summary>returns a handle</summary>
+        /// <summary>sizeof(pbmpm_task_hooks), set by the caller</summary>
+        public uint Size;
+        /// <summary>not null; returns a handle</summary>
         public IntPtr Enqueue;
-        /// <summary>null exactly when enqueue is</summary>
+        /// <summary>not null</summary>
         public IntPtr Finish;
         /// <summary>passed on unchanged</summary>
         public IntPtr User;
     }
 
     /// <summary>One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
-    /// structure itself (offset 0, size of the whole).</summary>
+    /// structure itself (offset 0, size of the whole). This structure and the identifiers never grow.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct LayoutEntry
     {
@@ -1358,17 +1394,17 @@ namespace Pbmpm.Native
         public uint Size;
         /// <summary>2 or 3; default 3</summary>
         public int Dimension;
+        /// <summary>grid cells along the longest side of the mesh, in [4, 1024]; default 64</summary>
+        public int Resolution;
+        /// <summary>up to PBMPM_MAX_MESH_VERTICES (hull: PBMPM_MAX_HULL_VERTICES)</summary>
+        public uint VertexCount;
+        /// <summary>up to PBMPM_MAX_MESH_ELEMENTS (hull: 0)</summary>
+        public uint ElementCount;
         /// <summary>vertex_count * dimension floats [m], within 1e6</summary>
         public float* Vertices;
         /// <summary>element_count * dimension indices of vertices. The surface must be closed, and wound one way
         /// throughout (inward or outward). Equal vertices count as one. pbmpm_bake_hull(): null.</summary>
         public uint* Elements;
-        /// <summary>up to PBMPM_MAX_MESH_VERTICES (hull: PBMPM_MAX_HULL_VERTICES)</summary>
-        public uint VertexCount;
-        /// <summary>up to PBMPM_MAX_MESH_ELEMENTS (hull: 0)</summary>
-        public uint ElementCount;
-        /// <summary>grid cells along the longest side of the mesh, in [4, 1024]; default 64</summary>
-        public int Resolution;
 
         /// <summary>The library's defaults.</summary>
         public static MeshDef Default
@@ -1401,10 +1437,10 @@ namespace Pbmpm.Native
         public Uint2 Count;
         /// <summary>[m], in [1e-6, 1e6]; default 1</summary>
         public Float2 Spacing;
-        /// <summary>count[0] * count[1] floats [m], within 1e6; sample (i, j) is heights[i + j * count[0]]</summary>
-        public float* Heights;
         /// <summary>how far the base lies below the lowest sample [m], in [1e-6, 1e6]; default 1</summary>
         public float Thickness;
+        /// <summary>count[0] * count[1] floats [m], within 1e6; sample (i, j) is heights[i + j * count[0]]</summary>
+        public float* Heights;
 
         /// <summary>The library's defaults.</summary>
         public static HeightsDef Default
@@ -1429,14 +1465,14 @@ namespace Pbmpm.Native
         public uint Count;
         /// <summary>their material</summary>
         public MaterialId Material;
+        /// <summary>rest volume of each particle [m^d]; 0 (default): (dx/2)^d</summary>
+        public float Volume;
         /// <summary>count * d floats [m], relative to the origin; inside the domain box if there is one</summary>
         public float* Positions;
         /// <summary>count * d floats [m/s], or null for rest</summary>
         public float* Velocities;
         /// <summary>count floats: rest volumes [m^d], &gt; 0, or null for `volume`</summary>
         public float* Volumes;
-        /// <summary>rest volume of each particle [m^d]; 0 (default): (dx/2)^d</summary>
-        public float Volume;
 
         /// <summary>The library's defaults.</summary>
         public static ParticlesDef Default
@@ -1644,7 +1680,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_destroy(WorldId world);
 
-        /// <summary>The definition the world was made from. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>The definition the world was made from; its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
@@ -1692,12 +1728,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
-        /// <summary>Fills a shape with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
+        /// <summary>Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
         /// one lattice cell. Lattice points outside the domain box, or in an obstacle where it stands now, are left out; with a CAPACITY error nothing is added and `added`
         /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
         /// domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, uint* added);
+        public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, Shape* shape, uint* added);
 
         /// <summary>Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1738,18 +1774,18 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
 
-        /// <summary>Adds an obstacle. It may stand on top of matter: that is pushed out over the next steps.
+        /// <summary>Adds an obstacle, with the shape's pose at the start. It may stand on top of matter: that is pushed out over the next steps.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_collider_create(WorldId world, ColliderDef* def, ColliderId* collider);
+        public static extern Result pbmpm_collider_create(WorldId world, ColliderDef* def, Shape* shape, ColliderId* collider);
 
         /// <summary>Takes an obstacle away. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_destroy(WorldId world, ColliderId collider);
 
-        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def);
+        public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
         /// <summary>Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
         /// matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
@@ -1824,21 +1860,21 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_def_init(DrainDef* def, UIntPtr size);
 
-        /// <summary>Adds a drain. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Adds a drain of any shape. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_drain_create(WorldId world, DrainDef* def, DrainId* drain);
+        public static extern Result pbmpm_drain_create(WorldId world, DrainDef* def, Shape* shape, DrainId* drain);
 
         /// <summary>Takes a drain away. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_destroy(WorldId world, DrainId drain);
 
-        /// <summary>Reads the definition. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def);
+        public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
 
-        /// <summary>Changes a drain (its place, too); the counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
+        /// <summary>Changes a drain (its place, too). A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_drain_set(WorldId world, DrainId drain, DrainDef* def);
+        public static extern Result pbmpm_drain_set(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
 
         /// <summary>Counts since creation. `status-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1864,23 +1900,25 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_def_init(EmitterDef* def, UIntPtr size);
 
-        /// <summary>Adds an emitter; it begins with the next step. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
+        /// <summary>Adds an emitter; it begins with the next step. `shape`: any kind but PBMPM_PLANE; its bounds hold at most 2^22 cells and lie within
+        /// 2^21 cells of the origin. Errors: INVALID_ID (world, material), INVALID_ARGUMENT, CAPACITY,
         /// OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_emitter_create(WorldId world, EmitterDef* def, EmitterId* emitter);
+        public static extern Result pbmpm_emitter_create(WorldId world, EmitterDef* def, Shape* shape, EmitterId* emitter);
 
         /// <summary>Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_destroy(WorldId world, EmitterId emitter);
 
-        /// <summary>Reads the definition with the current pose. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID,
+        /// UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def);
+        public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
-        /// <summary>Changes an emitter; the fraction of a particle that was due and the counts are kept, the pose is taken at once.
+        /// <summary>Changes an emitter. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
         /// Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def);
+        public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
         /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
         /// motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
@@ -1895,30 +1933,31 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_def_init(ForceDef* def, UIntPtr size);
 
-        /// <summary>Adds a force. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Adds a force that is felt around a shape of any kind. Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_force_create(WorldId world, ForceDef* def, ForceId* force);
+        public static extern Result pbmpm_force_create(WorldId world, ForceDef* def, Shape* shape, ForceId* force);
 
         /// <summary>Takes a force away. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_destroy(WorldId world, ForceId force);
 
-        /// <summary>Reads the definition. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_force_get(WorldId world, ForceId force, ForceDef* def);
+        public static extern Result pbmpm_force_get(WorldId world, ForceId force, ForceDef* def, Shape* shape);
 
-        /// <summary>Changes a force (its kind and place, too); takes effect with the next step. Errors as pbmpm_force_create(), but CAPACITY and
+        /// <summary>Changes a force (its kind and place, too); takes effect with the next step. A null `def` or `shape` stays as it is, and so does what the
+        /// caller's version of one lacks. Errors as pbmpm_force_create(), but CAPACITY and
         /// OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_force_set(WorldId world, ForceId force, ForceDef* def);
+        public static extern Result pbmpm_force_set(WorldId world, ForceId force, ForceDef* def, Shape* shape);
 
         /// <summary>Figures of the last step. `status-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_status_get(WorldId world, ForceId force, ForceStatus* status);
 
         /// <summary>What is inside a shape, by material: one entry for each material that has particles there, in the order of their indices.
-        /// Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        /// Writes up to `capacity` entries; *count is the full number. `shares` may be null when capacity is 0; otherwise shares[0].size must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (size), OUT_OF_MEMORY, BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_region(WorldId world, Shape* shape, RegionShare* shares, uint capacity, uint* count);
 
@@ -1975,14 +2014,19 @@ namespace Pbmpm.Native
         /// correspond by index. Views expire, events are cleared, and the figures of the last step are 0 until the next one.
         ///
         /// The world must have the dimension, cell size and domain box of the snapshot's; the same materials with the same
-        /// parameters at the same indices; colliders of the same shape, friction and kind at the same indices; emitters, drains and
-        /// forces at the same indices; and room for the particles and their identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+        /// parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
+        /// identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
+        ///
+        /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the friction of the domain, materials
+        /// (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
+        /// that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
+        /// is awake.
         ///
         /// Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
         /// of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);
-        /// INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED.</summary>
+        /// INVALID_ID, INVALID_ARGUMENT (null, unknown flags), BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes);
+        public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes, uint flags);
 
         /// <summary>Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
         /// the particles, and only when called. `stats-&gt;size` must be set.
@@ -1990,10 +2034,11 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
 
-        /// <summary>Events of the last step, and of calls since then. The array belongs to the world and is valid until its next step or
-        /// change. When more happened than the array holds, *missed says how many are not in it; totals are in pbmpm_stats.</summary>
+        /// <summary>Events of the last step, and of calls since then. Writes up to `capacity` of them; *count is the number that the world keeps, at most
+        /// PBMPM_MAX_EVENTS; *missed (may be null) counts those that it had no room to keep: totals are in pbmpm_stats. `events` may be null when
+        /// capacity is 0; otherwise events[0].size must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_world_events(WorldId world, Event** events, uint* count, uint* missed);
+        public static extern Result pbmpm_world_events(WorldId world, Event* events, uint capacity, uint* count, uint* missed);
     }
 
     /// <summary>Where the fields of the structures above lie.</summary>
@@ -2079,19 +2124,21 @@ namespace Pbmpm.Native
         static void Allocator(List<MirrorField> fields)
         {
             var it = default(Allocator);
+            fields.Add(new MirrorField("pbmpm_allocator", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_allocator", "allocate", &it, &it.Allocate, &it.Allocate + 1, false));
             fields.Add(new MirrorField("pbmpm_allocator", "release", &it, &it.Release, &it.Release + 1, false));
             fields.Add(new MirrorField("pbmpm_allocator", "user", &it, &it.User, &it.User + 1, false));
-            fields.Add(new MirrorField("pbmpm_allocator", "", &it, &it, &it + 1, false));
+            fields.Add(new MirrorField("pbmpm_allocator", "", &it, &it, &it + 1, true));
         }
 
         static void TaskHooks(List<MirrorField> fields)
         {
             var it = default(TaskHooks);
+            fields.Add(new MirrorField("pbmpm_task_hooks", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "enqueue", &it, &it.Enqueue, &it.Enqueue + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "finish", &it, &it.Finish, &it.Finish + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "user", &it, &it.User, &it.User + 1, false));
-            fields.Add(new MirrorField("pbmpm_task_hooks", "", &it, &it, &it + 1, false));
+            fields.Add(new MirrorField("pbmpm_task_hooks", "", &it, &it, &it + 1, true));
         }
 
         static void LayoutEntry(List<MirrorField> fields)
@@ -2129,6 +2176,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_material_def", "volume_correction", &it, &it.VolumeCorrection, &it.VolumeCorrection + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "yield_strain", &it, &it.YieldStrain, &it.YieldStrain + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "flow_rate", &it, &it.FlowRate, &it.FlowRate + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "key", &it, &it.Key, &it.Key + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2148,11 +2197,11 @@ namespace Pbmpm.Native
             var it = default(MeshDef);
             fields.Add(new MirrorField("pbmpm_mesh_def", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_mesh_def", "dimension", &it, &it.Dimension, &it.Dimension + 1, false));
-            fields.Add(new MirrorField("pbmpm_mesh_def", "vertices", &it, &it.Vertices, &it.Vertices + 1, false));
-            fields.Add(new MirrorField("pbmpm_mesh_def", "elements", &it, &it.Elements, &it.Elements + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "resolution", &it, &it.Resolution, &it.Resolution + 1, false));
             fields.Add(new MirrorField("pbmpm_mesh_def", "vertex_count", &it, &it.VertexCount, &it.VertexCount + 1, false));
             fields.Add(new MirrorField("pbmpm_mesh_def", "element_count", &it, &it.ElementCount, &it.ElementCount + 1, false));
-            fields.Add(new MirrorField("pbmpm_mesh_def", "resolution", &it, &it.Resolution, &it.Resolution + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "vertices", &it, &it.Vertices, &it.Vertices + 1, false));
+            fields.Add(new MirrorField("pbmpm_mesh_def", "elements", &it, &it.Elements, &it.Elements + 1, false));
             fields.Add(new MirrorField("pbmpm_mesh_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2165,8 +2214,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_heights_def", "resolution", &it, &it.Resolution, &it.Resolution + 1, false));
             fields.Add(new MirrorField("pbmpm_heights_def", "count", &it, &it.Count, &it.Count + 1, false));
             fields.Add(new MirrorField("pbmpm_heights_def", "spacing", &it, &it.Spacing, &it.Spacing + 1, false));
-            fields.Add(new MirrorField("pbmpm_heights_def", "heights", &it, &it.Heights, &it.Heights + 1, false));
             fields.Add(new MirrorField("pbmpm_heights_def", "thickness", &it, &it.Thickness, &it.Thickness + 1, false));
+            fields.Add(new MirrorField("pbmpm_heights_def", "heights", &it, &it.Heights, &it.Heights + 1, false));
             fields.Add(new MirrorField("pbmpm_heights_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2219,9 +2268,10 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_world_def", "domain_min", &it, &it.DomainMin, &it.DomainMin + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "domain_max", &it, &it.DomainMax, &it.DomainMax + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "domain_friction", &it, &it.DomainFriction, &it.DomainFriction + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "domain_measures_impulse", &it, &it.DomainMeasuresImpulse, &it.DomainMeasuresImpulse + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "allocator", &it, &it.Allocator, &it.Allocator + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "tasks", &it, &it.Tasks, &it.Tasks + 1, false));
-            fields.Add(new MirrorField("pbmpm_world_def", "domain_measures_impulse", &it, &it.DomainMeasuresImpulse, &it.DomainMeasuresImpulse + 1, false));
+            fields.Add(new MirrorField("pbmpm_world_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_world_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2251,10 +2301,10 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_particles_def", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "count", &it, &it.Count, &it.Count + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "volume", &it, &it.Volume, &it.Volume + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "positions", &it, &it.Positions, &it.Positions + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "velocities", &it, &it.Velocities, &it.Velocities + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "volumes", &it, &it.Volumes, &it.Volumes + 1, false));
-            fields.Add(new MirrorField("pbmpm_particles_def", "volume", &it, &it.Volume, &it.Volume + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2264,7 +2314,6 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_fill_def", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "seed", &it, &it.Seed, &it.Seed + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "material", &it, &it.Material, &it.Material + 1, false));
-            fields.Add(new MirrorField("pbmpm_fill_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "particles_per_axis", &it, &it.ParticlesPerAxis, &it.ParticlesPerAxis + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "jitter", &it, &it.Jitter, &it.Jitter + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
@@ -2291,8 +2340,9 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "friction", &it, &it.Friction, &it.Friction + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
-            fields.Add(new MirrorField("pbmpm_collider_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "measures_impulse", &it, &it.MeasuresImpulse, &it.MeasuresImpulse + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "key", &it, &it.Key, &it.Key + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2336,7 +2386,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_drain_def", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_drain_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
             fields.Add(new MirrorField("pbmpm_drain_def", "material", &it, &it.Material, &it.Material + 1, false));
-            fields.Add(new MirrorField("pbmpm_drain_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "key", &it, &it.Key, &it.Key + 1, false));
+            fields.Add(new MirrorField("pbmpm_drain_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_drain_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2389,7 +2440,6 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_emitter_def", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "seed", &it, &it.Seed, &it.Seed + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "material", &it, &it.Material, &it.Material + 1, false));
-            fields.Add(new MirrorField("pbmpm_emitter_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "region", &it, &it.Region, &it.Region + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "rate", &it, &it.Rate, &it.Rate + 1, false));
@@ -2399,6 +2449,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_emitter_def", "particles_per_axis", &it, &it.ParticlesPerAxis, &it.ParticlesPerAxis + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "fill_limit", &it, &it.FillLimit, &it.FillLimit + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "budget", &it, &it.Budget, &it.Budget + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "key", &it, &it.Key, &it.Key + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2430,13 +2482,14 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_force_def", "kind", &it, &it.Kind, &it.Kind + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "enabled", &it, &it.Enabled, &it.Enabled + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "everywhere", &it, &it.Everywhere, &it.Everywhere + 1, false));
-            fields.Add(new MirrorField("pbmpm_force_def", "shape", &it, &it.Shape, &it.Shape + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "falloff", &it, &it.Falloff, &it.Falloff + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "range", &it, &it.Range, &it.Range + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "strength", &it, &it.Strength, &it.Strength + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "direction", &it, &it.Direction, &it.Direction + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "spin", &it, &it.Spin, &it.Spin + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "key", &it, &it.Key, &it.Key + 1, false));
+            fields.Add(new MirrorField("pbmpm_force_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_force_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2452,12 +2505,13 @@ namespace Pbmpm.Native
         static void RegionShare(List<MirrorField> fields)
         {
             var it = default(RegionShare);
+            fields.Add(new MirrorField("pbmpm_region_share", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_region_share", "material", &it, &it.Material, &it.Material + 1, false));
             fields.Add(new MirrorField("pbmpm_region_share", "count", &it, &it.Count, &it.Count + 1, false));
             fields.Add(new MirrorField("pbmpm_region_share", "mass", &it, &it.Mass, &it.Mass + 1, false));
             fields.Add(new MirrorField("pbmpm_region_share", "volume", &it, &it.Volume, &it.Volume + 1, false));
             fields.Add(new MirrorField("pbmpm_region_share", "rest_volume", &it, &it.RestVolume, &it.RestVolume + 1, false));
-            fields.Add(new MirrorField("pbmpm_region_share", "", &it, &it, &it + 1, false));
+            fields.Add(new MirrorField("pbmpm_region_share", "", &it, &it, &it + 1, true));
         }
 
         static void Ray(List<MirrorField> fields)
@@ -2533,13 +2587,14 @@ namespace Pbmpm.Native
         static void Event(List<MirrorField> fields)
         {
             var it = default(Event);
+            fields.Add(new MirrorField("pbmpm_event", "size", &it, &it.Size, &it.Size + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "kind", &it, &it.Kind, &it.Kind + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "count", &it, &it.Count, &it.Count + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "particle", &it, &it.Particle, &it.Particle + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "position", &it, &it.Position, &it.Position + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "substep", &it, &it.Substep, &it.Substep + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "step", &it, &it.Step, &it.Step + 1, false));
-            fields.Add(new MirrorField("pbmpm_event", "", &it, &it, &it + 1, false));
+            fields.Add(new MirrorField("pbmpm_event", "", &it, &it, &it + 1, true));
         }
     }
 }

@@ -183,13 +183,13 @@ namespace Pbmpm
     }
 
     /// <summary>Events of a world; they end with its next step or change.</summary>
-    public readonly unsafe struct EventList
+    public readonly struct EventList
     {
         readonly World world;
-        readonly Event* list;
+        readonly Event[] list;
         readonly ulong generation;
 
-        internal EventList(World world, Event* list, int count, uint missed)
+        internal EventList(World world, Event[] list, int count, uint missed)
         {
             this.world = world;
             this.list = list;
@@ -209,9 +209,7 @@ namespace Pbmpm
             {
                 if ((uint)index >= (uint)Count) throw new ArgumentOutOfRangeException(nameof(index));
                 if (!world.IsCurrent(generation)) throw new ExpiredViewException();
-                var found = list[index];
-                GC.KeepAlive(world);
-                return found;
+                return list[index];
             }
         }
 

@@ -8,25 +8,39 @@ namespace Pbmpm
         // Emitters
 
         /// <summary>Adds a source of particles; begin with <see cref="EmitterDef.Default"/>.</summary>
-        public EmitterId AddEmitter(EmitterDef definition)
+        public EmitterId AddEmitter(EmitterDef definition, Shape shape)
         {
             EmitterId made;
-            Done(Methods.pbmpm_emitter_create(Id, &definition, &made));
+            Done(Methods.pbmpm_emitter_create(Id, &definition, &shape, &made));
             return made;
         }
 
-        /// <summary>The definition of an emitter with its current pose.</summary>
+        /// <summary>The definition of an emitter.</summary>
         public EmitterDef GetEmitter(EmitterId emitter)
         {
             var found = new EmitterDef { Size = (uint)sizeof(EmitterDef) };
-            Done(Methods.pbmpm_emitter_get(Id, emitter, &found));
+            Done(Methods.pbmpm_emitter_get(Id, emitter, &found, null));
+            return found;
+        }
+
+        /// <summary>Its shape where it stands now.</summary>
+        public Shape ShapeOf(EmitterId emitter)
+        {
+            var found = new Shape { Size = (uint)sizeof(Shape) };
+            Done(Methods.pbmpm_emitter_get(Id, emitter, null, &found));
             return found;
         }
 
         /// <summary>Changes an emitter; its counts stay.</summary>
         public void SetEmitter(EmitterId emitter, EmitterDef definition)
         {
-            Done(Methods.pbmpm_emitter_set(Id, emitter, &definition));
+            Done(Methods.pbmpm_emitter_set(Id, emitter, &definition, null));
+        }
+
+        /// <summary>Gives it another shape, or place; the rest stays.</summary>
+        public void SetEmitter(EmitterId emitter, Shape shape)
+        {
+            Done(Methods.pbmpm_emitter_set(Id, emitter, null, &shape));
         }
 
         /// <summary>Where an emitter shall be at the end of the next step; its rotation stays.</summary>
@@ -58,24 +72,38 @@ namespace Pbmpm
         // Drains and bounds
 
         /// <summary>Adds a shape that takes out the particles inside it; begin with <see cref="DrainDef.Default"/>.</summary>
-        public DrainId AddDrain(DrainDef definition)
+        public DrainId AddDrain(DrainDef definition, Shape shape)
         {
             DrainId made;
-            Done(Methods.pbmpm_drain_create(Id, &definition, &made));
+            Done(Methods.pbmpm_drain_create(Id, &definition, &shape, &made));
             return made;
         }
 
         public DrainDef GetDrain(DrainId drain)
         {
             var found = new DrainDef { Size = (uint)sizeof(DrainDef) };
-            Done(Methods.pbmpm_drain_get(Id, drain, &found));
+            Done(Methods.pbmpm_drain_get(Id, drain, &found, null));
             return found;
         }
 
-        /// <summary>Changes or moves a drain; its counts stay.</summary>
+        /// <summary>Its shape where it stands now.</summary>
+        public Shape ShapeOf(DrainId drain)
+        {
+            var found = new Shape { Size = (uint)sizeof(Shape) };
+            Done(Methods.pbmpm_drain_get(Id, drain, null, &found));
+            return found;
+        }
+
+        /// <summary>Changes a drain; its counts stay.</summary>
         public void SetDrain(DrainId drain, DrainDef definition)
         {
-            Done(Methods.pbmpm_drain_set(Id, drain, &definition));
+            Done(Methods.pbmpm_drain_set(Id, drain, &definition, null));
+        }
+
+        /// <summary>Gives it another shape, or place; the rest stays.</summary>
+        public void SetDrain(DrainId drain, Shape shape)
+        {
+            Done(Methods.pbmpm_drain_set(Id, drain, null, &shape));
         }
 
         /// <summary>What a drain has taken since it was added.</summary>
@@ -117,24 +145,38 @@ namespace Pbmpm
         // Forces
 
         /// <summary>Adds a wind, a whirl, a push, a pull or a hand that grabs; begin with <see cref="ForceDef.Default"/>.</summary>
-        public ForceId AddForce(ForceDef definition)
+        public ForceId AddForce(ForceDef definition, Shape shape)
         {
             ForceId made;
-            Done(Methods.pbmpm_force_create(Id, &definition, &made));
+            Done(Methods.pbmpm_force_create(Id, &definition, &shape, &made));
             return made;
         }
 
         public ForceDef GetForce(ForceId force)
         {
             var found = new ForceDef { Size = (uint)sizeof(ForceDef) };
-            Done(Methods.pbmpm_force_get(Id, force, &found));
+            Done(Methods.pbmpm_force_get(Id, force, &found, null));
             return found;
         }
 
-        /// <summary>Changes or moves a force; takes effect with the next step.</summary>
+        /// <summary>Its shape where it stands now.</summary>
+        public Shape ShapeOf(ForceId force)
+        {
+            var found = new Shape { Size = (uint)sizeof(Shape) };
+            Done(Methods.pbmpm_force_get(Id, force, null, &found));
+            return found;
+        }
+
+        /// <summary>Changes a force; takes effect with the next step.</summary>
         public void SetForce(ForceId force, ForceDef definition)
         {
-            Done(Methods.pbmpm_force_set(Id, force, &definition));
+            Done(Methods.pbmpm_force_set(Id, force, &definition, null));
+        }
+
+        /// <summary>Gives it another shape, or place; the rest stays.</summary>
+        public void SetForce(ForceId force, Shape shape)
+        {
+            Done(Methods.pbmpm_force_set(Id, force, null, &shape));
         }
 
         /// <summary>What a force did in the last step.</summary>

@@ -19,10 +19,10 @@ namespace Pbmpm
         // Adding and removing
 
         /// <summary>Fills a shape; begin with <see cref="FillDef.Default"/>. Returns how many particles were added.</summary>
-        public int Fill(FillDef definition)
+        public int Fill(FillDef definition, Shape shape)
         {
             uint added;
-            Changed(Methods.pbmpm_particles_fill(Id, &definition, &added));
+            Changed(Methods.pbmpm_particles_fill(Id, &definition, &shape, &added));
             return (int)added;
         }
 

@@ -19,6 +19,7 @@ namespace Pbmpm
         {
             uint count;
             var room = (uint)Rows(shares, nameof(shares), 1);
+            if (room > 0) shares[0].Size = (uint)sizeof(RegionShare);
             fixed (RegionShare* first = shares) Done(Methods.pbmpm_query_region(Id, &shape, first, room, &count));
             return (int)count;
         }

@@ -28,10 +28,12 @@ namespace Pbmpm
 
         /// <summary>Puts the world back into the state of a snapshot: of this world, or of one with the same box, materials
         /// and obstacles. What does not fit or is damaged is refused, and nothing has changed.</summary>
-        public void Restore(byte[] snapshot)
+        /// <param name="snapshot">From <see cref="SaveTo"/>.</param>
+        /// <param name="flags">For saves of before a patch: the world keeps its own parameters.</param>
+        public void Restore(byte[] snapshot, RestoreFlags flags = 0)
         {
             if (snapshot == null) throw new ArgumentNullException(nameof(snapshot));
-            fixed (byte* first = snapshot) Changed(Methods.pbmpm_snapshot_restore(Id, (IntPtr)first, (ulong)snapshot.Length));
+            fixed (byte* first = snapshot) Changed(Methods.pbmpm_snapshot_restore(Id, (IntPtr)first, (ulong)snapshot.Length, (uint)flags));
         }
 
         /// <summary>Begins a step of <paramref name="seconds"/> and returns. Until it ends, views of published fields show the

@@ -15,14 +15,24 @@ namespace Pbmpm
 
         WorldId id;
         ulong generation = NoGeneration;
+        Event[] events = new Event[0];
 
         /// <summary>Makes a world; begin with <see cref="WorldDef.Default"/> and change what differs.</summary>
         /// <exception cref="LibraryException">The native library is missing or does not fit.</exception>
         /// <exception cref="PbmpmException">The definition is refused, or there is no memory.</exception>
-        public World(WorldDef definition)
+        /// <param name="definition">What it is made of.</param>
+        /// <param name="tasks">The host's job system; null: threads of the world's own. Its functions must live as long as the world.</param>
+        /// <param name="allocator">The host's memory; null: the C library's. Its functions must live as long as the world.</param>
+        public World(WorldDef definition, TaskHooks? tasks = null, Allocator? allocator = null)
         {
             Library.Check();
             WorldId made;
+            var hooks = tasks.GetValueOrDefault();
+            var memory = allocator.GetValueOrDefault();
+            hooks.Size = (uint)sizeof(TaskHooks);
+            memory.Size = (uint)sizeof(Allocator);
+            if (tasks.HasValue) definition.Tasks = (IntPtr)(&hooks);
+            if (allocator.HasValue) definition.Allocator = (IntPtr)(&memory);
             Library.Require(Methods.pbmpm_world_create(&definition, &made));
             id = made;
             Dimension = definition.Dimension;
@@ -109,10 +119,12 @@ namespace Pbmpm
         {
             get
             {
-                Event* list;
                 uint count, missed;
-                Done(Methods.pbmpm_world_events(Id, &list, &count, &missed));
-                return new EventList(this, list, (int)count, missed);
+                Done(Methods.pbmpm_world_events(Id, null, 0, &count, &missed));
+                if (events.Length < count) events = new Event[Constants.MaxEvents];
+                if (count > 0) events[0].Size = (uint)sizeof(Event);
+                fixed (Event* first = events) Done(Methods.pbmpm_world_events(Id, first, count, &count, &missed));
+                return new EventList(this, events, (int)count, missed);
             }
         }
 
@@ -170,18 +182,26 @@ namespace Pbmpm
 
         /// <summary>Adds an obstacle; begin with <see cref="ColliderDef.Default"/>. It may stand on top of matter: that is
         /// pushed out over the next steps.</summary>
-        public ColliderId AddCollider(ColliderDef definition)
+        public ColliderId AddCollider(ColliderDef definition, Shape shape)
         {
             ColliderId made;
-            Done(Methods.pbmpm_collider_create(Id, &definition, &made));
+            Done(Methods.pbmpm_collider_create(Id, &definition, &shape, &made));
             return made;
         }
 
-        /// <summary>The definition of an obstacle with its current pose.</summary>
+        /// <summary>The definition of an obstacle.</summary>
         public ColliderDef GetCollider(ColliderId collider)
         {
             var found = new ColliderDef { Size = (uint)sizeof(ColliderDef) };
-            Done(Methods.pbmpm_collider_get(Id, collider, &found));
+            Done(Methods.pbmpm_collider_get(Id, collider, &found, null));
+            return found;
+        }
+
+        /// <summary>Its shape where it stands now.</summary>
+        public Shape ShapeOf(ColliderId collider)
+        {
+            var found = new Shape { Size = (uint)sizeof(Shape) };
+            Done(Methods.pbmpm_collider_get(Id, collider, null, &found));
             return found;
         }
 

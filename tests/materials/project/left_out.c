@@ -59,14 +59,15 @@ static void check_fall(int dimension, pbmpm_solver solver, int built)
     const double dt = 1.0 / 240.0;
     const pbmpm_world_id world = open_world(dimension, solver);
     pbmpm_fill_def fill;
+    pbmpm_shape shape;
     pbmpm_stats stats = {.size = sizeof stats};
-    expect(!pbmpm_fill_def_init(&fill, sizeof fill), "defaults of a filling");
+    expect(!pbmpm_fill_def_init(&fill, sizeof fill) && !pbmpm_shape_init(&shape, sizeof shape), "defaults of a filling");
     expect(!create(world, built, &fill.material), "the material");
     for (int a = 0; a < 3; a++) {
-        fill.shape.position[a] = 0.5f;
-        fill.shape.half_extents[a] = 0.2f;
+        shape.position[a] = 0.5f;
+        shape.half_extents[a] = 0.2f;
     }
-    expect(!pbmpm_particles_fill(world, &fill, NULL), "particles");
+    expect(!pbmpm_particles_fill(world, &fill, &shape, NULL), "particles");
     for (int step = 0; step < STEPS; step++) expect(!pbmpm_world_step(world, (float)dt), "a step");
     expect(!pbmpm_world_get_stats(world, &stats), "statistics");
     expect(stats.particle_count == (dimension == 3 ? 512 : 64) && stats.deleted_total == 0, "all particles are there");

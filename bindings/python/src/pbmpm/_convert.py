@@ -28,6 +28,14 @@ def sized(name: str) -> Any:
     return structure
 
 
+def sized_array(name: str, count: int) -> Any:
+    """An array of structures whose first element says the size of all."""
+    array = ffi.new(f"{name}[]", count)
+    if count:
+        array[0].size = ffi.sizeof(name)
+    return array
+
+
 def initialised(name: str) -> Any:
     """A new structure with the library's defaults."""
     structure = ffi.new(f"{name} *")

@@ -28,6 +28,7 @@ class Member:
 
     __slots__ = ("_world", "_id")
     _name: ClassVar[str]
+    _has_shape: ClassVar[bool] = False
 
     def __init__(self, world: World, identifier: Any) -> None:
         self._world = world
@@ -38,9 +39,13 @@ class Member:
 
     def _definition(self) -> Any:
         out = sized(f"pbmpm_{self._name}_def")
-        if hasattr(out, "shape"):
-            out.shape.size = ffi.sizeof("pbmpm_shape")
-        self._apply("get", out)
+        self._apply("get", out, *([ffi.NULL] if self._has_shape else []))
+        return out
+
+    def _form(self) -> Any:
+        """The C structure of the shape with its current pose."""
+        out = sized("pbmpm_shape")
+        self._apply("get", ffi.NULL, out)
         return out
 
     def _status(self) -> Any:
@@ -52,6 +57,11 @@ class Member:
         c_position = ffi.new("float[3]", vector("position", position, self._world.dimension))
         c_rotation = ffi.NULL if rotation is None else ffi.new("float[4]", quaternion(rotation))
         self._apply(verb, c_position, c_rotation)
+
+    @property
+    def key(self) -> int:
+        """What snapshots know it by, as given when it was added; 0: its place in the world."""
+        return int(self._definition().key)
 
     def destroy(self) -> None:
         """Removes it from the world; particles stay."""

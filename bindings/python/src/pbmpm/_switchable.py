@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
-from ._convert import assign, assign_vector
+from ._convert import assign, assign_vector, initialised
+from ._ffi import ffi
+from ._library import lib
 from ._member import Member
-from .shapes import Shape, from_c
+from .shapes import Shape, from_c, to_c
 
 #: Writes one value into a C structure of a world with so many axes.
 Setter = Callable[[Any, Any, int], None]
@@ -17,27 +19,51 @@ class Switchable(Member):
     """A member with a shape that acts while it is enabled."""
 
     __slots__ = ()
+    _has_shape = True
     _setters: ClassVar[Mapping[str, Setter]]  #: of what can be changed
 
     @classmethod
-    def _fill(cls, definition: Any, dimension: int, values: Mapping[str, Any]) -> None:
-        """Writes the values that are not None into the C structure."""
+    def _fill(cls, definition: Any, dimension: int, values: Mapping[str, Any]) -> Any:
+        """Writes the values that are not None into the C structure. Returns that of the shape, null if none is named."""
+        shape = ffi.NULL
         for name, value in values.items():
+            if name == "shape":
+                if value is not None:
+                    shape = to_c(value, dimension)
+                    cls._take_shape(definition)
+                continue
+            if name == "key":
+                assign(definition, "key", value)
+                continue
             if name not in cls._setters:
                 raise TypeError(f"this {cls._name} has no '{name}' to set")
             if value is not None:
                 cls._setters[name](definition, value, dimension)
+        return shape
+
+    @classmethod
+    def _take_shape(cls, definition: Any) -> None:
+        """What else changes when a shape is named."""
+
+    @classmethod
+    def _add(cls, world: Any, values: Mapping[str, Any]) -> Any:
+        """Makes one in the world; returns its identifier."""
+        definition = initialised(f"pbmpm_{cls._name}_def")
+        shape = cls._fill(definition, world.dimension, values) or initialised("pbmpm_shape")
+        out = ffi.new(f"pbmpm_{cls._name}_id *")
+        world._call(getattr(lib, f"pbmpm_{cls._name}_create"), definition, shape, out)
+        return out[0]
 
     def change(self, **values: Any) -> None:
         """Changes what is named as when it was added; counts are kept. Takes effect with the next step."""
         definition = self._definition()
-        self._fill(definition, self._world.dimension, values)
-        self._apply("set", definition)
+        shape = self._fill(definition, self._world.dimension, values)
+        self._apply("set", definition, shape)
 
     @property
     def shape(self) -> Shape:
         """The shape with its current pose; the rotation is a quaternion. Assigning replaces it."""
-        return from_c(self._definition().shape, self._world.dimension)
+        return from_c(self._form(), self._world.dimension)
 
     @shape.setter
     def shape(self, value: Shape) -> None:

@@ -12,7 +12,7 @@ from ._convert import Rotation, Vector, assign, initialised, plain, shortest, si
 from ._ffi import ffi
 from ._library import lib
 from ._member import Member
-from .shapes import Baked, Shape, from_c, to_c
+from .shapes import Baked, Shape, from_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
 
 
@@ -25,8 +25,6 @@ class Friction(enum.Enum):
 
 
 def definition(
-    shape: Shape,
-    dimension: int,
     friction: Friction,
     friction_coefficient: float | None,
     kinematic: bool,
@@ -39,7 +37,6 @@ def definition(
         assign(out, "friction_coefficient", friction_coefficient)
     out.kinematic = bool(kinematic)
     out.measures_impulse = bool(measures_impulse)
-    out.shape = to_c(shape, dimension)[0]
     return out
 
 
@@ -48,6 +45,7 @@ class Collider(Member):
 
     __slots__ = ()
     _name = "collider"
+    _has_shape = True
 
     @property
     def identity(self) -> tuple[int, int]:
@@ -57,7 +55,7 @@ class Collider(Member):
     @property
     def shape(self) -> Shape:
         """The shape with its current pose; the rotation is a quaternion."""
-        found, dimension = self._definition().shape, self._world.dimension
+        found, dimension = self._form(), self._world.dimension
         if found.kind == ffi.integer_const("PBMPM_BAKED"):
             solid = LoadedSolid(self._world, found.baked)
             return Baked(plain(found.position)[:dimension], solid, plain(found.rotation))

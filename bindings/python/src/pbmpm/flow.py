@@ -12,7 +12,7 @@ from ._library import lib
 from ._member import WorldPart
 from ._switchable import Switchable, axes, number, set_enabled
 from .materials import Material
-from .shapes import Shape, to_c
+from .shapes import Shape
 
 Record = TypeVar("Record")
 
@@ -66,10 +66,6 @@ def _read(kind: type[Record], structure: Any) -> Record:
     return kind(**{item.name: plain(getattr(structure, item.name)) for item in fields(kind)})  # type: ignore[arg-type]
 
 
-def _set_shape(out: Any, value: Shape, dimension: int) -> None:
-    out.shape = to_c(value, dimension)[0]
-
-
 def _set_material(out: Any, value: Material, dimension: int) -> None:
     if not isinstance(value, Material):
         raise TypeError(f"material: a Material is needed (World.add_material), not {type(value).__name__}")
@@ -86,7 +82,6 @@ class Emitter(Switchable):
     __slots__ = ()
     _name = "emitter"
     _setters = {
-        "shape": _set_shape,
         "material": _set_material,
         "region": _set_region,
         "direction": axes("direction"),
@@ -122,7 +117,7 @@ class Drain(Switchable):
 
     __slots__ = ()
     _name = "drain"
-    _setters = {"shape": _set_shape, "material": _set_material, "enabled": set_enabled}
+    _setters = {"material": _set_material, "enabled": set_enabled}
 
     @property
     def status(self) -> DrainStatus:
@@ -150,6 +145,7 @@ class WorldFlow(WorldPart):
         budget: int | None = None,
         seed: int | None = None,
         enabled: bool | None = None,
+        key: int = 0,
     ) -> Emitter:
         """Adds a source of particles.
 
@@ -166,8 +162,8 @@ class WorldFlow(WorldPart):
             budget: particles that it may emit in its life; 0 (default): no limit.
             seed: of places and directions.
             enabled: whether it begins with the next step (default) or when `Emitter.enabled` is set.
+            key: what snapshots know it by, a number that no other emitter of the world has; 0: its place.
         """
-        definition = initialised("pbmpm_emitter_def")
         values = {
             "shape": shape,
             "material": material,
@@ -181,26 +177,21 @@ class WorldFlow(WorldPart):
             "budget": budget,
             "seed": seed,
             "enabled": enabled,
+            "key": key,
         }
-        Emitter._fill(definition, self._dimension, values)
-        out = ffi.new("pbmpm_emitter_id *")
-        self._call(lib.pbmpm_emitter_create, definition, out)
-        return Emitter(self, out[0])  # type: ignore[arg-type]
+        return Emitter(self, Emitter._add(self, values))  # type: ignore[arg-type]
 
-    def add_drain(self, shape: Shape, *, material: Material | None = None, enabled: bool = True) -> Drain:
+    def add_drain(self, shape: Shape, *, material: Material | None = None, enabled: bool = True, key: int = 0) -> Drain:
         """Adds a shape that takes out the particles that are inside it at the end of a substep.
 
         Args:
             shape: where.
             material: what it takes; None: everything.
             enabled: whether it takes anything yet.
+            key: what snapshots know it by, a number that no other drain of the world has; 0: its place.
         """
-        definition = initialised("pbmpm_drain_def")
-        values = {"shape": shape, "material": material, "enabled": enabled}
-        Drain._fill(definition, self._dimension, values)
-        out = ffi.new("pbmpm_drain_id *")
-        self._call(lib.pbmpm_drain_create, definition, out)
-        return Drain(self, out[0])  # type: ignore[arg-type]
+        values = {"shape": shape, "material": material, "enabled": enabled, "key": key}
+        return Drain(self, Drain._add(self, values))  # type: ignore[arg-type]
 
     @property
     def kill_bounds(self) -> tuple[tuple[float, ...], tuple[float, ...]] | None:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import enum
 from typing import Any
 
-from ._convert import Vector, initialised, plain, shortest
+from ._convert import Vector, plain, shortest
 from ._ffi import ffi
-from ._library import lib
 from ._member import WorldPart
 from ._switchable import Switchable, axes, number, set_enabled
-from .shapes import Shape, to_c
+from .shapes import Shape
 
 
 class ForceKind(enum.Enum):
@@ -32,11 +31,6 @@ class Falloff(enum.Enum):
     INVERSE_SQUARE = ffi.integer_const("PBMPM_FALLOFF_INVERSE_SQUARE")  #: (1 + d / range)^-2, at any distance
 
 
-def _set_shape(out: Any, value: Shape, dimension: int) -> None:
-    out.shape = to_c(value, dimension)[0]
-    out.everywhere = 0
-
-
 def _set_everywhere(out: Any, value: Any, dimension: int) -> None:
     out.everywhere = bool(value)
 
@@ -55,7 +49,6 @@ class Force(Switchable):
     __slots__ = ()
     _name = "force"
     _setters = {
-        "shape": _set_shape,
         "everywhere": _set_everywhere,
         "kind": _set_kind,
         "falloff": _set_falloff,
@@ -64,6 +57,10 @@ class Force(Switchable):
         "enabled": set_enabled,
         **{name: number(name) for name in ("range", "strength", "spin")},
     }
+
+    @classmethod
+    def _take_shape(cls, definition: Any) -> None:
+        definition.everywhere = 0
 
     @property
     def kind(self) -> ForceKind:
@@ -104,6 +101,7 @@ class WorldForces(WorldPart):
         velocity: Vector | None = None,
         spin: float | None = None,
         enabled: bool | None = None,
+        key: int = 0,
     ) -> Force:
         """Adds a force. It acts on the grid before materials and obstacles do, in the blocks that it reaches.
 
@@ -118,8 +116,8 @@ class WorldForces(WorldPart):
             velocity: that drag and grab lead to [m/s].
             spin: that they lead to, about the axis through the shape's position [rad/s].
             enabled: whether it acts yet.
+            key: what snapshots know it by, a number that no other force of the world has; 0: its place.
         """
-        definition = initialised("pbmpm_force_def")
         values = {
             "kind": kind,
             "strength": strength,
@@ -131,8 +129,6 @@ class WorldForces(WorldPart):
             "velocity": velocity,
             "spin": spin,
             "enabled": enabled,
+            "key": key,
         }
-        Force._fill(definition, self._dimension, values)
-        out = ffi.new("pbmpm_force_id *")
-        self._call(lib.pbmpm_force_create, definition, out)
-        return Force(self, out[0])  # type: ignore[arg-type]
+        return Force(self, Force._add(self, values))  # type: ignore[arg-type]

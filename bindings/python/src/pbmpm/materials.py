@@ -170,11 +170,11 @@ def built_materials() -> tuple[type[Parameters], ...]:
     return tuple(material for material, kind in _KINDS.items() if built >> kind & 1)
 
 
-def to_c(parameters: Parameters) -> Any:
-    """The C structure of a material."""
+def to_c(parameters: Parameters, definition: Any = None) -> Any:
+    """The C structure of a material; what it does not say is as in the definition."""
     if type(parameters) not in _KINDS:
         raise TypeError(f"a Liquid, Elastic, Sand or Visco is needed, not {type(parameters).__name__}")
-    out = initialised("pbmpm_material_def")
+    out = definition or initialised("pbmpm_material_def")
     out.kind = _KINDS[type(parameters)]
     for item in fields(parameters):
         assign(out, item.name, getattr(parameters, item.name))
@@ -211,13 +211,21 @@ class Material:
     @property
     def parameters(self) -> Parameters:
         """The current parameters. Setting them takes effect with the next step; kind and density cannot change."""
-        definition = sized("pbmpm_material_def")
-        self._world._call(lib.pbmpm_material_get, self._id, definition)
-        return from_c(definition)
+        return from_c(self._definition())
 
     @parameters.setter
     def parameters(self, value: Parameters) -> None:
-        self._world._call(lib.pbmpm_material_set, self._id, to_c(value))
+        self._world._call(lib.pbmpm_material_set, self._id, to_c(value, self._definition()))
+
+    def _definition(self) -> Any:
+        definition = sized("pbmpm_material_def")
+        self._world._call(lib.pbmpm_material_get, self._id, definition)
+        return definition
+
+    @property
+    def key(self) -> int:
+        """What snapshots know it by, as given when it was added; 0: its place in the world."""
+        return int(self._definition().key)
 
     def effective(self, dt: float) -> Effective:
         """How stiff the material is when the world is stepped by `dt` [s] with its present settings."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 import numpy.typing as npt
 
-from ._convert import Vector, assign, assign_vector, floats, initialised, plain, pointer, shortest, sized
+from ._convert import Vector, assign, assign_vector, floats, initialised, plain, pointer, shortest, sized, sized_array
 from ._ffi import ffi
 from ._library import lib
 from ._member import WorldPart
@@ -63,7 +63,7 @@ class WorldQueries(WorldPart):
 
     def query_region(self, shape: Shape) -> list[RegionShare]:
         """What is inside a shape: one entry per material that has particles there, in the order of their indices."""
-        room, count = ffi.new("pbmpm_region_share[]", _SHARES), ffi.new("uint32_t *")
+        room, count = sized_array("pbmpm_region_share", _SHARES), ffi.new("uint32_t *")
         self._call(lib.pbmpm_query_region, to_c(shape, self._dimension), room, _SHARES, count)
         shares = [room[i] for i in range(count[0])]
         return [

@@ -53,9 +53,17 @@ class WorldSnapshots(WorldPart):
         self._call(lib.pbmpm_snapshot_save, room, len(room), written)
         return int(written[0])
 
-    def restore(self, snapshot: bytes | bytearray | memoryview) -> None:
+    def restore(self, snapshot: bytes | bytearray | memoryview, *, keep_parameters: bool = False) -> None:
         """Puts the world back into the state of a snapshot: its own, or that of a world that was made by the same calls.
         Views expire, and the settings are the snapshot's.
+
+        Materials, colliders, emitters, drains and forces are found by their `key`, or by their place where they have none.
+
+        Args:
+            snapshot: from `save()`.
+            keep_parameters: for saves of before a patch. Settings, kill bounds, materials (not their density), obstacles, and
+                what emitters, drains and forces are defined by stay the world's; poses and counts are the snapshot's. Things
+                that only one of both has are left as they are.
 
         Raises:
             DamagedError: it is truncated, a byte has changed, or it is no snapshot.
@@ -64,4 +72,5 @@ class WorldSnapshots(WorldPart):
             CapacityError: it has more particles than there is room for.
         """
         data = ffi.from_buffer("char[]", snapshot)
-        self._call(lib.pbmpm_snapshot_restore, data, len(data))
+        flags = ffi.integer_const("PBMPM_RESTORE_KEEP_PARAMETERS") if keep_parameters else 0
+        self._call(lib.pbmpm_snapshot_restore, data, len(data), flags)

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import colliders, materials, shapes
-from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, plain, pointer, shortest, sized
+from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, plain, pointer, shortest, sized, sized_array
 from ._ffi import ffi
 from ._handle import WorldHandle
 from ._library import lib
@@ -222,10 +222,17 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
 
     # Matter
 
-    def add_material(self, parameters: Parameters) -> Material:
-        """Adds a material: a `Liquid`, `Elastic`, `Sand` or `Visco`."""
+    def add_material(self, parameters: Parameters, *, key: int = 0) -> Material:
+        """Adds a material.
+
+        Args:
+            parameters: a `Liquid`, `Elastic`, `Sand` or `Visco`.
+            key: what snapshots know it by, a number that no other material of the world has; 0: its place.
+        """
+        definition = materials.to_c(parameters)
+        assign(definition, "key", key)
         out = ffi.new("pbmpm_material_id *")
-        self._call(lib.pbmpm_material_create, materials.to_c(parameters), out)
+        self._call(lib.pbmpm_material_create, definition, out)
         return Material(self, out[0])
 
     def add_particles(
@@ -293,14 +300,13 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         """
         definition = initialised("pbmpm_fill_def")
         definition.material = self._id_of(material)
-        definition.shape = shapes.to_c(shape, self._dimension)[0]
         numbers = {"particles_per_axis": particles_per_axis, "jitter": jitter, "seed": seed}
         for name, value in numbers.items():
             if value is not None:
                 assign(definition, name, value)
         if velocity is not None:
             assign_vector(definition, "velocity", velocity, self._dimension)
-        return self._number(lib.pbmpm_particles_fill, "uint32_t", definition)
+        return self._number(lib.pbmpm_particles_fill, "uint32_t", definition, shapes.to_c(shape, self._dimension))
 
     def remove(self, ids: npt.ArrayLike) -> None:
         """Removes particles, shape (n, 2); with an unknown identifier none is removed."""
@@ -431,6 +437,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         friction_coefficient: float | None = None,
         kinematic: bool = False,
         measures_impulse: bool = False,
+        key: int = 0,
     ) -> Collider:
         """Adds an obstacle.
 
@@ -440,12 +447,12 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             friction_coefficient: Coulomb coefficient, in [0, 100].
             kinematic: whether `Collider.move()` may move it.
             measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
+            key: what snapshots know it by, a number that no other collider of the world has; 0: its place.
         """
-        definition = colliders.definition(
-            shape, self._dimension, friction, friction_coefficient, kinematic, measures_impulse
-        )
+        definition = colliders.definition(friction, friction_coefficient, kinematic, measures_impulse)
+        assign(definition, "key", key)
         out = ffi.new("pbmpm_collider_id *")
-        self._call(lib.pbmpm_collider_create, definition, out)
+        self._call(lib.pbmpm_collider_create, definition, shapes.to_c(shape, self._dimension), out)
         return Collider(self, out[0])
 
     # The step
@@ -477,9 +484,11 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         return self._events()[1]
 
     def _events(self) -> tuple[list[Event], int]:
-        events, numbers = ffi.new("pbmpm_event **"), ffi.new("uint32_t[2]")
-        self._call(lib.pbmpm_world_events, events, numbers, numbers + 1)
-        return [event_from_c(events[0][i], self._dimension) for i in range(numbers[0])], numbers[1]
+        numbers = ffi.new("uint32_t[2]")
+        self._call(lib.pbmpm_world_events, ffi.NULL, 0, numbers, numbers + 1)
+        events = sized_array("pbmpm_event", numbers[0])
+        self._call(lib.pbmpm_world_events, events, numbers[0], numbers, numbers + 1)
+        return [event_from_c(event, self._dimension) for event in events], numbers[1]
 
     def hash(self) -> int:
         """64-bit hash of the state of all particles. Equal for the same calls on the same library and instruction
