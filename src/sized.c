@@ -9,7 +9,7 @@
 
 /* A new member must not lie in what was padding: an older caller never set it. */
 #define PBMPM_SIZED(structure, remedy, newest, ...) _Static_assert((newest) == sizeof(structure), #structure " ends in padding");
-#include "sized_table.inc"
+#include PBMPM_SIZED_TABLE
 #undef PBMPM_SIZED
 
 enum { VERSIONS_MAX = 32 };
@@ -22,7 +22,7 @@ typedef struct Sized {
 
 static const Sized table[SIZED_COUNT] = {
 #define PBMPM_SIZED(structure, remedy, ...) {#structure, remedy, {__VA_ARGS__}},
-#include "sized_table.inc"
+#include PBMPM_SIZED_TABLE
 #undef PBMPM_SIZED
 };
 

@@ -8,10 +8,14 @@
 
 #include "pbmpm/pbmpm.h"
 
+#ifndef PBMPM_SIZED_TABLE
+#define PBMPM_SIZED_TABLE "sized_table.inc" /* a test of the ABI has one of its own */
+#endif
+
 /* SIZED_pbmpm_settings and so on: the structures that begin with their size. */
 enum {
 #define PBMPM_SIZED(structure, ...) SIZED_##structure,
-#include "sized_table.inc"
+#include PBMPM_SIZED_TABLE
 #undef PBMPM_SIZED
     SIZED_COUNT
 };

@@ -1,0 +1,1 @@
+s/pbmpm_world_wake/pbmpm_world_rouse/

@@ -1,0 +1,1 @@
+s/ int32_t iterations; float gravity/ float iterations; float gravity/
