@@ -7,6 +7,7 @@
 #include "api_call.h"
 #include "background.h"
 #include "colliders.h"
+#include "copy.h"
 #include "cpu.h"
 #include "edit.h"
 #include "effective.h"
@@ -443,6 +444,22 @@ pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm
     const pbmpm_result result = background_is_stepping(w) ? background_view(w, field, &own) : inspect_view(w, field, &own);
     if (result == PBMPM_OK) WRITE(pbmpm_view, view, &own);
     LET_GO(result);
+}
+
+pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size)
+{
+    INIT(pbmpm_copy_def, def, size, copy_def_defaults());
+}
+
+pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count)
+{
+    READ_OR_DEFAULT(pbmpm_copy_def, own, def, copy_def_defaults());
+    REQUIRE(count);
+    if (capacity) REQUIRE(buffer);
+    const char *problem = copy_problem(&own);
+    if (problem) return api_invalid(problem);
+    HOLD_STEPPING(world);
+    LET_GO(copy_particles(w, &own, buffer, capacity, count));
 }
 
 pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)

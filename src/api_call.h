@@ -27,6 +27,14 @@
     } while (0)
 
 /* ... that may be null: then all is as in `base`. */
+#define READ_OR_DEFAULT(type, own, given, base)                                                                         \
+    type own = (base);                                                                                                  \
+    do {                                                                                                                \
+        const pbmpm_result read_result = (given) ? sized_read(SIZED_##type, __func__, #given, given, &own) : PBMPM_OK;  \
+        if (read_result != PBMPM_OK) return read_result;                                                                \
+    } while (0)
+
+/* ... while a world is held. */
 #define READ_OR_KEEP(type, own, given, base)                                                                            \
     type own = (base);                                                                                                  \
     do {                                                                                                                \

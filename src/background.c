@@ -24,6 +24,7 @@ struct Background {
     char *copy[FIELDS];
     pbmpm_view view[FIELDS]; /* of the copies; size 0: not published in this step */
     uint32_t count;
+    float seconds;                    /* that the step before lasted */
     uint64_t generation;
 
     bool begun; /* from a begin to its end */
@@ -206,6 +207,7 @@ pbmpm_result background_begin(World *world, float dt)
     Background *background = world->background;
     world_touch(world);
     background->count = world->particles.count;
+    background->seconds = world->record.seconds;
     background->generation = world->generation;
     background->dt = dt;
     background->host_mode = float_mode_of_host();
@@ -256,5 +258,7 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
 }
 
 uint32_t background_count(const World *world) { return world->background->count; }
+
+float background_seconds(const World *world) { return world->background->seconds; }
 
 uint64_t background_generation(const World *world) { return world->background->generation; }

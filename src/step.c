@@ -315,6 +315,7 @@ pbmpm_result world_step(World *world, float dt)
     world->record.blocks_woken = world->sleep.woken_blocks;
     world->sleep.woken_blocks = 0;
     world->step_count++;
+    world->record.seconds = dt;
     world->record.ms_total = now_ms() - begin;
     return PBMPM_OK;
 }

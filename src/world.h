@@ -34,6 +34,7 @@ typedef struct StepRecord {
     double residual, predicted_error; /* [cells] */
     double deadline_ms;               /* of this substep, see now_ms(); with a time budget */
     uint32_t blocks_woken;            /* of the step */
+    float seconds; /* of the step */
     float moved;  /* share of particles that left their cell in the last substep */
     float travel; /* the largest displacement in it [cells] */
 } StepRecord;

@@ -16,6 +16,7 @@ extern "C" {
  *   pbmpm_world_step_end()        waits, or ends the step if it is done;
  *   pbmpm_world_step_done()       looks whether it is;
  *   pbmpm_particles_view()        of a published field: the state that the step began with;
+ *   pbmpm_particles_copy()        of published fields of that state;
  *   pbmpm_particles_count()       of that state;
  *   pbmpm_world_generation()      of those views;
  *   pbmpm_world_get_def()

@@ -72,8 +72,8 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view shows other
- *  particles' values but never faults. Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
+ *  nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -88,6 +88,28 @@ typedef struct pbmpm_view {
 /** A view of a field. The order of particles is the same in all views of one generation and changes with steps; their
  *  identity is PBMPM_PARTICLE. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (no such field in this world), BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
+
+/** What pbmpm_particles_copy() writes for each particle. Fill it with pbmpm_copy_def_init(), then change what differs. */
+typedef struct pbmpm_copy_def {
+    uint32_t size;             /**< sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init() */
+    uint32_t stride;           /**< bytes from one particle to the next, a multiple of 4; 0 (default): what the fields take */
+    float alpha;               /**< when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
+                                    duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
+                                    are those of now. */
+    uint32_t field_count;      /**< of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL */
+    const pbmpm_field *fields; /**< one behind the other, without gaps; 4 bytes for each component */
+} pbmpm_copy_def;
+
+/** Writes the defaults, as pbmpm_particles_def_init() does. */
+PBMPM_API pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
+
+/** Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
+ *  null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
+ *  A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
+ *  Expires no view. While a step runs in the background it copies the published state, see async.h.
+ *  Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
+ *  buffer is too small; nothing is written, *count is set); BUSY (also: a field that is not published, while a step runs). */
+PBMPM_API pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count);
 
 /** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
  *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in

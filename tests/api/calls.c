@@ -192,6 +192,13 @@ static pbmpm_result call_particles_fill(const target *ids)
     return pbmpm_particles_fill(ids->world, &fill, &shape, NULL);
 }
 
+static pbmpm_result call_particles_copy(const target *ids)
+{
+    static float room[1 << 16];
+    uint32_t count;
+    return pbmpm_particles_copy(ids->world, NULL, room, sizeof room, &count);
+}
+
 static pbmpm_result call_particles_count(const target *ids)
 {
     uint32_t count;
@@ -485,6 +492,7 @@ const world_call world_calls[] = {
     {"pbmpm_particles_fill", call_particles_fill, USES_MATERIAL},
     {"pbmpm_particles_count", call_particles_count, 0},
     {"pbmpm_particles_view", call_particles_view, 0},
+    {"pbmpm_particles_copy", call_particles_copy, 0},
     {"pbmpm_particles_set", call_particles_set, USES_PARTICLE},
     {"pbmpm_particles_find", call_particles_find, USES_PARTICLE},
     {"pbmpm_query_shape", call_query_shape, 0},

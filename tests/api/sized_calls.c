@@ -9,7 +9,7 @@ target world;
 #define DEFAULTS(X)                                                                                                     \
     X(pbmpm_world_def) X(pbmpm_settings) X(pbmpm_material_def) X(pbmpm_shape) X(pbmpm_collider_def) X(pbmpm_particles_def) \
     X(pbmpm_fill_def) X(pbmpm_emitter_def) X(pbmpm_drain_def) X(pbmpm_force_def) X(pbmpm_kill_bounds) X(pbmpm_mesh_def) \
-    X(pbmpm_heights_def) X(pbmpm_ray)
+    X(pbmpm_heights_def) X(pbmpm_ray) X(pbmpm_copy_def)
 
 #define INIT_FUNCTION(type) static pbmpm_result init_##type(void *given, size_t size) { return type##_init(given, size); }
 DEFAULTS(INIT_FUNCTION)
@@ -397,6 +397,22 @@ static pbmpm_result give_ray(const void *structure, void *outcome)
     return PBMPM_OK;
 }
 
+static void sound_copy(void *structure)
+{
+    static const pbmpm_field fields[] = {PBMPM_POSITION};
+    pbmpm_copy_def *def = structure;
+    OK(pbmpm_copy_def_init(def, sizeof *def));
+    def->fields = fields;
+    def->field_count = 1;
+    def->stride = 12;
+}
+
+static pbmpm_result give_copy(const void *structure, void *outcome)
+{
+    static float buffer[1 << 16];
+    return pbmpm_particles_copy(world.world, structure, buffer, sizeof buffer, outcome);
+}
+
 #define READ_BACK(type, call, fill, give) {#type, #call, sizeof(type), fill, give, true}
 #define COUNTED(type, call, fill, give) {#type, #call, sizeof(type), fill, give, false}
 
@@ -433,6 +449,7 @@ const sized_input sized_inputs[] = {
     COUNTED(pbmpm_mesh_def, pbmpm_bake_hull, sound_hull, give_hull),
     COUNTED(pbmpm_heights_def, pbmpm_bake_heights, sound_heights, give_heights),
     COUNTED(pbmpm_ray, pbmpm_query_ray, sound_ray, give_ray),
+    COUNTED(pbmpm_copy_def, pbmpm_particles_copy, sound_copy, give_copy),
 };
 const int sized_input_count = (int)(sizeof sized_inputs / sizeof *sized_inputs);
 

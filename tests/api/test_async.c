@@ -422,7 +422,7 @@ static void test_threads_of_the_library_take_no_signals(void)
 
 static bool is_allowed(const char *name)
 {
-    static const char *const allowed[] = {"pbmpm_world_get_def", "pbmpm_world_generation", "pbmpm_particles_count", "pbmpm_particles_view",
+    static const char *const allowed[] = {"pbmpm_world_get_def", "pbmpm_world_generation", "pbmpm_particles_count", "pbmpm_particles_view", "pbmpm_particles_copy",
                                           "pbmpm_world_step_done"};
     for (size_t i = 0; i < sizeof allowed / sizeof *allowed; i++)
         if (strcmp(name, allowed[i]) == 0)

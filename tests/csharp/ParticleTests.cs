@@ -246,4 +246,20 @@ static class ParticleTests
         }
     }
 #endif
+
+    [Test]
+    static void ParticlesAreCopiedForRendering()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            var buffer = new float[world.ParticleCount * 5];
+            world.Step(Scenes.Frame);
+            Expect.Equal(world.ParticleCount, world.CopyParticles(buffer), "particles");
+            Expect.Equal(world.Positions[0, 1], buffer[1], "position");
+            Expect.Equal(world.Velocities[0, 1], buffer[3], "velocity");
+            world.CopyParticles(buffer, 0.5f);
+            Expect.Near(world.Positions[0, 1] - 0.5f * Scenes.Frame * world.Velocities[0, 1], buffer[1], 1e-6, "half a step ago");
+            Expect.Refused(Result.ErrorCapacity, () => world.CopyParticles(new float[3]), "a buffer that is too small");
+        }
+    }
 }

@@ -73,3 +73,17 @@ def test_closing_while_a_step_runs(pool: pbmpm.World) -> None:
     with pytest.raises(pbmpm.ClosedError):
         pool.step_end()
     assert np.isfinite(array).all()
+
+
+def test_positions_between_steps(pool: pbmpm.World) -> None:
+    assert np.array_equal(pool.positions_at(0.5), pool.positions.copy())  # before any step
+    pool.step(0.01)
+    half = pool.positions.copy() - 0.005 * pool.velocities.copy()
+    assert np.allclose(pool.positions_at(0.5), half, rtol=0, atol=1e-6)
+    before = pool.positions_at(1.0)
+    assert np.array_equal(before, pool.positions.copy())
+    pool.step_begin(0.01)
+    assert np.array_equal(pool.positions_at(1.0), before)
+    assert pool.step_end()
+    with pytest.raises(pbmpm.InvalidArgumentError, match="alpha"):
+        pool.positions_at(1.5)

@@ -1487,8 +1487,8 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view shows other
-    /// particles' values but never faults. Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
+    /// nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -1507,6 +1507,36 @@ namespace Pbmpm.Native
         public IntPtr Data;
         /// <summary>valid while pbmpm_world_generation() returns this number</summary>
         public ulong Generation;
+    }
+
+    /// <summary>What pbmpm_particles_copy() writes for each particle. Fill it with pbmpm_copy_def_init(), then change what differs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct CopyDef
+    {
+        /// <summary>sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init()</summary>
+        public uint Size;
+        /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what the fields take</summary>
+        public uint Stride;
+        /// <summary>when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
+        /// duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
+        /// are those of now.</summary>
+        public float Alpha;
+        /// <summary>of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL</summary>
+        public uint FieldCount;
+        /// <summary>one behind the other, without gaps; 4 bytes for each component</summary>
+        public Field* Fields;
+
+        /// <summary>The library's defaults.</summary>
+        public static CopyDef Default
+        {
+            get
+            {
+                Library.Check();
+                CopyDef it;
+                Library.Require(Methods.pbmpm_copy_def_init(&it, (UIntPtr)sizeof(CopyDef)));
+                return it;
+            }
+        }
     }
 
     /// <summary>One thing that the present scene and settings do not hold.</summary>
@@ -1751,6 +1781,19 @@ namespace Pbmpm.Native
         /// identity is PBMPM_PARTICLE. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (no such field in this world), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_view(WorldId world, Field field, View* view);
+
+        /// <summary>Writes the defaults, as pbmpm_particles_def_init() does.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_copy_def_init(CopyDef* def, UIntPtr size);
+
+        /// <summary>Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
+        /// null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
+        /// A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
+        /// Expires no view. While a step runs in the background it copies the published state, see async.h.
+        /// Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
+        /// buffer is too small; nothing is written, *count is set); BUSY (also: a field that is not published, while a step runs).</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_particles_copy(WorldId world, CopyDef* def, IntPtr buffer, ulong capacity, uint* count);
 
         /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
         /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in
@@ -2067,6 +2110,7 @@ namespace Pbmpm.Native
             ParticlesDef(fields);
             FillDef(fields);
             View(fields);
+            CopyDef(fields);
             ColliderDef(fields);
             Impulse(fields);
             Advice(fields);
@@ -2331,6 +2375,17 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_view", "data", &it, &it.Data, &it.Data + 1, false));
             fields.Add(new MirrorField("pbmpm_view", "generation", &it, &it.Generation, &it.Generation + 1, false));
             fields.Add(new MirrorField("pbmpm_view", "", &it, &it, &it + 1, true));
+        }
+
+        static void CopyDef(List<MirrorField> fields)
+        {
+            var it = default(CopyDef);
+            fields.Add(new MirrorField("pbmpm_copy_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "stride", &it, &it.Stride, &it.Stride + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "alpha", &it, &it.Alpha, &it.Alpha + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "field_count", &it, &it.FieldCount, &it.FieldCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "fields", &it, &it.Fields, &it.Fields + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "", &it, &it, &it + 1, true));
         }
 
         static void ColliderDef(List<MirrorField> fields)

@@ -52,6 +52,27 @@ namespace Pbmpm
             }
         }
 
+        /// <summary>Copies all particles to where a renderer reads them: position, velocity (Dimension floats each) and index of
+        /// the material (32 bits) of one, then of the next. Also while a step runs in the background.</summary>
+        /// <param name="buffer">At least ParticleCount * (2 * Dimension + 1) floats.</param>
+        /// <param name="alpha">Share of the way from before the last step to now: for even motion on any display.</param>
+        /// <returns>The number of particles.</returns>
+        public int CopyParticles(float[] buffer, float alpha = 1)
+        {
+            if (buffer == null) throw new ArgumentNullException(nameof(buffer));
+            fixed (float* first = buffer) return CopyParticles((IntPtr)first, (long)buffer.Length * sizeof(float), alpha);
+        }
+
+        /// <summary>The same into memory of the host, a mapped buffer of the GPU for one.</summary>
+        public int CopyParticles(IntPtr buffer, long bytes, float alpha = 1)
+        {
+            var definition = CopyDef.Default;
+            uint count;
+            definition.Alpha = alpha;
+            Done(Methods.pbmpm_particles_copy(Id, &definition, buffer, (ulong)bytes, &count));
+            return (int)count;
+        }
+
         /// <summary>Removes particles; with an unknown identifier none is removed.</summary>
         public void Remove(ParticleId[] ids)
         {

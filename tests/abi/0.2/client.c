@@ -263,7 +263,9 @@ static void ask(pbmpm_world_id world, pbmpm_collider_id collider)
     pbmpm_region_share *shares = guarded(sizeof *shares, 2);
     pbmpm_advice *advice = guarded(sizeof *advice, 4);
     pbmpm_event *events = guarded(sizeof *events, EVENTS);
-    uint32_t found, told, happened, missed;
+    pbmpm_copy_def *copy = NEW(pbmpm_copy_def);
+    static float drawn[1 << 16];
+    uint32_t found, told, happened, missed, copied;
     OK(pbmpm_world_get_stats(world, stats));
     OK(pbmpm_collider_impulse(world, collider, impulse));
     OK(pbmpm_domain_impulse(world, 1, 0, impulse));
@@ -275,6 +277,10 @@ static void ask(pbmpm_world_id world, pbmpm_collider_id collider)
     OK(pbmpm_query_region(world, shape, shares, 2, &found));
     OK(pbmpm_world_advice(world, 0.01f, advice, 4, &told));
     OK(pbmpm_world_events(world, events, EVENTS, &happened, &missed));
+    OK(pbmpm_copy_def_init(copy, sizeof *copy));
+    copy->alpha = 0.5f;
+    OK(pbmpm_particles_copy(world, copy, drawn, sizeof drawn, &copied));
+    printf("copied %u, first at %.9g\n", copied, (double)drawn[1]);
     printf("stats: %u %.9g; impulse %.9g; view of %u; hit %d %.9g\n", stats->particle_count, stats->kinetic_energy, impulse->linear[1], view->count,
            hit->hit, (double)hit->distance);
     for (uint32_t i = 0; i < found && i < 2; i++) printf("share: %llu %.9g\n", (unsigned long long)shares[i].count, shares[i].volume);
@@ -286,6 +292,7 @@ static void ask(pbmpm_world_id world, pbmpm_collider_id collider)
     DELETE(ray);
     DELETE(hit);
     DELETE(shape);
+    DELETE(copy);
     release(shares, sizeof *shares, 2);
     release(advice, sizeof *advice, 4);
     release(events, sizeof *events, EVENTS);

@@ -379,6 +379,18 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
     def positions(self, values: npt.ArrayLike) -> None:
         self.set(Field.POSITION, values)
 
+    def positions_at(self, alpha: float) -> npt.NDArray[np.float32]:
+        """Positions between steps, for rendering: a copy of shape (n, d) [m] at the share `alpha` in [0, 1] of the way from before
+        the last step (0) to now (1)."""
+        definition, count = initialised("pbmpm_copy_def"), ffi.new("uint32_t *")
+        fields = ffi.new("pbmpm_field[]", [ffi.integer_const("PBMPM_POSITION")])
+        definition.fields, definition.field_count = fields, 1
+        assign(definition, "alpha", alpha)
+        positions = np.empty((len(self), self._dimension), np.float32)
+        out = pointer("char", positions, writable=True) if positions.size else ffi.NULL
+        self._call(lib.pbmpm_particles_copy, definition, out, positions.nbytes, count)
+        return positions
+
     @property
     def velocities(self) -> View:
         """Velocities, shape (n, d) [m/s]. Assigning writes those of all particles."""
