@@ -22,12 +22,14 @@ void solver_predict(World *world);
 /* Solves for the displacements of the nodes. `contacts`: what they obey. */
 void solver_solve(World *world, const ContactFrame *contacts);
 
-/* Last G2P: moves the particles of these blocks and updates J and F. Before it all blocks are asked, and after it too. */
+/* Last G2P: moves the particles of these blocks and updates J and F. */
 void solver_integrate(World *world, int32_t begin, int32_t end);
+
+/* Before the first block and after the last one. */
 void solver_before_going(World *world);
 void solver_after_going(World *world, const ContactFrame *contacts);
 
-/* Whether solver_after_going() changes particles. */
+/* Whether solver_after_going() changes particles, by what all of them did. */
 bool solver_ends_by_primal(const World *world);
 
 /* ---- For the solvers ---- */
