@@ -232,7 +232,10 @@ static inline void restrict_block(const TransferJob *job, int32_t block, int wid
 static void scale_block(const TransferJob *job, int32_t block)
 {
     const size_t floats = (size_t)(job->m->block_cells * job->width), begin = (size_t)block * floats;
-    for (size_t i = begin; i < begin + floats && job->factor; i++) job->to[i] *= job->factor[i];
+    if (!job->factor) return;
+    float *restrict to = job->to + begin;
+    const float *restrict factor = job->factor + begin;
+    for (size_t i = 0; i < floats; i++) to[i] *= factor[i];
 }
 
 static void restrict_blocks(void *context, int32_t begin, int32_t end)
