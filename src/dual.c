@@ -189,51 +189,55 @@ static double sum_blocks(const Array *array, int32_t blocks)
     return sum;
 }
 
-/* Displacements from the multipliers, extrapolated by args.momentum. */
-static void push(World *world, const ContactFrame *contacts, bool cells)
+/* Displacements from the multipliers, extrapolated by args.momentum. *still is for the arguments of nodes, and has to live until the loops run. */
+static void add_push(World *world, Loops *loops, const ContactFrame *contacts, KernelArgs *still)
 {
     const Kernels *kernels = world->kernels;
-    const float momentum = world->args.momentum;
-    if (cells) {
-        solver_over_particles(world, kernels->cells_push); /* of the extrapolated multipliers */
-        world->args.momentum = 0.0f;
+    *still = world->args;
+    if (in_cells(world)) {
+        solver_add_rows(loops, world, kernels->cells_push, &world->args); /* of the extrapolated multipliers */
+        still->momentum = 0.0f;
     }
-    solver_over_nodes(world, kernels->push_nodes, contacts);
-    world->args.momentum = momentum;
+    solver_add_nodes(loops, world, kernels->push_nodes, still, contacts);
 }
 
 /* Displacements from the pressures that the guess starts from or has found. */
-static void push_guess(World *world, const ContactFrame *contacts, Kernel *kernel)
+static void add_guess(World *world, Loops *loops, const ContactFrame *contacts, Kernel *kernel)
 {
-    if (in_cells(world)) {
-        push(world, contacts, true);
-        return;
-    }
-    solver_over_particles(world, kernel);
-    solver_over_nodes(world, world->kernels->push_nodes, contacts);
+    solver_add_rows(loops, world, in_cells(world) ? world->kernels->cells_push : kernel, &world->args);
+    solver_add_nodes(loops, world, world->kernels->push_nodes, &world->args, contacts);
+}
+
+static void add_solids(World *world, Loops *loops)
+{
+    solver_add_rows(loops, world, world->kernels->solids_begin, &world->args);
+    solver_add_nodes(loops, world, world->kernels->solids_mean, &world->args, NULL);
 }
 
 /* Pressures that balance what is wrong over the depth of a pool. Where that fails they are taken back. Meanwhile elastic particles have no
- * stress, and with pressures in cells what liquids remember is not asked for. */
+ * stress, and with pressures in cells what liquids remember is not asked for. Nothing is extrapolated. */
 static void guess(World *world, const ContactFrame *contacts, int iterations)
 {
     const Kernels *kernels = world->kernels;
     KernelArgs *a = &world->args;
+    Loops loops;
+    loops_open(&loops, world->pool);
     guess_begin(world, contacts);
     a->probing = in_cells(world);
-    push_guess(world, contacts, kernels->cells_carry);
-    a->probing = 0;
+    add_guess(world, &loops, contacts, kernels->cells_carry);
     if (joint_is_chosen(world)) {
+        loops_run(&loops);
         joint_sketch(world, contacts);
-        solver_over_particles(world, kernels->solids_begin);
-        solver_over_nodes(world, kernels->solids_mean, NULL);
+        add_solids(world, &loops);
     }
-    const double before = guess_gain(world);
+    const double before = guess_gain(world, &loops);
+    a->probing = 0;
     guess_solve(world, contacts, iterations);
-    push_guess(world, contacts, kernels->cells_add);
-    if (!(guess_gain(world) >= before)) {
-        guess_take_back(world);
-        push_guess(world, contacts, kernels->cells_add);
+    add_guess(world, &loops, contacts, kernels->cells_add);
+    if (!(guess_gain(world, &loops) >= before)) {
+        guess_take_back(world, &loops);
+        add_guess(world, &loops, contacts, kernels->cells_add);
+        loops_run(&loops);
     }
     const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
@@ -244,23 +248,32 @@ static double start(World *world, const ContactFrame *contacts)
 {
     const Kernels *kernels = world->kernels;
     const int guesses = guess_iterations(world);
-    const bool cells = in_cells(world) || guesses > 0;
-    if (cells) {
-        solver_over_particles(world, kernels->cells_begin);
-        solver_over_nodes(world, kernels->cells_mean, NULL);
-        if (world->args.cell_strain && !joint_is_chosen(world)) {
-            solver_over_particles(world, kernels->solids_begin);
-            solver_over_nodes(world, kernels->solids_mean, NULL);
-        }
+    KernelArgs still;
+    Loops loops;
+    loops_open(&loops, world->pool);
+    if (in_cells(world) || guesses > 0) {
+        solver_add_rows(&loops, world, kernels->cells_begin, &world->args);
+        solver_add_nodes(&loops, world, kernels->cells_mean, &world->args, NULL);
+        if (world->args.cell_strain && !joint_is_chosen(world)) add_solids(world, &loops);
     } else {
-        solver_over_particles(world, kernels->dual_begin);
+        solver_add_rows(&loops, world, kernels->dual_begin, &world->args);
     }
+    loops_run(&loops);
     const double mass = sum_blocks(&world->dual.change2, world->grid.particle_blocks);
-    if (guesses > 0)
+    if (guesses > 0) {
         guess(world, contacts, guesses);
-    else
-        push(world, contacts, cells);
+        return mass;
+    }
+    add_push(world, &loops, contacts, &still);
+    loops_run(&loops);
     return mass;
+}
+
+static void add_iterate(World *world, Loops *loops)
+{
+    const Kernels *kernels = world->kernels;
+    solver_add_rows(loops, world, in_cells(world) ? kernels->cells_trace : kernels->dual_iterate, &world->args);
+    if (in_cells(world)) solver_add_nodes(loops, world, kernels->cells_update, &world->args, NULL);
 }
 
 /* What an iteration changed. */
@@ -268,21 +281,16 @@ typedef struct Change {
     double change2, uphill;
 } Change;
 
-static Change iterate(World *world)
+static Change change_of(const World *world)
 {
-    const Kernels *kernels = world->kernels;
     const DualState *dual = &world->dual;
-    const int32_t blocks = world->grid.particle_blocks;
-    Change cells = {0};
+    const int32_t blocks = world->grid.particle_blocks, node_blocks = world->grid.node_blocks;
+    Change change = {sum_blocks(&dual->change2, blocks), sum_blocks(&dual->uphill, blocks)};
     if (in_cells(world)) {
-        solver_over_particles(world, kernels->cells_trace);
-        solver_over_nodes(world, kernels->cells_update, NULL);
-        cells.change2 = sum_blocks(&dual->cell_change2, world->grid.node_blocks);
-        cells.uphill = sum_blocks(&dual->cell_uphill, world->grid.node_blocks);
-    } else {
-        solver_over_particles(world, kernels->dual_iterate);
+        change.change2 += sum_blocks(&dual->cell_change2, node_blocks);
+        change.uphill += sum_blocks(&dual->cell_uphill, node_blocks);
     }
-    return (Change){sum_blocks(&dual->change2, blocks) + cells.change2, sum_blocks(&dual->uphill, blocks) + cells.uphill};
+    return change;
 }
 
 static double next_of(double t) { return 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t)); }
@@ -332,20 +340,28 @@ static void iterate_all(World *world, const ContactFrame *contacts, double mass)
     DualModes modes = dual_modes_of(world, (double)smallest_relaxation(world));
     const bool watched = world->settings.target_error > 0.0f; /* else the last displacements alone are compared */
     Acceleration acceleration = acceleration_begin(world);
+    KernelArgs still;
+    Loops loops;
     bool more = true;
     int further = shares_world(world) ? 0 : sand_rounds(world);
-    if (watched) dual_compare_displacements(world);
+    loops_open(&loops, world->pool);
+    if (watched) dual_compare_displacements(world, &loops);
+    add_iterate(world, &loops);
+    loops_run(&loops);
     while (more) {
-        const Change change = iterate(world);
+        const Change change = change_of(world);
+        const double residual = sqrt(change.change2 / mass);
         record->iterations_used++;
-        record->residual = sqrt(change.change2 / mass);
-        more = solver_may_go_on(world, dual_predicted_error(&modes, record->residual));
+        record->residual = residual;
+        more = solver_may_go_on(world, dual_predicted_error(&modes, residual));
         more = more || (record->stop == PBMPM_STOP_ITERATIONS && further-- > 0);
         acceleration_next(&acceleration, change.uphill > 0.0, more);
-        const double momentum = (double)world->args.momentum;
-        if (!more && !watched) dual_compare_displacements(world);
-        push(world, contacts, in_cells(world));
-        if (!more || watched) dual_find_response(&modes, record->residual, sqrt(dual_compare_displacements(world) / mass), momentum);
+        if (!more && !watched) dual_compare_displacements(world, &loops);
+        add_push(world, &loops, contacts, &still);
+        if (!more || watched) dual_compare_displacements(world, &loops);
+        if (more) add_iterate(world, &loops); /* the next one; nobody decides in between */
+        loops_run(&loops);
+        if (!more || watched) dual_find_response(&modes, residual, sqrt(dual_compared(world) / mass), (double)world->args.momentum);
     }
     /* What ended the iterations stands as it was found. */
     if (record->stop != PBMPM_STOP_ERROR) record->predicted_error = dual_predicted_error(&modes, record->residual);

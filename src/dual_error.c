@@ -50,7 +50,7 @@ void dual_find_response(DualModes *modes, double residual, double moved, double 
 
 static void compare_blocks(void *context, int32_t begin, int32_t end)
 {
-    World *world = context;
+    World *world = *(World **)context;
     const size_t floats = (size_t)world->grid.block_cells * K_NODE_WIDTH;
     double *moved2 = world->dual.moved2.data;
     for (int32_t block = begin; block < end; block++) {
@@ -66,12 +66,13 @@ static void compare_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
+void dual_compare_displacements(World *world, Loops *loops) { LOOPS_ADD(loops, grid_nodes(&world->grid, BLOCK_GRAIN), compare_blocks, &world); }
+
 /* The sums of the blocks are added in order, so they do not depend on the number of threads. */
-double dual_compare_displacements(World *world)
+double dual_compared(const World *world)
 {
     const double *moved2 = world->dual.moved2.data;
     double sum = 0.0;
-    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, compare_blocks, world);
     for (int32_t block = 0; block < world->grid.node_blocks; block++) sum += moved2[block];
     return sum;
 }

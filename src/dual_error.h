@@ -39,7 +39,8 @@ double dual_predicted_error(const DualModes *modes, double residual);
  * while iterations differ little, each moves by U + b of what the last one moved by, U / (1 - b) in all. */
 void dual_find_response(DualModes *modes, double residual, double moved, double momentum);
 
-/* Keeps the nodes' displacements, and returns the sum of m |change|^2 since they were kept last. */
-double dual_compare_displacements(World *world);
+/* Adds a loop that keeps the nodes' displacements. After it has run: the sum of m |change|^2 since they were kept last. */
+void dual_compare_displacements(World *world, Loops *loops);
+double dual_compared(const World *world);
 
 #endif

@@ -73,7 +73,7 @@ static void sum_block(const World *world, int32_t block, double *sum)
 
 static void sum_blocks(void *context, int32_t begin, int32_t end)
 {
-    World *world = context;
+    World *world = *(World **)context;
     double *sums = world->dual.eddy_damping.sums.data;
     for (int32_t block = begin; block < end; block++) sum_block(world, block, sums + SUMS * (size_t)block);
 }
@@ -94,7 +94,10 @@ void eddy_damping_find(World *world)
     const double *sums = damping->sums.data;
     double *body = damping->body_sums.data;
     float *kept = damping->kept.data;
-    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_blocks, world);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    LOOPS_ADD(&loops, grid_nodes(&world->grid, BLOCK_GRAIN), sum_blocks, &world);
+    loops_run(&loops);
     memset(body, 0, SUMS * (size_t)damping->bodies.count * sizeof *body);
     for (int32_t block = 0; block < world->grid.node_blocks; block++)
         for (size_t k = 0; k < SUMS; k++) body[SUMS * (size_t)of_block[block] + k] += sums[SUMS * (size_t)block + k];

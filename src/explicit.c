@@ -18,7 +18,7 @@ pbmpm_result explicit_prepare(World *world)
 
 static void stand_still(void *context, int32_t begin, int32_t end)
 {
-    const World *world = context;
+    const World *world = *(World **)context;
     const size_t floats = (size_t)world->grid.block_cells * W;
     float *node = world->grid.node.data;
     for (size_t i = (size_t)begin * floats; i < (size_t)end * floats; i++)
@@ -30,7 +30,7 @@ static float bounded(float u) { return u > -K_INCREMENT_MAX ? fminf(u, K_INCREME
 
 static void push(void *context, int32_t begin, int32_t end)
 {
-    const World *world = context;
+    const World *world = *(World **)context;
     const size_t floats = (size_t)world->grid.block_cells * W;
     const float *base = world->grid.node_base.data, *force = world->primal.force.data;
     float *node = world->grid.node.data;
@@ -42,10 +42,14 @@ void explicit_solve(World *world, const ContactFrame *contacts)
 {
     world->args.node_force = world->primal.force.data;
     world->args.block_energy = world->primal.block_energy.data;
-    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, stand_still, world);
-    solver_over_particles(world, world->kernels->force);
-    solver_over_nodes(world, world->kernels->force_nodes, NULL);
-    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, push, world);
-    solver_obey(world, contacts);
+    const Span nodes = grid_nodes(&world->grid, BLOCK_GRAIN);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    LOOPS_ADD(&loops, nodes, stand_still, &world);
+    solver_add_rows(&loops, world, world->kernels->force, &world->args);
+    solver_add_nodes(&loops, world, world->kernels->force_nodes, &world->args, NULL);
+    LOOPS_ADD(&loops, nodes, push, &world);
+    walls_add(&world->walls, contacts, &loops, false, NULL);
+    loops_run(&loops);
     world->record.iterations_used = 1;
 }

@@ -292,9 +292,16 @@ static void place_blocks(Grid *grid)
     begin[grid->particle_blocks] = particles;
 }
 
+/* For loops over blocks. */
+typedef struct SortJob {
+    Grid *grid;
+    Particles *particles;
+} SortJob;
+
 static void link_neighbours(void *context, int32_t begin, int32_t end)
 {
-    Grid *grid = context;
+    const SortJob *job = context;
+    const Grid *grid = job->grid;
     const FoundBlock *found = grid->found.data;
     for (int32_t b = begin; b < end; b++) {
         const int32_t *own = (int32_t *)grid->coordinate.data + 3 * b;
@@ -322,12 +329,6 @@ static void order_by_block(Grid *grid, bool listed)
     for (int32_t b = grid->particle_blocks; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
     begin[0] = grid->first_row;
 }
-
-/* What particles are sorted by inside a block. */
-typedef struct SortJob {
-    Grid *grid;
-    Particles *particles;
-} SortJob;
 
 static uint32_t cell_in_block(const SortJob *job, uint32_t i)
 {
@@ -402,45 +403,53 @@ static void write_runs(void *context, int32_t begin, int32_t end)
     }
 }
 
-static void build_runs(Grid *grid, Particles *p, Pool *pool)
+/* From how many runs blocks have to where theirs begin. */
+static void place_runs(void *context, int32_t begin, int32_t end)
 {
-    SortJob job = {grid, p};
+    const SortJob *job = context;
+    Grid *grid = job->grid;
     uint32_t *block_run = grid->block_run.data;
-    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, count_runs, &job);
+    (void)begin;
+    (void)end;
     block_run[0] = 0;
     for (int32_t b = 0; b < grid->particle_blocks; b++) block_run[b + 1] += block_run[b];
-    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, write_runs, &job);
     grid->runs = block_run[grid->particle_blocks];
     grid->run_begin[grid->runs] = grid->end_row;
 }
 
-static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, bool listed)
+static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Loops *loops, bool with_volume, bool listed)
 {
     if (!find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
         grid_clear(grid);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
     }
-    SortJob job = {grid, p};
+    const SortJob job = {grid, p};
     place_blocks(grid);
     order_by_block(grid, listed);
-    pool_for(pool, grid->particle_blocks, BLOCK_GRAIN, sort_inside_blocks, &job);
+    LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), sort_inside_blocks, &job);
     return PBMPM_OK;
 }
 
-static void link_all(Grid *grid, Particles *p, Pool *pool)
+static void link_all(Grid *grid, Particles *p, Loops *loops)
 {
-    build_runs(grid, p, pool);
-    pool_for(pool, grid->node_blocks, BLOCK_GRAIN, link_neighbours, grid);
+    const SortJob job = {grid, p};
+    LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), count_runs, &job);
+    LOOPS_ADD(loops, span_once(), place_runs, &job);
+    LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), write_runs, &job);
+    LOOPS_ADD(loops, grid_nodes(grid, BLOCK_GRAIN), link_neighbours, &job);
 }
 
 pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, uint32_t first)
 {
     grid->first_row = first;
     grid->end_row = p->count;
-    const pbmpm_result result = arrange(grid, memory, p, pool, with_volume, false);
+    Loops loops;
+    loops_open(&loops, pool);
+    const pbmpm_result result = arrange(grid, memory, p, &loops, with_volume, false);
     if (result != PBMPM_OK) return result;
-    particles_reorder(p, grid->order, first, pool);
-    link_all(grid, p, pool);
+    particles_reorder(p, grid->order, first, &loops);
+    link_all(grid, p, &loops);
+    loops_run(&loops);
     return PBMPM_OK;
 }
 
@@ -464,7 +473,9 @@ void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32
 
 pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *p, Pool *pool, bool with_volume)
 {
+    Loops loops;
     int32_t anchor[3];
+    loops_open(&loops, pool);
     const uint32_t *row = part->order_scratch;
     Seen seen[8];
     see_none(seen);
@@ -474,12 +485,16 @@ pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *p, Pool *p
     }
     bool added = grid_begin(part, memory, anchor);
     for (uint32_t i = part->first_row; i < part->end_row && added; i++) added = add_row(part, memory, p, row[i], seen);
-    if (added) return arrange(part, memory, p, pool, with_volume, true);
+    if (added) {
+        const pbmpm_result result = arrange(part, memory, p, &loops, with_volume, true);
+        loops_run(&loops);
+        return result;
+    }
     grid_clear(part);
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", part->found_count);
 }
 
-void grid_link_part(Grid *part, Particles *p, Pool *pool) { link_all(part, p, pool); }
+void grid_link_part(Grid *part, Particles *p, Loops *loops) { link_all(part, p, loops); }
 
 pbmpm_result grid_build(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume)
 {

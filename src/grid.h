@@ -68,6 +68,17 @@ typedef struct Grid {
 pbmpm_result grid_init(Grid *grid, Memory *memory, int dimension, uint32_t capacity);
 void grid_free(Grid *grid, Memory *memory);
 
+/* What loops over blocks go over: the nodes, or the particles of the grid. `grain`: blocks that are taken at once. */
+static inline Span grid_nodes(const Grid *grid, int32_t grain)
+{
+    return (Span){grid->node_blocks, grain, (int64_t)grid->node_blocks * grid->block_cells * NODE_NS};
+}
+
+static inline Span grid_rows(const Grid *grid, int32_t grain)
+{
+    return (Span){grid->particle_blocks, grain, (int64_t)(grid->end_row - grid->first_row) * PARTICLE_NS};
+}
+
 /* No blocks, no runs: there are no particles. */
 static inline void grid_clear(Grid *grid)
 {
@@ -104,8 +115,8 @@ void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32
 /* Builds it of the particles that order_scratch lists from `first` to `end`: their new order stands in `order` then. On failure it is empty. */
 pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *particles, Pool *pool, bool with_volume);
 
-/* After the particles were brought into the order of all parts. */
-void grid_link_part(Grid *part, Particles *particles, Pool *pool);
+/* After the particles were brought into the order of all parts. Adds its loops to others. */
+void grid_link_part(Grid *part, Particles *particles, Loops *loops);
 
 /* Frees what a part does not share. */
 void grid_free_part(Grid *part, Memory *memory);

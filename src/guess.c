@@ -70,6 +70,8 @@ typedef struct Guess {
     World *world;
     const ContactFrame *contacts;
     float *residual, *better, *direction, *response, *mask, *soft;
+    Loops loops;                   /* that have not run yet */
+    KernelArgs probe;              /* for the responses of nodes and cells to pressures alone */
     Asked asked;
     float density;                 /* see guess_density() */
     float little;                  /* cells with less mass are not asked */
@@ -79,22 +81,27 @@ typedef struct Guess {
 /* Of a full cell's mass. What a few particles at the edge of their reach say of a cell behind a wall would count as much as what a full cell says. */
 static const double LITTLE = 0.01;
 
-static Guess guess_of(World *world, const ContactFrame *contacts)
+static void open_guess(Guess *g, World *world, const ContactFrame *contacts)
 {
     const size_t n = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     float *cells = world->guess.cells.data;
-    return (Guess){.world = world,
-                   .contacts = contacts,
-                   .residual = cells,
-                   .better = cells + n,
-                   .direction = cells + 2 * n,
-                   .response = cells + 3 * n,
-                   .mask = cells + 4 * n,
-                   .soft = cells + 5 * n,
-                   .asked = asked_of(world),
-                   .density = (float)guess_density(world),
-                   .little = (float)(LITTLE * materials_lightest(&world->materials, &world->particles)),
-                   .least = least_softness(world)};
+    g->world = world;
+    g->contacts = contacts;
+    g->residual = cells;
+    g->better = cells + n;
+    g->direction = cells + 2 * n;
+    g->response = cells + 3 * n;
+    g->mask = cells + 4 * n;
+    g->soft = cells + 5 * n;
+    g->asked = asked_of(world);
+    g->density = (float)guess_density(world);
+    g->little = (float)(LITTLE * materials_lightest(&world->materials, &world->particles));
+    g->least = least_softness(world);
+    g->step = g->keep = g->mean = 0.0f;
+    g->probe = world->args;
+    g->probe.probing = 1;
+    g->probe.cell_trace = g->response;
+    loops_open(&g->loops, world->pool);
 }
 
 /* ---- Loops over cells: per block, with sums that are the same for any number of threads ---- */
@@ -105,6 +112,7 @@ typedef void CellWork(const Guess *g, size_t begin, size_t end, double *sum);
 typedef struct CellJob {
     const Guess *guess;
     CellWork *work;
+    bool sums;
 } CellJob;
 
 static void work_on_blocks(void *context, int32_t begin, int32_t end)
@@ -113,10 +121,16 @@ static void work_on_blocks(void *context, int32_t begin, int32_t end)
     const World *world = job->guess->world;
     const size_t cells = (size_t)world->grid.block_cells;
     for (int32_t block = begin; block < end; block++) {
-        double *sum = (double *)world->guess.sums.data + SUMS * (size_t)block;
+        double none[SUMS], *sum = job->sums ? (double *)world->guess.sums.data + SUMS * (size_t)block : none;
         for (int k = 0; k < SUMS; k++) sum[k] = 0.0;
         job->work(job->guess, (size_t)block * cells, ((size_t)block + 1) * cells, sum);
     }
+}
+
+static void over_cells(Guess *g, CellWork *work)
+{
+    const CellJob job = {g, work, false};
+    LOOPS_ADD(&g->loops, grid_nodes(&g->world->grid, GRAIN), work_on_blocks, &job);
 }
 
 /* The sums, in the order of the blocks. */
@@ -124,16 +138,29 @@ typedef struct Totals {
     double sum[SUMS];
 } Totals;
 
-static Totals over_cells(const Guess *g, CellWork *work)
+/* Of the last loop that summed. */
+static Totals totals_of(const World *world)
 {
-    CellJob job = {g, work};
-    const World *world = g->world;
     const double *sums = world->guess.sums.data;
     Totals totals = {{0}};
-    pool_for(world->pool, world->grid.node_blocks, GRAIN, work_on_blocks, &job);
     for (int32_t block = 0; block < world->grid.node_blocks; block++)
         for (int k = 0; k < SUMS; k++) totals.sum[k] += sums[SUMS * (size_t)block + (size_t)k];
     return totals;
+}
+
+/* Adds a loop that sums, which one that runs with it must not do after it. */
+static void sum_over_cells(Guess *g, CellWork *work)
+{
+    const CellJob job = {g, work, true};
+    LOOPS_ADD(&g->loops, grid_nodes(&g->world->grid, GRAIN), work_on_blocks, &job);
+}
+
+/* Runs the loops, the last of which sums. */
+static Totals run_and_sum(Guess *g, CellWork *work)
+{
+    sum_over_cells(g, work);
+    loops_run(&g->loops);
+    return totals_of(g->world);
 }
 
 static double dot(const Guess *g, const float *a, const float *b, size_t begin, size_t end)
@@ -145,31 +172,22 @@ static double dot(const Guess *g, const float *a, const float *b, size_t begin, 
     return (sum[0] + sum[1]) + (sum[2] + sum[3]);
 }
 
-/* Displacements of the nodes from the pressures `of` alone. */
-static void respond(const Guess *g, float *of)
+/* Displacements of the nodes from the pressures `of` alone, the same in all loops that run together. */
+static void respond(Guess *g, float *of)
 {
-    World *world = g->world;
-    KernelArgs *a = &world->args;
-    float *pressure = a->cell_pressure, *pressure_old = a->cell_pressure_old;
-    a->cell_pressure = a->cell_pressure_old = of;
-    a->probing = 1;
-    solver_over_particles(world, world->kernels->cells_push);
-    a->probing = 0;
-    solver_over_nodes(world, world->kernels->respond_nodes, NULL);
-    walls_apply(&world->walls, g->contacts, world->pool, true, NULL);
-    a->cell_pressure = pressure;
-    a->cell_pressure_old = pressure_old;
+    const World *world = g->world;
+    g->probe.cell_pressure = g->probe.cell_pressure_old = of;
+    solver_add_rows(&g->loops, world, world->kernels->cells_push, &g->probe);
+    solver_add_nodes(&g->loops, world, world->kernels->respond_nodes, &g->probe, NULL);
+    walls_add(&world->walls, g->contacts, &g->loops, true, NULL);
 }
 
 /* response = means of tr D of the displacements that the nodes have. */
-static void trace(const Guess *g)
+static void trace(Guess *g)
 {
-    World *world = g->world;
-    world->args.cell_trace = g->response;
-    world->args.probing = 1;
-    solver_over_particles(world, world->kernels->cells_trace);
-    solver_over_nodes(world, world->kernels->cells_respond, NULL);
-    world->args.probing = 0;
+    const World *world = g->world;
+    solver_add_rows(&g->loops, world, world->kernels->cells_trace, &g->probe);
+    solver_add_nodes(&g->loops, world, world->kernels->cells_respond, &g->probe, NULL);
 }
 
 /* 4 m |u|^2. */
@@ -222,11 +240,14 @@ static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
 
 void guess_begin(World *world, const ContactFrame *contacts)
 {
-    const Guess g = guess_of(world, contacts);
+    Guess g;
+    open_guess(&g, world, contacts);
     over_cells(&g, press_everywhere);
     respond(&g, g.response);
-    const Totals totals = over_cells(&g, weigh_cells);
-    multilevel_weigh(&world->guess.multilevel, world->pool, g.direction, g.better, 1.0);
+    sum_over_cells(&g, weigh_cells);
+    multilevel_weigh(&world->guess.multilevel, &g.loops, g.direction, g.better, 1.0);
+    loops_run(&g.loops);
+    const Totals totals = totals_of(world);
     world->guess.closed = is_closed(world, totals.sum[0], totals.sum[1]);
 }
 
@@ -268,11 +289,11 @@ static void scale_residual(const Guess *g, size_t begin, size_t end)
 /* better = B residual, among the cells of the mask, after scale_residual(). Returns <residual, better>. */
 static double precondition(Guess *g)
 {
-    multilevel_add(&g->world->guess.multilevel, g->world->pool, g->response, g->better);
-    const double size = over_cells(g, mask_better).sum[0];
+    multilevel_add(&g->world->guess.multilevel, &g->loops, g->response, g->better);
+    const double size = run_and_sum(g, mask_better).sum[0];
     if (!g->world->guess.closed) return size;
-    g->mean = mean_of(over_cells(g, sum_better));
-    return over_cells(g, take_mean_of_better).sum[0];
+    g->mean = mean_of(run_and_sum(g, sum_better));
+    return run_and_sum(g, take_mean_of_better).sum[0];
 }
 
 /* ---- The solution ---- */
@@ -351,18 +372,18 @@ static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
 /* Conjugate gradients; the last iteration finds no new residual, for nobody would use it. */
 void guess_solve(World *world, const ContactFrame *contacts, int iterations)
 {
-    Guess g = guess_of(world, contacts);
+    Guess g;
+    open_guess(&g, world, contacts);
     trace(&g);
     over_cells(&g, find_residual);
-    g.mean = world->guess.closed ? mean_of(over_cells(&g, sum_residual)) : 0.0f;
+    if (world->guess.closed) g.mean = mean_of(run_and_sum(&g, sum_residual));
     over_cells(&g, start_direction);
     double size = precondition(&g);
-    g.keep = g.step = 0.0f;
     for (int left = iterations; left > 0 && size > 0.0 && !solver_time_is_up(world); left--) {
         over_cells(&g, turn_direction);
         respond(&g, g.direction);
         if (left > 1) trace(&g);
-        const double curvature = over_cells(&g, left > 1 ? soften_response : sum_curvature).sum[0];
+        const double curvature = run_and_sum(&g, left > 1 ? soften_response : sum_curvature).sum[0];
         g.step = curvature > 0.0 ? (float)(size / curvature) : 0.0f;
         if (left == 1 || !(curvature > 0.0)) break;
         over_cells(&g, step_and_go_on);
@@ -372,6 +393,7 @@ void guess_solve(World *world, const ContactFrame *contacts, int iterations)
         size = next;
     }
     over_cells(&g, step_and_stop);
+    loops_run(&g.loops);
 }
 
 /* With u the best displacements for the pressures p among those that are admissible, the value of
@@ -392,21 +414,21 @@ static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
     }
 }
 
-double guess_gain(World *world)
+double guess_gain(World *world, Loops *loops)
 {
-    const Guess g = guess_of(world, NULL);
-    return over_cells(&g, sum_gain).sum[0];
+    Guess g;
+    open_guess(&g, world, NULL);
+    const CellJob job = {&g, sum_gain, true};
+    LOOPS_ADD(loops, grid_nodes(&world->grid, GRAIN), work_on_blocks, &job);
+    loops_run(loops);
+    return totals_of(world).sum[0];
 }
 
-static void take_back(const Guess *g, size_t begin, size_t end, double *sum)
+static void take_back(void *context, int32_t begin, int32_t end)
 {
-    (void)sum;
-    const KernelArgs *a = &g->world->args;
-    memcpy(a->cell_pressure + begin, a->cell_pressure_old + begin, (end - begin) * sizeof(float));
+    const World *world = *(World **)context;
+    const size_t cells = (size_t)world->grid.block_cells, first = (size_t)begin * cells, count = (size_t)(end - begin) * cells;
+    memcpy(world->args.cell_pressure + first, world->args.cell_pressure_old + first, count * sizeof(float));
 }
 
-void guess_take_back(World *world)
-{
-    const Guess g = guess_of(world, NULL);
-    over_cells(&g, take_back);
-}
+void guess_take_back(World *world, Loops *loops) { LOOPS_ADD(loops, grid_nodes(&world->grid, GRAIN), take_back, &world); }

@@ -24,10 +24,10 @@ void guess_begin(World *world, const ContactFrame *contacts);
  * in disorder. */
 void guess_solve(World *world, const ContactFrame *contacts, int iterations);
 
-/* How good args.cell_pressure is, whose displacements the nodes hold: greater is better. */
-double guess_gain(World *world);
+/* Runs the loops, after which the nodes hold the displacements of args.cell_pressure, and returns how good that is: greater is better. */
+double guess_gain(World *world, Loops *loops);
 
-/* Back to the pressures before guess_solve(). */
-void guess_take_back(World *world);
+/* Adds a loop that goes back to the pressures before guess_solve(). */
+void guess_take_back(World *world, Loops *loops);
 
 #endif

@@ -202,8 +202,11 @@ static pbmpm_result build_groups(World *world)
         grid_clear(&world->grid);
         return result;
     }
-    particles_reorder(p, world->grid.order, 0, world->pool);
-    for (int g = 0; g < islands->groups; g++) grid_link_part(g == 0 ? &world->grid : &islands->part[g], p, world->pool);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    particles_reorder(p, world->grid.order, 0, &loops);
+    for (int g = 0; g < islands->groups; g++) grid_link_part(g == 0 ? &world->grid : &islands->part[g], p, &loops);
+    loops_run(&loops);
     return PBMPM_OK;
 }
 

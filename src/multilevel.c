@@ -167,6 +167,7 @@ typedef struct TransferJob {
     const Level *finer;
     const float *from;
     float *to;
+    const float *factor; /* null: 1. Up: of the sums; down: of what is added to */
     int width;
 } TransferJob;
 
@@ -228,6 +229,15 @@ static inline void restrict_block(const TransferJob *job, int32_t block, int wid
     if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
 }
 
+static void scale_block(const TransferJob *job, int32_t block)
+{
+    const size_t floats = (size_t)(job->m->block_cells * job->width), begin = (size_t)block * floats;
+    if (!job->factor) return;
+    float *restrict to = job->to + begin;
+    const float *restrict factor = job->factor + begin;
+    for (size_t i = 0; i < floats; i++) to[i] *= factor[i];
+}
+
 static void restrict_blocks(void *context, int32_t begin, int32_t end)
 {
     const TransferJob *job = context;
@@ -236,13 +246,20 @@ static void restrict_blocks(void *context, int32_t begin, int32_t end)
             restrict_block(job, block, 1);
         else
             restrict_block(job, block, W);
+        scale_block(job, block);
     }
 }
 
-static void restrict_to(const Multilevel *m, Pool *pool, int l, int width, const float *from, float *to)
+static Span span_of(const Multilevel *m, int l, int width)
 {
-    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, width};
-    pool_for(pool, m->level[l].blocks, BLOCK_GRAIN, restrict_blocks, &job);
+    const int32_t blocks = m->level[l].blocks;
+    return (Span){blocks, BLOCK_GRAIN, (int64_t)blocks * m->block_cells * width * NODE_NS};
+}
+
+static void restrict_to(const Multilevel *m, Loops *loops, int l, int width, const float *from, float *to, const float *factor)
+{
+    const TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, factor, width};
+    LOOPS_ADD(loops, span_of(m, l, width), restrict_blocks, &job);
 }
 
 /* ---- Down: interpolation ---- */
@@ -292,6 +309,7 @@ static void prolong_blocks(void *context, int32_t begin, int32_t end)
 {
     const TransferJob *job = context;
     for (int32_t block = begin; block < end; block++) {
+        scale_block(job, block);
         if (job->width == 1)
             prolong_block(job, block, 1);
         else
@@ -299,10 +317,10 @@ static void prolong_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-static void prolong_from(const Multilevel *m, Pool *pool, int l, const float *from, float *to)
+static void prolong_from(const Multilevel *m, Loops *loops, int l, const float *from, float *to, const float *factor)
 {
-    TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, m->width};
-    pool_for(pool, m->level[l - 1].blocks, BLOCK_GRAIN, prolong_blocks, &job);
+    const TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, factor, m->width};
+    LOOPS_ADD(loops, span_of(m, l - 1, m->width), prolong_blocks, &job);
 }
 
 /* ---- The operator ---- */
@@ -325,41 +343,27 @@ static void invert_blocks(void *context, int32_t begin, int32_t end)
         }
 }
 
-void multilevel_weigh(Multilevel *m, Pool *pool, const float *mass, const float *stiffness, double overlap)
+void multilevel_weigh(const Multilevel *m, Loops *loops, const float *mass, const float *stiffness, double overlap)
 {
     const double d = m->dimension;
     for (int l = 1; l < m->levels; l++) {
         const Level *level = &m->level[l], *finer = &m->level[l - 1];
-        restrict_to(m, pool, l, m->width, l == 1 ? mass : finer->inverse.data, level->inverse.data);
-        restrict_to(m, pool, l, 1, l == 1 ? stiffness : finer->vector.data, level->vector.data);
+        restrict_to(m, loops, l, m->width, l == 1 ? mass : finer->inverse.data, level->inverse.data, NULL);
+        restrict_to(m, loops, l, 1, l == 1 ? stiffness : finer->vector.data, level->vector.data, NULL);
     }
     for (int l = 1; l < m->levels; l++) {
-        InvertJob job = {m->level[l].vector.data, m->level[l].inverse.data, (float)pow(2.0 / 3.0, d),
-                         (float)(overlap * 0.5 * d * pow(2.0 / 3.0, d - 1.0) * pow(0.25, l)), m->block_cells, m->width};
-        pool_for(pool, m->level[l].blocks, BLOCK_GRAIN, invert_blocks, &job);
+        const InvertJob job = {m->level[l].vector.data, m->level[l].inverse.data, (float)pow(2.0 / 3.0, d),
+                               (float)(overlap * 0.5 * d * pow(2.0 / 3.0, d - 1.0) * pow(0.25, l)), m->block_cells, m->width};
+        LOOPS_ADD(loops, span_of(m, l, m->width), invert_blocks, &job);
     }
 }
 
-typedef struct ScaleJob {
-    const float *inverse;
-    float *vector;
-    int floats;
-} ScaleJob;
-
-static void scale_blocks(void *context, int32_t begin, int32_t end)
+/* On the way down each level is scaled before the next coarser one is added; nothing comes to the coarsest, which is scaled at once. */
+void multilevel_add(const Multilevel *m, Loops *loops, const float *r, float *z)
 {
-    const ScaleJob *job = context;
-    for (size_t i = (size_t)begin * (size_t)job->floats; i < (size_t)end * (size_t)job->floats; i++) job->vector[i] *= job->inverse[i];
-}
-
-void multilevel_add(Multilevel *m, Pool *pool, const float *r, float *z)
-{
-    for (int l = 1; l < m->levels; l++) restrict_to(m, pool, l, m->width, l == 1 ? r : m->level[l - 1].vector.data, m->level[l].vector.data);
-    for (int l = m->levels - 1; l >= 1; l--) {
-        Level *level = &m->level[l];
-        ScaleJob job = {level->inverse.data, level->vector.data, m->block_cells * m->width};
-        pool_for(pool, level->blocks, BLOCK_GRAIN, scale_blocks, &job);
-        if (l + 1 < m->levels) prolong_from(m, pool, l + 1, m->level[l + 1].vector.data, level->vector.data);
-    }
-    if (m->levels > 1) prolong_from(m, pool, 1, m->level[1].vector.data, z);
+    const int last = m->levels - 1;
+    for (int l = 1; l <= last; l++)
+        restrict_to(m, loops, l, m->width, l == 1 ? r : m->level[l - 1].vector.data, m->level[l].vector.data, l == last ? m->level[l].inverse.data : NULL);
+    for (int l = last; l > 1; l--) prolong_from(m, loops, l, m->level[l].vector.data, m->level[l - 1].vector.data, m->level[l - 1].inverse.data);
+    if (last >= 1) prolong_from(m, loops, 1, m->level[1].vector.data, z, NULL);
 }

@@ -47,11 +47,13 @@ typedef struct Multilevel {
 bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end);
 void multilevel_free(Multilevel *m, Memory *memory);
 
-/* The diagonals, from m (`width` floats per node of the grid) and k (one float per node). `overlap`: the number of levels that correct the same smooth
+/* What follows adds its loops to others.
+ *
+ * The diagonals, from m (`width` floats per node of the grid) and k (one float per node). `overlap`: the number of levels that correct the same smooth
  * motion. */
-void multilevel_weigh(Multilevel *m, Pool *pool, const float *mass, const float *stiffness, double overlap);
+void multilevel_weigh(const Multilevel *m, Loops *loops, const float *mass, const float *stiffness, double overlap);
 
 /* z += sum_l P_l (1 / D_l) P_l^T r; both have `width` floats per node of the grid. */
-void multilevel_add(Multilevel *m, Pool *pool, const float *r, float *z);
+void multilevel_add(const Multilevel *m, Loops *loops, const float *r, float *z);
 
 #endif

@@ -151,9 +151,12 @@ void paper_set_materials(World *world, float dt)
 void paper_solve(World *world, const ContactFrame *contacts)
 {
     const int count = world->settings.iterations;
+    Loops loops;
+    loops_open(&loops, world->pool);
     for (int i = 0; i < count; i++) {
-        solver_over_particles(world, world->kernels->iterate);
-        solver_over_nodes(world, world->kernels->update_nodes, contacts);
+        solver_add_rows(&loops, world, world->kernels->iterate, &world->args);
+        solver_add_nodes(&loops, world, world->kernels->update_nodes, &world->args, contacts);
     }
+    loops_run(&loops);
     world->record.iterations_used = (uint32_t)count;
 }

@@ -259,11 +259,13 @@ void particles_compact(Particles *p, uint32_t first)
     particles_changed(p);
 }
 
+/* One field, which goes from its own memory to the spare of its class, or back. */
 typedef struct Reorder {
-    const Particles *particles;
     const uint32_t *order;
-    const Field *field;
-    int32_t first;
+    char *from, *to;
+    size_t array_bytes;
+    uint32_t first;
+    int class, components;
 } Reorder;
 
 static void reorder_4(const uint32_t *restrict order, const uint32_t *restrict from, uint32_t *restrict to, int32_t begin, int32_t end)
@@ -279,17 +281,26 @@ static void reorder_8(const uint32_t *restrict order, const uint64_t *restrict f
 static void reorder_field(void *context, int32_t begin, int32_t end)
 {
     const Reorder *job = context;
-    const Particles *p = job->particles;
-    const int class = job->field->class;
-    begin += job->first;
-    end += job->first;
-    if (class == CLASS_ID) {
-        reorder_8(job->order, (const uint64_t *)(void *)p->id, (uint64_t *)(void *)p->spare[class], begin, end);
+    begin += (int32_t)job->first;
+    end += (int32_t)job->first;
+    if (job->class == CLASS_ID) {
+        reorder_8(job->order, (const uint64_t *)(void *)job->from, (uint64_t *)(void *)job->to, begin, end);
         return;
     }
-    for (int c = 0; c < particles_components(p, class); c++) {
-        uint32_t *to = (uint32_t *)(void *)(p->spare[class] + (size_t)c * p->array_bytes);
-        reorder_4(job->order, *job->field->component[c], to, begin, end);
+    for (int c = 0; c < job->components; c++) {
+        const size_t array = (size_t)c * job->array_bytes;
+        reorder_4(job->order, (const uint32_t *)(void *)(job->from + array), (uint32_t *)(void *)(job->to + array), begin, end);
+    }
+}
+
+/* From where it was sorted to back to where it came from. */
+static void copy_back(void *context, int32_t begin, int32_t end)
+{
+    const Reorder *job = context;
+    const size_t size = particles_element_size(job->class), at = ((size_t)job->first + (size_t)begin) * size;
+    for (int c = 0; c < job->components; c++) {
+        const size_t array = (size_t)c * job->array_bytes + at; /* identifiers have one component */
+        memcpy(job->from + array, job->to + array, (size_t)(end - begin) * size);
     }
 }
 
@@ -309,26 +320,20 @@ static void pad(const Particles *p)
     }
 }
 
-/* From the spare back to where it came from. */
-static void copy_back(const Particles *p, const Field *field, uint32_t first)
-{
-    const size_t size = particles_element_size(field->class);
-    for (int c = 0; c < particles_components(p, field->class); c++) {
-        const char *sorted = p->spare[field->class] + (size_t)c * p->array_bytes; /* identifiers have one component */
-        memcpy((char *)*field->component[c] + first * size, sorted + first * size, (p->count - first) * size);
-    }
-}
+typedef struct Adopt {
+    Particles *particles;
+    bool swaps;
+} Adopt;
 
-void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Pool *pool)
+/* What was sorted into the spares becomes the fields, and what they were the spares of those that follow. */
+static void adopt(void *context, int32_t begin, int32_t end)
 {
-    for (int i = 0; i < p->field_count; i++) {
+    const Adopt *job = context;
+    Particles *p = job->particles;
+    (void)begin;
+    (void)end;
+    for (int i = 0; i < p->field_count && job->swaps; i++) {
         Field *field = &p->field[i];
-        Reorder job = {p, order, field, (int32_t)first};
-        pool_for(pool, (int32_t)(p->count - first), ROW_GRAIN, reorder_field, &job);
-        if (first > 0) {
-            copy_back(p, field, first);
-            continue;
-        }
         char *sorted = p->spare[field->class];
         p->spare[field->class] = field->base;
         field->base = sorted;
@@ -337,6 +342,26 @@ void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Pool
     pad(p);
     p->rows_valid = false;
     particles_changed(p);
+}
+
+void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Loops *loops)
+{
+    const Adopt last = {p, first == 0};
+    char *spare[CLASS_COUNT];
+    memcpy(spare, p->spare, sizeof spare);
+    for (int i = 0; i < p->field_count; i++) {
+        const Field *field = &p->field[i];
+        const int components = particles_components(p, field->class);
+        const uint32_t count = p->count - first;
+        const Reorder job = {order, field->base, spare[field->class], p->array_bytes, first, field->class, components};
+        const Span rows = {(int32_t)count, ROW_GRAIN, (int64_t)count * components};
+        LOOPS_ADD(loops, rows, reorder_field, &job);
+        if (first > 0)
+            LOOPS_ADD(loops, rows, copy_back, &job);
+        else
+            spare[field->class] = field->base;
+    }
+    LOOPS_ADD(loops, span_once(), adopt, &last);
 }
 
 void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count)

@@ -128,8 +128,8 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
 /* Removes the particles from row `first` on whose status is not K_ALIVE; the others keep their order. */
 void particles_compact(Particles *p, uint32_t first);
 
-/* Brings all fields into the order new[i] = old[order[i]], for the rows from `first` on. */
-void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Pool *pool);
+/* Brings all fields into the order new[i] = old[order[i]], for the rows from `first` on. Adds its loops to others. */
+void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Loops *loops);
 
 /* Exchanges `count` rows from `a` on with those from `b` on; the two do not overlap. */
 void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count);

@@ -1,7 +1,8 @@
 #include "pool.h"
 
 #include <pthread.h>
-#include <stdatomic.h>
+#include <sched.h>
+#include <string.h>
 #include <xmmintrin.h>
 
 #include "cpu.h"
@@ -11,20 +12,20 @@
 /* How long a thread looks for work or for the end of it before it sleeps: some 20 microseconds. */
 enum { SPIN_ROUNDS = 400 };
 
-typedef struct Loop {
-    RangeTask *task;
-    void *context;
-    int32_t count;
-    int32_t grain;
-    atomic_int next;
-} Loop;
+/* How often one that waits for others in the middle of loops lets other threads run before it leaves. A call takes some 0.5 microseconds, so they are about as
+ * long as a scheduler keeps one who works from its core. */
+enum { YIELD_ROUNDS = 8000 };
+
+/* What a fork-join of two threads takes if there is nothing to do: 27 microseconds on own ones that sleep, 15 in a job system with condition variables
+ * (medians on a virtual machine). Two threads save half of the work; what saves less than that runs on the caller. */
+enum { FORK_JOIN_NS = 20000, WORTH_A_FORK_NS = 2 * FORK_JOIN_NS };
 
 struct Pool {
     pbmpm_task_hooks hooks;
     int threads;
     int spin_rounds;
     bool serial;
-    Loop loop;
+    Loops *loops; /* under way */
 
     /* Own threads only. */
     pthread_mutex_t lock;
@@ -38,22 +39,52 @@ struct Pool {
 
 static size_t pool_bytes(int threads) { return sizeof(Pool) + (size_t)threads * sizeof(pthread_t); }
 
-static void run_share(Loop *loop)
+/* Takes ranges until there are none. */
+static void take_ranges(Loop *loop)
 {
-    const uint32_t mode = float_mode_enter();
+    int32_t done = 0;
     for (;;) {
         const int32_t begin = atomic_fetch_add_explicit(&loop->next, loop->grain, memory_order_relaxed);
         if (begin >= loop->count) break;
         const int32_t end = loop->count - begin < loop->grain ? loop->count : begin + loop->grain;
         loop->task(loop->context, begin, end);
+        done += end - begin;
+    }
+    if (done > 0) atomic_fetch_sub_explicit(&loop->left, done, memory_order_acq_rel);
+}
+
+static bool is_done(Loop *loop) { return atomic_load_explicit(&loop->left, memory_order_acquire) == 0; }
+
+/* Waits for those who still work on the loop. False: one of them has lost its core, and waiting would keep that from it. */
+static bool wait_for_rest(Loop *loop, int spin_rounds)
+{
+    for (int i = 0; i < spin_rounds; i++) {
+        if (is_done(loop)) return true;
+        _mm_pause();
+    }
+    for (int i = 0; i < YIELD_ROUNDS; i++) {
+        if (is_done(loop)) return true;
+        sched_yield();
+    }
+    return is_done(loop);
+}
+
+/* Who does the last item of a loop need not wait, and so comes to the end: the others may leave. */
+static void run_share(Loops *loops, int spin_rounds)
+{
+    const uint32_t mode = float_mode_enter();
+    for (int i = 0; i < loops->count; i++) {
+        take_ranges(&loops->loop[i]);
+        if (i + 1 < loops->count && !wait_for_rest(&loops->loop[i], spin_rounds)) break;
     }
     float_mode_leave(mode);
 }
 
 static void host_task(int32_t index, void *context)
 {
+    Pool *pool = context;
     (void)index;
-    run_share(context);
+    run_share(pool->loops, pool->spin_rounds);
 }
 
 /* Returns the number of the next loop, or the same number when the pool stops. */
@@ -77,7 +108,7 @@ static void *worker_main(void *context)
         const unsigned round = wait_for_work(pool, seen);
         if (round == seen) continue;
         seen = round;
-        run_share(&pool->loop);
+        run_share(pool->loops, pool->spin_rounds);
         if (atomic_fetch_sub(&pool->running, 1) == 1) {
             pthread_mutex_lock(&pool->lock);
             pthread_cond_signal(&pool->done);
@@ -155,6 +186,32 @@ int pool_thread_count(const Pool *pool) { return pool->threads; }
 
 void pool_set_serial(Pool *pool, bool serial) { pool->serial = serial; }
 
+static void fork_join(Pool *pool, Loops *loops)
+{
+    pool->loops = loops;
+    if (pool->hooks.enqueue) {
+        const uint32_t mode = float_mode_lend();
+        void *handle = pool->hooks.enqueue(host_task, pool->threads, pool, pool->hooks.user);
+        pool->hooks.finish(handle, pool->hooks.user);
+        float_mode_take_back(mode);
+        return;
+    }
+    start_round(pool);
+    run_share(loops, pool->spin_rounds);
+    finish_round(pool);
+}
+
+typedef struct PointerJob {
+    RangeTask *task;
+    void *context;
+} PointerJob;
+
+static void run_pointed(void *context, int32_t begin, int32_t end)
+{
+    const PointerJob *job = context;
+    job->task(job->context, begin, end);
+}
+
 void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *context)
 {
     if (count <= 0) return;
@@ -162,20 +219,43 @@ void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *c
         task(context, 0, count);
         return;
     }
-    Loop *loop = &pool->loop;
+    Loops loops;
+    loops_open(&loops, pool);
+    const PointerJob job = {task, context};
+    LOOPS_ADD(&loops, ((Span){count, grain, WORTH_A_FORK_NS}), run_pointed, &job);
+    fork_join(pool, &loops);
+}
+
+/* ---- Loops that follow one another ---- */
+
+void loops_open(Loops *loops, Pool *pool)
+{
+    loops->pool = pool;
+    loops->count = 0;
+    loops->ns = 0;
+}
+
+void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, size_t bytes)
+{
+    if (span.count <= 0) return;
+    if (loops->count == LOOPS_MAX) loops_run(loops);
+    Loop *loop = &loops->loop[loops->count++];
+    memcpy(loop->context, context, bytes);
     loop->task = task;
-    loop->context = context;
-    loop->count = count;
-    loop->grain = grain;
-    atomic_store(&loop->next, 0);
-    if (pool->hooks.enqueue) {
-        const uint32_t mode = float_mode_lend();
-        void *handle = pool->hooks.enqueue(host_task, pool->threads, loop, pool->hooks.user);
-        pool->hooks.finish(handle, pool->hooks.user);
-        float_mode_take_back(mode);
-        return;
+    loop->count = span.count;
+    loop->grain = span.grain;
+    atomic_init(&loop->next, 0);
+    atomic_init(&loop->left, span.count);
+    loops->ns += span.ns;
+}
+
+void loops_run(Loops *loops)
+{
+    Pool *pool = loops->pool;
+    if (pool->serial || pool->threads == 1 || loops->ns < WORTH_A_FORK_NS) {
+        for (int i = 0; i < loops->count; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
+    } else {
+        fork_join(pool, loops);
     }
-    start_round(pool);
-    run_share(loop);
-    finish_round(pool);
+    loops_open(loops, pool);
 }

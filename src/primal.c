@@ -107,17 +107,31 @@ static void run_pass(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* The sums of the blocks are added in order, so they do not depend on the number of threads. */
-void primal_over_blocks(Primal *p, BlockPass *pass)
+static void add_pass(Primal *p, Loops *loops, BlockPass *pass)
 {
-    PassJob job = {p, pass};
+    const PassJob job = {p, pass};
+    const Span nodes = grid_nodes(&p->world->grid, BLOCK_GRAIN);
+    LOOPS_ADD(loops, nodes, run_pass, &job);
+}
+
+/* Runs the loops, and sums what the last pass did. The sums of the blocks are added in order, so they do not depend on the number of threads. */
+static void run_and_sum(Primal *p, Loops *loops)
+{
     const int32_t blocks = p->world->grid.node_blocks;
     const double *sums = p->world->primal.sums.data;
-    pool_for(p->world->pool, blocks, BLOCK_GRAIN, run_pass, &job);
+    loops_run(loops);
     double total[SUMS] = {0};
     for (int32_t block = 0; block < blocks; block++)
         for (int i = 0; i < SUMS; i++) total[i] += sums[(size_t)block * SUMS + (size_t)i];
     memcpy(p->total, total, sizeof total);
+}
+
+void primal_over_blocks(Primal *p, BlockPass *pass)
+{
+    Loops loops;
+    loops_open(&loops, p->world->pool);
+    add_pass(p, &loops, pass);
+    run_and_sum(p, &loops);
 }
 
 /* Over one block, whose few products per lane are added in single precision. The last float of a node is 0 in one of the two. */
@@ -182,15 +196,24 @@ static double sum_energies(const Primal *p)
     return sum;
 }
 
-/* At p->node. */
-void primal_evaluate(Primal *p)
+/* At p->node, which the loops leave. */
+static void evaluate_after(Primal *p, Loops *loops, Kernel *force)
 {
-    solver_over_particles(p->world, p->world->kernels->force);
-    solver_over_nodes(p->world, p->world->kernels->force_nodes, NULL);
-    primal_over_blocks(p, finish_gradient);
+    World *world = p->world;
+    solver_add_rows(loops, world, force, &world->args);
+    solver_add_nodes(loops, world, world->kernels->force_nodes, &world->args, NULL);
+    add_pass(p, loops, finish_gradient);
+    run_and_sum(p, loops);
     p->trial_energy = p->total[0] + sum_energies(p);
     p->slope_before = p->total[1];
     p->slope_after = p->total[2];
+}
+
+void primal_evaluate(Primal *p)
+{
+    Loops loops;
+    loops_open(&loops, p->world->pool);
+    evaluate_after(p, &loops, p->world->kernels->force);
 }
 
 /* Levels straddle what has come apart: a droplet that feels no pressure would be flung by the correction of matter around it that does. So nodes of
@@ -404,19 +427,23 @@ static void add_steps(Primal *p, int32_t block, size_t begin, size_t end, double
 double primal_find_direction(Primal *p)
 {
     double coefficient[PRIMAL_MEMORY];
+    Loops loops;
+    loops_open(&loops, p->world->pool);
     for (int i = 0; i < p->pairs; i++) {
         double along = p->first[i]; /* of what is left of the gradient */
         for (int j = 0; j < i; j++) along -= p->first[j] * p->product[j][i];
         p->first[i] = along / p->product[i][i];
     }
     if (p->rigid) primal_weigh_rigid(p);
-    primal_over_blocks(p, add_changes);
+    add_pass(p, &loops, add_changes);
     if (p->rigid) {
+        run_and_sum(p, &loops);
         primal_solve_rigid(p);
-        primal_over_blocks(p, deflate);
+        add_pass(p, &loops, deflate);
     }
-    multilevel_add(&p->world->primal.multilevel, p->world->pool, p->force, p->direction);
-    primal_over_blocks(p, project_direction);
+    multilevel_add(&p->world->primal.multilevel, &loops, p->force, p->direction);
+    add_pass(p, &loops, project_direction);
+    run_and_sum(p, &loops);
     if (p->rigid) {
         primal_correct_rigid(p);
         primal_over_blocks(p, add_rigid);
@@ -464,9 +491,11 @@ static float shorter(const Primal *p)
 static bool descend(Primal *p, uint32_t *passes, uint32_t most)
 {
     bool last = *passes == 0 && most == 1 && solver_holds_liquid(p->world);
+    Loops loops;
+    loops_open(&loops, p->world->pool);
     for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
-        primal_over_blocks(p, try_step);
-        primal_evaluate(p);
+        add_pass(p, &loops, try_step);
+        evaluate_after(p, &loops, p->world->kernels->force);
         ++*passes;
         const bool shortens = last && is_good(p) && is_too_long(p);
         if (shortens) most++;
@@ -585,16 +614,16 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     primal_find_leaning(&p);
     primal_find_rigid(&p);
     p.mixed = primal_is_mixed(world) && !p.joint;
-    primal_over_blocks(&p, start);
-    solver_over_particles(world, world->kernels->force_first);
-    solver_over_nodes(world, world->kernels->force_nodes, NULL);
-    primal_over_blocks(&p, finish_gradient);
-    p.trial_energy = p.total[0] + sum_energies(&p);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    add_pass(&p, &loops, start);
+    evaluate_after(&p, &loops, world->kernels->force_first);
     primal_accept(&p, false);
-    primal_over_blocks(&p, weigh_nodes);
+    add_pass(&p, &loops, weigh_nodes);
+    multilevel_weigh(&world->primal.multilevel, &loops, p.change[0], p.change[1], OVERLAP);
+    run_and_sum(&p, &loops);
     p.mass = fmax(p.total[0], 1e-30);
     primal_note_stiffness(&p);
-    multilevel_weigh(&world->primal.multilevel, world->pool, p.change[0], p.change[1], OVERLAP);
     primal_choose_start(&p);
     return p;
 }

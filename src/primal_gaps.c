@@ -228,10 +228,13 @@ static void widen_blocks(void *context, int32_t begin, int32_t end)
 void primal_widen_gaps(Primal *p)
 {
     World *world = p->world;
-    GapJob job = {p, world->grid.tile.data, p->force, (size_t)world->grid.tile_nodes * W + K_TILE_PAD};
+    const GapJob job = {p, world->grid.tile.data, p->force, (size_t)world->grid.tile_nodes * W + K_TILE_PAD};
     if (p->contacts->colliders->contacts == 0 || p->contacts->colliders->obstacle_count == 0) return;
-    pool_for(world->pool, world->grid.particle_blocks, 4, measure_blocks, &job);
-    pool_for(world->pool, world->grid.node_blocks, 8, gather_least, &job);
-    pool_for(world->pool, world->grid.particle_blocks, 4, spread_blocks, &job);
-    pool_for(world->pool, world->grid.node_blocks, 8, widen_blocks, &job);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    LOOPS_ADD(&loops, grid_rows(&world->grid, 4), measure_blocks, &job);
+    LOOPS_ADD(&loops, grid_nodes(&world->grid, 8), gather_least, &job);
+    LOOPS_ADD(&loops, grid_rows(&world->grid, 4), spread_blocks, &job);
+    LOOPS_ADD(&loops, grid_nodes(&world->grid, 8), widen_blocks, &job);
+    loops_run(&loops);
 }

@@ -34,12 +34,15 @@ void rounds_begin(World *world)
     RoundsState *rounds = &world->dual.rounds;
     uint8_t *mark = rounds->mark.data;
     int32_t *solid = rounds->solid.data, *touched = rounds->touched.data;
+    const uint32_t *block_begin = grid->block_begin.data;
     rounds->solids = rounds->touches = 0;
+    rounds->rows = 0;
     memset(mark, 0, (size_t)grid->node_blocks);
     for (int32_t block = 0; block < grid->particle_blocks; block++) {
         if (!holds_solid(world, block)) continue;
         const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
         solid[rounds->solids++] = block;
+        rounds->rows += block_begin[block + 1] - block_begin[block];
         for (int n = 0; n < grid->neighbours; n++)
             if (neighbour[n] >= 0) mark[neighbour[n]] = 1;
     }
@@ -59,12 +62,21 @@ static void run_list(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) job->kernel(&job->world->args, job->list[i], job->list[i] + 1);
 }
 
-static void push_touched(World *world, const ContactFrame *contacts)
+static void add_iterate(World *world, Loops *loops)
 {
     const RoundsState *rounds = &world->dual.rounds;
-    ListJob job = {world, world->kernels->push_nodes, rounds->touched.data};
-    pool_for(world->pool, rounds->touches, BLOCK_GRAIN, run_list, &job);
-    walls_apply(&world->walls, contacts, world->pool, false, rounds->mark.data);
+    const ListJob job = {world, world->kernels->dual_iterate, rounds->solid.data};
+    const Span solids = {rounds->solids, BLOCK_GRAIN, rounds->rows * PARTICLE_NS};
+    LOOPS_ADD(loops, solids, run_list, &job);
+}
+
+static void add_push(World *world, Loops *loops, const ContactFrame *contacts)
+{
+    const RoundsState *rounds = &world->dual.rounds;
+    const ListJob job = {world, world->kernels->push_nodes, rounds->touched.data};
+    const Span touched = {rounds->touches, BLOCK_GRAIN, (int64_t)rounds->touches * world->grid.block_cells * NODE_NS};
+    LOOPS_ADD(loops, touched, run_list, &job);
+    walls_add(&world->walls, contacts, loops, false, rounds->mark.data);
 }
 
 static double uphill_of(const World *world)
@@ -80,12 +92,16 @@ static double uphill_of(const World *world)
 void rounds_run(World *world, const ContactFrame *contacts, int rounds)
 {
     Acceleration acceleration = acceleration_begin(world);
+    Loops loops;
     bool more = rounds > 0 && world->dual.rounds.solids > 0;
+    loops_open(&loops, world->pool);
+    if (more) add_iterate(world, &loops);
+    loops_run(&loops);
     for (int round = 1; more; round++) {
-        ListJob job = {world, world->kernels->dual_iterate, world->dual.rounds.solid.data};
-        pool_for(world->pool, world->dual.rounds.solids, BLOCK_GRAIN, run_list, &job);
         more = round < rounds && !solver_time_is_up(world);
         acceleration_next(&acceleration, uphill_of(world) > 0.0, more);
-        push_touched(world, contacts);
+        add_push(world, &loops, contacts);
+        if (more) add_iterate(world, &loops);
+        loops_run(&loops);
     }
 }

@@ -211,10 +211,26 @@ static void run_kernel(void *context, int32_t begin, int32_t end)
     if (job->contacts) contacts_apply(job->contacts, begin, end);
 }
 
+void solver_add_rows(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args)
+{
+    const KernelJob job = {kernel, args, NULL};
+    LOOPS_ADD(loops, grid_rows(&world->grid, BLOCK_GRAIN), run_kernel, &job);
+}
+
+void solver_add_nodes(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args, const ContactFrame *contacts)
+{
+    const bool follows = contacts && walls_any(&world->walls); /* which needs all nodes */
+    const KernelJob job = {kernel, args, follows ? NULL : contacts};
+    LOOPS_ADD(loops, grid_nodes(&world->grid, 2 * BLOCK_GRAIN), run_kernel, &job);
+    if (follows) walls_add(&world->walls, contacts, loops, false, NULL);
+}
+
 void solver_over_particles(World *world, Kernel *kernel)
 {
-    KernelJob job = {kernel, &world->args, NULL};
-    pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, run_kernel, &job);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    solver_add_rows(&loops, world, kernel, &world->args);
+    loops_run(&loops);
 }
 
 void solver_over_still(World *world, Kernel *kernel)
@@ -225,18 +241,18 @@ void solver_over_still(World *world, Kernel *kernel)
 
 void solver_obey(World *world, const ContactFrame *contacts) { walls_apply(&world->walls, contacts, world->pool, false, NULL); }
 
-void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts)
+void solver_over_both(World *world, Kernel *rows, Kernel *nodes, const ContactFrame *contacts)
 {
-    const bool follows = contacts && walls_any(&world->walls); /* which needs all nodes */
-    KernelJob job = {kernel, &world->args, follows ? NULL : contacts};
-    pool_for(world->pool, world->grid.node_blocks, 2 * BLOCK_GRAIN, run_kernel, &job);
-    if (follows) solver_obey(world, contacts);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    solver_add_rows(&loops, world, rows, &world->args);
+    solver_add_nodes(&loops, world, nodes, &world->args, contacts);
+    loops_run(&loops);
 }
 
 void solver_predict(World *world)
 {
-    solver_over_particles(world, world->kernels->scatter);
-    solver_over_nodes(world, world->kernels->predict_nodes, NULL);
+    solver_over_both(world, world->kernels->scatter, world->kernels->predict_nodes, NULL);
     world->strain_unchecked = false;
 }
 
@@ -343,11 +359,20 @@ void solver_solve(World *world, const ContactFrame *contacts)
     kinds[record->solver].solve(world, contacts);
 }
 
-/* Stretches of blocks that move. */
-static void integrate_moving(void *context, int32_t begin, int32_t end)
+bool solver_ends_by_primal(const World *world) { return world->record.solver == PBMPM_SOLVER_PRIMAL || joint_is_chosen(world); }
+
+void solver_before_going(World *world)
 {
-    World *world = context;
-    for (int32_t block = begin, next; block < end; block = next) {
+    if (solver_ends_by_primal(world)) primal_before_going(world);
+}
+
+void solver_integrate(World *world, int32_t begin, int32_t end)
+{
+    if (world->grid.still_blocks == 0) {
+        world->kernels->integrate(&world->args, begin, end);
+        return;
+    }
+    for (int32_t block = begin, next; block < end; block = next) { /* stretches of blocks that move */
         next = block + 1;
         if (sleep_is_still(world, block)) continue;
         while (next < end && !sleep_is_still(world, next)) next++;
@@ -355,13 +380,7 @@ static void integrate_moving(void *context, int32_t begin, int32_t end)
     }
 }
 
-void solver_integrate(World *world, const ContactFrame *contacts)
+void solver_after_going(World *world, const ContactFrame *contacts)
 {
-    const bool by_primal = world->record.solver == PBMPM_SOLVER_PRIMAL || joint_is_chosen(world);
-    if (by_primal) primal_before_going(world);
-    if (world->grid.still_blocks > 0)
-        pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, integrate_moving, world);
-    else
-        solver_over_particles(world, world->kernels->integrate);
-    if (by_primal) primal_calm(world, contacts);
+    if (solver_ends_by_primal(world)) primal_calm(world, contacts);
 }

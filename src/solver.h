@@ -22,8 +22,15 @@ void solver_predict(World *world);
 /* Solves for the displacements of the nodes. `contacts`: what they obey. */
 void solver_solve(World *world, const ContactFrame *contacts);
 
-/* Last G2P: moves the particles and updates J and F. */
-void solver_integrate(World *world, const ContactFrame *contacts);
+/* Last G2P: moves the particles of these blocks and updates J and F. */
+void solver_integrate(World *world, int32_t begin, int32_t end);
+
+/* Before the first block and after the last one. */
+void solver_before_going(World *world);
+void solver_after_going(World *world, const ContactFrame *contacts);
+
+/* Whether solver_after_going() changes particles, by what all of them did. */
+bool solver_ends_by_primal(const World *world);
 
 /* ---- For the solvers ---- */
 
@@ -42,8 +49,12 @@ void solver_over_still(World *world, Kernel *kernel);
 /* Makes the motion of the nodes admissible at walls and contacts. */
 void solver_obey(World *world, const ContactFrame *contacts);
 
-/* Runs a kernel over all node blocks, and then makes the nodes obey `contacts` (may be null). */
-void solver_over_nodes(World *world, Kernel *kernel, const ContactFrame *contacts);
+/* Runs a kernel over all particle blocks, and then one over all node blocks, which then obey `contacts` (may be null). */
+void solver_over_both(World *world, Kernel *rows, Kernel *nodes, const ContactFrame *contacts);
+
+/* The same as loops that are added to others. *args and *contacts have to live as long as those. */
+void solver_add_rows(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args);
+void solver_add_nodes(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args, const ContactFrame *contacts);
 
 /* Whether the grid was built with a particle of a liquid. */
 bool solver_holds_liquid(const World *world);

@@ -14,7 +14,7 @@
 #include "solver.h"
 
 /* With fewer particles waking threads costs more than it brings. */
-enum { SERIAL_BELOW = 3000 };
+enum { SERIAL_BELOW = 3000, BLOCK_GRAIN = 2 };
 
 /* Adds the time since *since to *total and starts anew. */
 static void lap(double *total, double *since)
@@ -108,11 +108,11 @@ typedef struct PushJob {
     World *world;
     const ContactFrame *frame;
     float dt;
+    bool pushes_later; /* the solver has to see first where all particles went */
 } PushJob;
 
-static void push_out(void *context, int32_t begin, int32_t end)
+static void push_out(const PushJob *job, int32_t begin, int32_t end)
 {
-    const PushJob *job = context;
     for (int32_t block = begin; block < end; block++) {
         if (sleep_is_still(job->world, block))
             contacts_pass_over(job->frame, block);
@@ -121,11 +121,16 @@ static void push_out(void *context, int32_t begin, int32_t end)
     }
 }
 
-static void keep_places(void *context, int32_t begin, int32_t end)
+/* No block asks another one. */
+static void go_blocks(void *context, int32_t begin, int32_t end)
 {
     const PushJob *job = context;
-    contacts_keep_places(job->frame, &job->world->particles, begin, end);
+    if (job->world->colliders.used > 0) contacts_keep_places(job->frame, &job->world->particles, begin, end);
+    solver_integrate(job->world, begin, end);
+    if (!job->pushes_later) push_out(job, begin, end);
 }
+
+static void push_out_blocks(void *context, int32_t begin, int32_t end) { push_out(context, begin, end); }
 
 /* Without particles only the obstacles move. */
 static pbmpm_result empty_substep(World *world, int part)
@@ -193,12 +198,17 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
 /* They go, and what happened on the way is booked. Returns how many have to be removed. */
 static uint32_t go(World *world, float dt, int part, const ContactFrame *contacts)
 {
-    PushJob push = {world, contacts, dt};
-    if (world->colliders.used > 0) pool_for(world->pool, world->grid.particle_blocks, 8, keep_places, &push);
-    solver_integrate(world, contacts);
+    const PushJob push = {world, contacts, dt, solver_ends_by_primal(world)};
+    Loops loops;
+    loops_open(&loops, world->pool);
+    solver_before_going(world);
+    LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), go_blocks, &push);
+    loops_run(&loops);
+    solver_after_going(world, contacts);
     contacts_book(contacts, (double)dt); /* bodies that bounce off have scaled it */
     walls_book(&world->walls, contacts, (double)dt);
-    pool_for(world->pool, world->grid.particle_blocks, 8, push_out, &push);
+    if (push.pushes_later) LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), push_out_blocks, &push);
+    loops_run(&loops);
     contacts_book_push(contacts, &world->particles, dt);
     forces_account(&world->forces, world->grid.node_blocks);
     const uint32_t drained = sinks_mark(world, (uint32_t)part);

@@ -42,7 +42,6 @@ void viscosity_apply(World *world, const ContactFrame *contacts)
         a->stage_last = (float)((2.0 * j - 1.0) / j);
         a->stage_before = (float)((1.0 - j) / j);
         a->stage_change = 2.0f * a->stage_last / (float)(stages * stages + stages);
-        solver_over_particles(world, world->kernels->viscous);
-        solver_over_nodes(world, world->kernels->viscous_nodes, contacts);
+        solver_over_both(world, world->kernels->viscous, world->kernels->viscous_nodes, contacts);
     }
 }

@@ -4,7 +4,7 @@
 
 #include "walls_list.h"
 
-enum { SMALL = 256, GRAIN = 64 };
+enum { GRAIN = 64, WALL_NODE_NS = 20 };
 
 /* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
 typedef struct Vectors {
@@ -67,12 +67,11 @@ typedef struct ApplyJob {
     const Walls *walls;
     const ContactFrame *frame;
     Vectors v;
-    float *grid_node;
     float shifted; /* 1 with the walls' own motion, 0 without */
     const uint8_t *mark;
 } ApplyJob;
 
-static float *node_at(const ApplyJob *job, const WallNode *n) { return job->grid_node + (size_t)n->node * K_NODE_WIDTH; }
+static float *node_at(const ApplyJob *job, const WallNode *n) { return (float *)job->frame->grid->node.data + (size_t)n->node * K_NODE_WIDTH; }
 
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
@@ -143,15 +142,12 @@ static void take_free(void *context, int32_t begin, int32_t end)
 static void find_moved(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    for (int32_t i = begin; i < end; i++) spread(job, (uint32_t)i, job->v.moved[i]);
-}
-
-static void write_moved(void *context, int32_t begin, int32_t end)
-{
-    const ApplyJob *job = context;
     const WallNode *node = job->walls->node.data;
-    for (int32_t i = begin; i < end; i++)
-        for (int a = 0; a < 3; a++) node_at(job, &node[i])[a] = job->v.moved[i][a];
+    for (int32_t i = begin; i < end; i++) {
+        float *u = node_at(job, &node[i]);
+        spread(job, (uint32_t)i, job->v.moved[i]);
+        for (int a = 0; a < 3; a++) u[a] = job->v.moved[i][a];
+    }
 }
 
 /* What the wall gives to a node: m u - p, with what E^T brings to others and less what M counts of it there. The sum over all nodes is the change of momentum,
@@ -232,32 +228,28 @@ static void obey(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* Small loops run on the caller. */
-static void over(const Walls *walls, Pool *pool, RangeTask *task, ApplyJob *job)
+void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark)
 {
-    if (walls->nodes < SMALL)
-        task(job, 0, (int32_t)walls->nodes);
-    else
-        pool_for(pool, (int32_t)walls->nodes, GRAIN, task, job);
+    const ApplyJob job = {walls, frame, vectors_of(walls), linear ? 0.0f : 1.0f, mark};
+    const Span all = {(int32_t)walls->nodes, GRAIN, (int64_t)walls->nodes * WALL_NODE_NS};
+    LOOPS_ADD(loops, all, send_back, &job);
+    LOOPS_ADD(loops, all, find_free, &job);
+    if (frame->colliders->contacts > 0) LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
+    LOOPS_ADD(loops, all, take_free, &job);
+    LOOPS_ADD(loops, all, find_moved, &job);
+    if (walls->rubs && !linear) {
+        LOOPS_ADD(loops, all, press, &job);
+        LOOPS_ADD(loops, all, rub, &job);
+        LOOPS_ADD(loops, all, find_moved, &job);
+    }
 }
 
-void walls_apply(Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark)
+void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark)
 {
-    ApplyJob job = {walls, frame, vectors_of(walls), frame->grid->node.data, linear ? 0.0f : 1.0f, mark};
-    if (walls->nodes > 0) {
-        over(walls, pool, send_back, &job);
-        over(walls, pool, find_free, &job);
-    }
-    if (frame->colliders->contacts > 0) pool_for(pool, frame->grid->node_blocks, 4, obey, &job);
-    if (walls->nodes == 0) return;
-    over(walls, pool, take_free, &job);
-    over(walls, pool, find_moved, &job);
-    if (walls->rubs && !linear) {
-        over(walls, pool, press, &job);
-        over(walls, pool, rub, &job);
-        over(walls, pool, find_moved, &job);
-    }
-    over(walls, pool, write_moved, &job);
+    Loops loops;
+    loops_open(&loops, pool);
+    walls_add(walls, frame, &loops, linear, mark);
+    loops_run(&loops);
 }
 
 float walls_work(const Walls *walls, uint32_t node, const float *u)
@@ -293,7 +285,7 @@ static void book(const ApplyJob *job, const WallNode *n, int j, const double gai
 void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
 {
     if (!frame->colliders->measures || walls->nodes == 0) return;
-    const ApplyJob job = {walls, frame, vectors_of(walls), frame->grid->node.data, 1.0f, NULL};
+    const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
     const double scale = contacts_momentum_scale(frame, dt);
     for (uint32_t i = 0; i < walls->nodes; i++) {
         const WallNode *n = (const WallNode *)walls->node.data + i;

@@ -49,7 +49,10 @@ bool walls_hold(const Walls *walls, uint32_t node);
 
 /* Makes the displacements of the nodes admissible. In between contacts of nodes farther off are obeyed. `linear`: for responses, without the walls' own motion,
  * without friction and contacts but for those of nodes that touch. `mark`: only nodes in marked blocks have new momenta; null: all. */
-void walls_apply(Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark);
+void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark);
+
+/* The same as loops that are added to others. */
+void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark);
 
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
 void walls_book(const Walls *walls, const ContactFrame *frame, double dt);

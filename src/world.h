@@ -44,6 +44,7 @@ typedef struct RoundsState {
     Array solid, touched; /* int32_t: their numbers */
     Array mark;           /* uint8_t per node block: touched */
     int32_t solids, touches;
+    int64_t rows; /* particles in the blocks with solids */
 } RoundsState;
 
 /* See eddy_damping.h. */

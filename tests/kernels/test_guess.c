@@ -38,7 +38,9 @@ static double gain_at(Scene *scene, const float *start, const float *end, float 
         world->args.cell_pressure[i] = world->args.cell_pressure_old[i] = start[i] + t * (end[i] - start[i]);
     scene_run_particles(scene, scene->kernels->cells_push);
     scene_run_nodes(scene, scene->kernels->push_nodes);
-    return guess_gain(world);
+    Loops none;
+    loops_open(&none, world->pool);
+    return guess_gain(world, &none);
 }
 
 static float *copy_of(const float *values, size_t count)
@@ -76,7 +78,10 @@ static void check_last_step(DualStage *stage)
     check_true(curvature > 0.0 && after > before, "the step is uphill", 0);
     check_near(1.0 + soft / curvature, slope / curvature, 1e-3, "where the gain is greatest", 0);
     memcpy(world->args.cell_pressure_old, start, cells * sizeof(float)); /* as guess_solve() left it */
-    guess_take_back(world);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    guess_take_back(world, &loops);
+    loops_run(&loops);
     check_true(memcmp(world->args.cell_pressure, start, cells * sizeof(float)) == 0, "pressures taken back", 0);
     free(start);
     free(end);

@@ -301,9 +301,8 @@ static void press_evenly(Scene *scene)
     world->args.cell_pressure = world->args.cell_pressure_old = pressure;
     for (int slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) world->materials.kernel[slot].lightness = 1.0f;
     world->args.probing = 1;
-    solver_over_particles(world, world->kernels->cells_push);
+    solver_over_both(world, world->kernels->cells_push, world->kernels->respond_nodes, NULL);
     world->args.probing = 0;
-    solver_over_nodes(world, world->kernels->respond_nodes, NULL);
 }
 
 static double largest(const Scene *scene)

@@ -28,6 +28,14 @@ typedef struct Hats {
 /* The fourth value of vectors. */
 static bool unused(const Hats *h, size_t i) { return h->levels.width > 1 && i % (size_t)h->levels.width == 3; }
 
+static void weigh(Hats *h, double overlap)
+{
+    Loops loops;
+    loops_open(&loops, h->pool);
+    multilevel_weigh(&h->levels, &loops, h->mass, h->stiffness, overlap);
+    loops_run(&loops);
+}
+
 /* A ragged cloud of cells: blocks with holes, and neighbours that are missing. */
 static void hats_open(Hats *h, int dimension, int width, int threads, uint32_t seed, int spread)
 {
@@ -50,7 +58,7 @@ static void hats_open(Hats *h, int dimension, int width, int threads, uint32_t s
         *arrays[i] = calloc(h->floats, sizeof(float));
         for (size_t k = 0; k < h->floats; k++) (*arrays[i])[k] = unused(h, k) ? 0.0f : (float)random_in(&random, i < 2 ? 0.1 : -1.0, 1.0);
     }
-    multilevel_weigh(&h->levels, h->pool, h->mass, h->stiffness, 1.0);
+    weigh(h, 1.0);
 }
 
 static void hats_close(Hats *h)
@@ -67,7 +75,10 @@ static void hats_close(Hats *h)
 static void apply(Hats *h, const float *r, float *z)
 {
     memset(z, 0, h->floats * sizeof *z);
-    multilevel_add(&h->levels, h->pool, r, z);
+    Loops loops;
+    loops_open(&loops, h->pool);
+    multilevel_add(&h->levels, &loops, r, z);
+    loops_run(&loops);
 }
 
 static double dot(const Hats *h, const float *x, const float *y)
@@ -123,7 +134,7 @@ static void test_the_diagonal_is_the_energy_of_hats(void)
         Hats h;
         hats_open(&h, dimension, 1, 1, 7, 3);
         for (size_t i = 0; i < h.floats; i++) h.mass[i] = h.stiffness[i] = 1.0f;
-        multilevel_weigh(&h.levels, h.pool, h.mass, h.stiffness, 3.0);
+        weigh(&h, 3.0);
         const double d = dimension, volume = pow(2.0, d);
         const double expected = volume * (pow(2.0 / 3.0, d) + 3.0 * 0.5 * d * 0.25 * pow(2.0 / 3.0, d - 1.0));
         const float *inverse = h.levels.level[1].inverse.data;

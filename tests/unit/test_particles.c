@@ -190,6 +190,14 @@ static void shuffle(Random *random, uint32_t *order, uint32_t count)
     }
 }
 
+static void reorder(const uint32_t *order)
+{
+    Loops loops;
+    loops_open(&loops, pool);
+    particles_reorder(&particles, order, 0, &loops);
+    loops_run(&loops);
+}
+
 static void test_reordering_moves_all_fields(void)
 {
     static uint32_t order[CAPACITY];
@@ -198,7 +206,7 @@ static void test_reordering_moves_all_fields(void)
         open_particles(dimension, dimension == 3);
         for (uint32_t i = 0; i < CAPACITY; i++) add_numbered(i);
         shuffle(&random, order, CAPACITY);
-        particles_reorder(&particles, order, 0, pool);
+        reorder(order);
         for (uint32_t i = 0; i < CAPACITY; i++) expect_numbered(i, order[i]);
         close_particles();
     }
@@ -229,7 +237,7 @@ static void test_identifiers_through_a_long_life(void)
         }
         particles_compact(&particles, 0);
         shuffle(&random, order, particles.count);
-        particles_reorder(&particles, order, 0, pool);
+        reorder(order);
         uint32_t living = 0, row;
         for (uint32_t i = 0; i < born; i++) {
             living += alive[i];

@@ -183,6 +183,135 @@ static void test_hooks_do_the_work(void)
     books_expect_closed(&books, &memory);
 }
 
+/* ---- Loops that follow one another ---- */
+
+enum { CHAIN = 3 * LOOPS_MAX, CHAIN_ITEMS = 40 };
+
+typedef struct Chain {
+    atomic_int done[CHAIN][CHAIN_ITEMS];
+    atomic_bool early;  /* a loop began before the one before it had ended */
+    atomic_int others;  /* ranges that were not done by the caller */
+    pthread_t self;
+    int32_t items[CHAIN];
+    int slow; /* the loop whose first item takes long; -1: none */
+} Chain;
+
+typedef struct Link {
+    Chain *chain;
+    int place;
+} Link;
+
+static void follow(void *context, int32_t begin, int32_t end)
+{
+    const Link *link = context;
+    Chain *chain = link->chain;
+    for (int32_t i = 0; link->place > 0 && i < chain->items[link->place - 1]; i++)
+        if (atomic_load_explicit(&chain->done[link->place - 1][i], memory_order_relaxed) != 1) atomic_store(&chain->early, true);
+    if (!pthread_equal(chain->self, pthread_self())) atomic_fetch_add(&chain->others, 1);
+    if (link->place == chain->slow && begin == 0) nanosleep(&(struct timespec){.tv_nsec = 300000000}, NULL);
+    for (int32_t i = begin; i < end; i++) atomic_fetch_add_explicit(&chain->done[link->place][i], 1, memory_order_relaxed);
+}
+
+/* Loops of all sizes; those without items leave no gap. */
+static void run_chain(Pool *pool, Chain *chain, int count, uint64_t seed, int64_t ns, int slow)
+{
+    Random random = {seed};
+    Loops loops;
+    memset(chain, 0, sizeof *chain);
+    chain->self = pthread_self();
+    chain->slow = slow;
+    loops_open(&loops, pool);
+    for (int k = 0; k < count; k++) {
+        chain->items[k] = (int32_t)random_below(&random, CHAIN_ITEMS + 1);
+        if (k == slow) chain->items[k] = CHAIN_ITEMS;
+        const Link link = {chain, k};
+        LOOPS_ADD(&loops, ((Span){chain->items[k], 1 + (int32_t)random_below(&random, 8), ns}), follow, &link);
+    }
+    loops_run(&loops);
+    TEST_ASSERT_EQUAL_INT(0, loops.count);
+    TEST_ASSERT_FALSE_MESSAGE(atomic_load(&chain->early), "a loop began too early");
+    for (int k = 0; k < count; k++)
+        for (int32_t i = 0; i < CHAIN_ITEMS; i++)
+            if (atomic_load(&chain->done[k][i]) != (i < chain->items[k])) TEST_FAIL_MESSAGE("an item was left out or done twice");
+}
+
+enum { MUCH_NS = 1000000 };
+
+static void test_loops_follow_one_another(void)
+{
+    static const int threads[] = {1, 2, 3, 8};
+    static Chain chain;
+    for (int k = 0; k < 4; k++) {
+        Books books;
+        Memory memory = books_memory(&books, 0);
+        Pool *pool = open_pool(&memory, threads[k], NULL);
+        for (int round = 0; round < 60; round++) run_chain(pool, &chain, round % 2 ? CHAIN : 7, (uint64_t)round, MUCH_NS, -1);
+        pool_destroy(&memory, pool, true);
+        books_expect_closed(&books, &memory);
+    }
+}
+
+static void test_loops_take_one_turn_of_the_host(void)
+{
+    static Chain chain;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Host host = {0};
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){enqueue, finish, &host});
+    for (int round = 0; round < 20; round++) {
+        host.backwards = round % 2;
+        run_chain(pool, &chain, LOOPS_MAX, (uint64_t)round, MUCH_NS, -1);
+    }
+    TEST_ASSERT_EQUAL_INT(20, host.enqueued);
+    TEST_ASSERT_EQUAL_INT(20, host.finished);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+/* Who waits for long leaves; the rest is done all the same. */
+static void test_loops_get_over_a_thread_that_is_held_up(void)
+{
+    static Chain chain;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, 3, NULL);
+    run_chain(pool, &chain, 10, 1, MUCH_NS, 2);
+    run_chain(pool, &chain, 10, 2, MUCH_NS, 9);
+    run_chain(pool, &chain, 10, 3, MUCH_NS, -1);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+static void test_little_work_stays_on_the_caller(void)
+{
+    static Chain chain;
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Host host = {0};
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){enqueue, finish, &host});
+    run_chain(pool, &chain, 10, 1, 10, -1);
+    TEST_ASSERT_EQUAL_INT(0, host.enqueued);
+    pool_set_serial(pool, true);
+    run_chain(pool, &chain, 10, 1, MUCH_NS, -1);
+    TEST_ASSERT_EQUAL_INT(0, host.enqueued);
+    TEST_ASSERT_EQUAL_INT(0, atomic_load(&chain.others));
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
+static void test_no_loops_are_no_work(void)
+{
+    Books books;
+    Memory memory = books_memory(&books, 0);
+    Pool *pool = open_pool(&memory, 2, NULL);
+    Loops loops;
+    loops_open(&loops, pool);
+    loops_run(&loops);
+    TEST_ASSERT_EQUAL_INT(0, loops.count);
+    pool_destroy(&memory, pool, true);
+    books_expect_closed(&books, &memory);
+}
+
 /* ---- Failure ---- */
 
 static void test_no_memory_for_a_pool(void)
@@ -218,6 +347,11 @@ int main(void)
     RUN_TEST(test_serial_mode_stays_on_the_caller);
     RUN_TEST(test_floating_point_mode_of_parallel_loops);
     RUN_TEST(test_hooks_do_the_work);
+    RUN_TEST(test_loops_follow_one_another);
+    RUN_TEST(test_loops_take_one_turn_of_the_host);
+    RUN_TEST(test_loops_get_over_a_thread_that_is_held_up);
+    RUN_TEST(test_little_work_stays_on_the_caller);
+    RUN_TEST(test_no_loops_are_no_work);
     RUN_TEST(test_no_memory_for_a_pool);
     RUN_TEST(test_pools_come_and_go);
     return UNITY_END();

@@ -567,7 +567,10 @@ static void test_pressures_follow_their_particles(void)
     p->pressure[3] = 77.0f; /* what an earlier particle left */
     particles_append(p, &(NewParticle){.mass = 1.0f}, 4);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, p->pressure[3]);
-    particles_reorder(p, order, 0, world->pool);
+    Loops loops;
+    loops_open(&loops, world->pool);
+    particles_reorder(p, order, 0, &loops);
+    loops_run(&loops);
     const float turned[] = {3.0f, 1.0f, 0.0f, 2.0f};
     TEST_ASSERT_EQUAL_FLOAT_ARRAY(turned, p->pressure, 4);
     p->status[1] = K_REMOVED;
