@@ -1537,6 +1537,10 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern IntPtr pbmpm_isa_name(Isa isa);
 
+        /// <summary>1 if this library was built with the CMake option PBMPM_STRICT: the same results with every instruction set, bit for bit; else 0. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern int pbmpm_build_is_strict();
+
         /// <summary>The layouts of all public structures as this library was compiled. Every binding compares it with its own
         /// mirror when it loads. The table is constant and lives as long as the library. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
