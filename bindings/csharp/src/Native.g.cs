@@ -1677,7 +1677,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_generation(WorldId world, ulong* generation);
 
         /// <summary>64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for
-        /// the same calls on the same binary and instruction set, for any number of threads.</summary>
+        /// the same calls on the same binary and instruction set, for any number of threads; of a strict build (pbmpm_build_is_strict()) on any
+        /// instruction set.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_hash(WorldId world, ulong* hash);
 
