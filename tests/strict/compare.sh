@@ -8,10 +8,10 @@ trap 'rm -r "$folder"' EXIT
 compared=0
 for isa in sse4 avx2 avx512; do
     PBMPM_ISA=$isa "$program" "$steps" "$scene" >"$folder/$isa"
-    name=$(sed -n '1s/kernels: //p' "$folder/$isa")
+    name=$(sed -n '1s/kernels: \([^,]*\),.*/\1/p' "$folder/$isa")
     sed 1d "$folder/$isa" >"$folder/hashes"
     case $isa:$name in
-    sse4:*) mv "$folder/hashes" "$folder/first" && cat "$folder/first" ;;
+    sse4:*) cat "$folder/$isa" && mv "$folder/hashes" "$folder/first" ;;
     avx2:AVX2 | avx512:AVX-512)
         diff "$folder/first" "$folder/hashes" || { echo "SSE4 and $name differ"; exit 1; }
         compared=$((compared + 1)) && echo "SSE4 and $name are equal" ;;

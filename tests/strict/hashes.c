@@ -329,7 +329,7 @@ int main(int count, char **argument)
 {
     const int steps = count > 1 ? atoi(argument[1]) : 0, every = count > 3 ? atoi(argument[3]) : 0;
     if (steps < 1 || every < 0) return fprintf(stderr, "usage: hashes STEPS [SCENE [EVERY]]\n"), 2;
-    printf("kernels: %s\n", pbmpm_isa_name(pbmpm_active_isa()));
+    printf("kernels: %s, %s build\n", pbmpm_isa_name(pbmpm_active_isa()), pbmpm_build_is_strict() ? "strict" : "ordinary");
     for (int s = 0; s < SCENES; s++)
         if (count < 3 || strstr(catalogue[s].name, argument[2])) run(&catalogue[s], steps, every);
     return 0;
