@@ -9,6 +9,7 @@ compared=0
 for isa in sse4 avx2 avx512; do
     PBMPM_ISA=$isa "$program" "$steps" "$scene" >"$folder/$isa"
     name=$(sed -n '1s/kernels: \([^,]*\),.*/\1/p' "$folder/$isa")
+    [ -n "$name" ] || { echo "$program does not tell its kernels"; exit 1; }
     sed 1d "$folder/$isa" >"$folder/hashes"
     case $isa:$name in
     sse4:*) cat "$folder/$isa" && mv "$folder/hashes" "$folder/first" ;;
