@@ -33,11 +33,12 @@ function(pbmpm_compile_kernels file objects)
     endif()
     list(TRANSFORM PBMPM_KERNEL_ISAS REPLACE "(.+)" "${stem}_\\1${suffix}" OUTPUT_VARIABLE outputs)
     list(TRANSFORM arg_INCLUDE PREPEND "-I" OUTPUT_VARIABLE includes)
-    list(TRANSFORM PBMPM_MATERIAL_DEFINITIONS PREPEND "-D" OUTPUT_VARIABLE definitions)
+    set(definitions ${PBMPM_MATERIAL_DEFINITIONS} ${PBMPM_STRICT_DEFINITION})
+    list(TRANSFORM definitions PREPEND "-D")
     add_custom_command(
         OUTPUT ${outputs}
         BYPRODUCTS "${stem}${suffix}"
-        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} ${definitions} --target=${PBMPM_KERNEL_TARGETS} --pic --wno-perf "${flags}"
+        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} ${definitions} --target=${PBMPM_KERNEL_TARGETS} --pic --wno-perf "${flags}" "${PBMPM_STRICT_FLAGS}"
             -o "${stem}${suffix}"
         DEPENDS "${file}" ${arg_DEPENDS} "${CMAKE_ISPC_COMPILER}"
         COMMENT "Compiling ${name}.ispc for ${PBMPM_KERNEL_TARGETS}"

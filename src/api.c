@@ -71,6 +71,8 @@ pbmpm_isa pbmpm_active_isa(void) { return cpu_isa(); }
 
 const char *pbmpm_isa_name(pbmpm_isa isa) { return cpu_isa_name(isa); }
 
+int32_t pbmpm_build_is_strict(void) { return PBMPM_STRICT; }
+
 pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count)
 {
     REQUIRE(entries);

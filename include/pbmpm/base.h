@@ -129,6 +129,9 @@ PBMPM_API pbmpm_isa pbmpm_active_isa(void);
 /** The name of an instruction set ("AVX2"); never null. Any thread. */
 PBMPM_API const char *pbmpm_isa_name(pbmpm_isa isa);
 
+/** 1 if this library was built with the CMake option PBMPM_STRICT: the same results with every instruction set, bit for bit; else 0. Any thread. */
+PBMPM_API int32_t pbmpm_build_is_strict(void);
+
 /** One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
  *  structure itself (offset 0, size of the whole). This structure and the identifiers never grow. */
 typedef struct pbmpm_layout_entry {

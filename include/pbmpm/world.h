@@ -150,7 +150,8 @@ PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 PBMPM_API pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation);
 
 /** 64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for
- *  the same calls on the same binary and instruction set, for any number of threads. */
+ *  the same calls on the same binary and instruction set, for any number of threads; of a strict build (pbmpm_build_is_strict()) on any
+ *  instruction set. */
 PBMPM_API pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash);
 
 #ifdef __cplusplus

@@ -13,6 +13,7 @@ import pytest
 from click.testing import CliRunner
 
 from pbmpm.app.bench import lake, scenes
+from pbmpm.app.bench.builds import builds_text, measure_builds
 from pbmpm.app.bench.command import bench
 from pbmpm.app.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
 from pbmpm.app.bench.measure import Costs, measure, pieces
@@ -253,3 +254,29 @@ def test_the_figures_of_a_scene(root: Path) -> None:
 def test_scenes_run_without_the_options_of_the_others(root: Path, option: list[str]) -> None:
     done = CliRunner().invoke(bench, [str(root / "samples" / "scenes" / "column_2d.json"), *option])
     assert done.exit_code == 2 and option[0] in done.output
+
+
+def test_builds_are_measured_in_turns() -> None:
+    own, other, ticks = Path("own.so"), Path("other.so"), []
+    times, turns = {own: [3.0, 8.0, 6.0], other: [2.0, 4.0, 5.0]}, []
+
+    def turn(library: Path, options: list[str]) -> dict[str, Any]:
+        turns.append(library)
+        assert options == ["--dims", "2"]
+        ms = times[library][turns.count(library) - 1]
+        row = {"material": "liquid", "dims": 2, "solver": "dual", "ms_per_step": ms}
+        row |= {"iterations": 10, "particles": 1000, "million_particle_iterations_per_second_max": 10 / (ms - 1)}
+        return {"strict": library == own, "rows": [row]}
+
+    report = measure_builds(own, other, ["--dims", "2"], 3, lambda: ticks.append(0), turn)
+    assert turns == [own, other] * 3 and len(ticks) == 6
+    assert report["strict"] and not report["strict_other"]
+    (row,) = report["rows"]
+    assert row["times_as_long"] == 1.5 and row["times_as_long_least"] == pytest.approx(2.0) and row["ms_per_step"] == 6.0
+    text = builds_text(report | {"rounds": 3, "machine": {"cpu": "C", "isa": "I", "date": "2026-01-02T"}})
+    assert "(strict) over one of the other (ordinary)" in text and "1.50 times as long" in text
+
+
+@pytest.mark.parametrize("options", [["--lake"], ["--pool"]])
+def test_builds_are_not_compared_by_the_lake_or_the_pool(options: list[str]) -> None:
+    assert CliRunner().invoke(bench, ["--against", __file__, *options]).exit_code == 2

@@ -128,5 +128,9 @@ def test_the_instruction_set_has_a_name() -> None:
     assert pbmpm.isa() in ("SSE4", "AVX2", "AVX-512")
 
 
+def test_the_build_tells_whether_it_is_strict() -> None:
+    assert pbmpm.is_strict() in (True, False)
+
+
 def test_all_materials_are_built() -> None:
     assert set(pbmpm.built_materials()) == {pbmpm.Liquid, pbmpm.Elastic, pbmpm.Sand, pbmpm.Visco}

@@ -91,9 +91,6 @@ static void test_unknown_kinds_are_refused(void)
     def = material_defaults();
     def.strain_policy = (pbmpm_strain_policy)2;
     TEST_ASSERT_NOT_NULL(material_problem(&def));
-    def = material_defaults();
-    def.size--;
-    TEST_ASSERT_NOT_NULL(material_problem(&def));
 }
 
 /* What a kind does not have is 0 for the kernels: it must cost nothing. */

@@ -30,6 +30,16 @@ namespace Pbmpm
             }
         }
 
+        /// <summary>Whether this is a strict build (PBMPM_STRICT): the same results with every instruction set, bit for bit.</summary>
+        public static bool IsStrict
+        {
+            get
+            {
+                Check();
+                return Methods.pbmpm_build_is_strict() != 0;
+            }
+        }
+
         /// <summary>The name of an instruction set ("AVX2").</summary>
         public static string NameOf(Isa isa)
         {

@@ -1607,6 +1607,10 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern IntPtr pbmpm_isa_name(Isa isa);
 
+        /// <summary>1 if this library was built with the CMake option PBMPM_STRICT: the same results with every instruction set, bit for bit; else 0. Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern int pbmpm_build_is_strict();
+
         /// <summary>The layouts of all public structures as this library was compiled. Every binding compares it with its own
         /// mirror when it loads. The table is constant and lives as long as the library. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1743,7 +1747,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_generation(WorldId world, ulong* generation);
 
         /// <summary>64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for
-        /// the same calls on the same binary and instruction set, for any number of threads.</summary>
+        /// the same calls on the same binary and instruction set, for any number of threads; of a strict build (pbmpm_build_is_strict()) on any
+        /// instruction set.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_hash(WorldId world, ulong* hash);
 

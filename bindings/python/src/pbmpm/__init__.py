@@ -52,6 +52,11 @@ def isa() -> str:
     return name
 
 
+def is_strict() -> bool:
+    """Whether the library is a strict build (PBMPM_STRICT), with the same results on every instruction set, bit for bit."""
+    return bool(_lib.pbmpm_build_is_strict())
+
+
 __all__ = [
     "Advice",
     "AdviceCode",
@@ -118,6 +123,7 @@ __all__ = [
     "bake_hull",
     "bake_mesh",
     "built_materials",
+    "is_strict",
     "isa",
     "library_path",
 ]

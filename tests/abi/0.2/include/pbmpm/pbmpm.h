@@ -51,6 +51,7 @@ uint32_t pbmpm_version(void);
 uint32_t pbmpm_abi_version(void);
 pbmpm_isa pbmpm_active_isa(void);
 const char *pbmpm_isa_name(pbmpm_isa isa);
+int32_t pbmpm_build_is_strict(void);
 typedef struct pbmpm_layout_entry { const char *structure; const char *field; uint32_t offset; uint32_t size; } pbmpm_layout_entry;
 pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count);
 pbmpm_result pbmpm_shutdown(void);

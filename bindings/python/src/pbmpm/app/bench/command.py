@@ -28,6 +28,7 @@ Measured = tuple[Report, str]
 @click.option("--warmup-steps", type=click.IntRange(0, 10000), help=f"Motion before the measurement.  [default: {WARMUP_STEPS}]")
 @click.option("--lake", is_flag=True, help="Measure instead what a jelly in a lake costs over both by themselves.")
 @click.option("--pool", is_flag=True, help="Measure instead a pool asleep against awake, and what one drop wakes in it.")
+@click.option("--against", metavar="LIBRARY", type=click.Path(exists=True, dir_okay=False, path_type=Path), help="Measure this build against another, in turns.")
 @click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
 def bench(scene_files: tuple[Path, ...], json_target: str | None, rounds: int, **options: Any) -> None:
     """Measure what an iteration and a step cost, per particle, with each solver.
@@ -35,18 +36,23 @@ def bench(scene_files: tuple[Path, ...], json_target: str | None, rounds: int, *
     Dam breaks and falling blocks, 40,000 to 200,000 particles, on one thread that stays on one core. The solvers step from the
     same state, in turns. PBMPM_ISA=sse4, avx2 or avx512 chooses the kernels.
 
+    It says which build it measures, a strict one (PBMPM_STRICT) or an ordinary one. With --against it measures instead how many times as long
+    a step takes with this build as with that of another library: what strictness costs.
+
     With SCENE files it measures instead how many times faster than real time each runs, as its file says and at the pace of a
     game, 60 Hz x 5.
     """
     if scene_files:
         report, text = _scenes(scene_files, rounds, options)
+    elif options["against"] is not None:
+        report, text = _builds(rounds, options)
     elif options["lake"] or options["pool"]:
         report, text = _water(rounds, options)
     else:
         report, text = _matter(rounds, options)
     emit_json(report, json_target)
     if json_target != "-":
-        click.echo(text)
+        click.echo(f"The library is a{' strict' if report['strict'] else 'n ordinary'} build.\n{text}")
 
 
 def _matter(rounds: int, options: dict[str, Any]) -> Measured:
@@ -69,6 +75,25 @@ def _matter(rounds: int, options: dict[str, Any]) -> Measured:
     report = _report("bench", rounds, len(subjects) * pieces(rounds), rows)
     report |= {"ratios": ratios, "warmup_steps": warmup_steps, "compilers": _compilers()}
     return report, text_of(report)
+
+
+def _builds(rounds: int, options: dict[str, Any]) -> Measured:
+    """This build against another."""
+    import pbmpm
+
+    from ..machine import machine_facts
+    from ..progress import progress_bar
+    from ..simulation import versions
+    from .builds import builds_text, measure_builds
+
+    if options["lake"] or options["pool"]:
+        raise click.UsageError("--against measures kinds of matter with each solver: --lake and --pool cannot be used with it.")
+    passed = [part for name in ("solvers", "materials", "dims") if options[name] for part in (f"--{name}", ",".join(options[name]))]
+    passed += [] if options["warmup_steps"] is None else ["--warmup-steps", str(options["warmup_steps"])]
+    with progress_bar(2 * rounds, "turn", "bench --against") as bar:
+        report = measure_builds(pbmpm.library_path(), options["against"], passed, rounds, bar.update)
+    report |= {"rounds": rounds, "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1), "compilers": _compilers()}
+    return report, builds_text(report)
 
 
 def _water(rounds: int, options: dict[str, Any]) -> Measured:
@@ -129,7 +154,7 @@ def _report(name: str, rounds: int, pieces: int, rows: Callable[[Callable[[], No
     core = pin()
     with progress_bar(pieces, "round", name) as bar:
         measured = rows(bar.update)
-    return {"rows": measured, "rounds": rounds, "core": core, "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1)}
+    return {"rows": measured, "rounds": rounds, "core": core, "strict": pbmpm.is_strict(), "versions": versions(), "machine": machine_facts(pbmpm.isa(), 1)}
 
 
 def _compilers() -> list[str]:
