@@ -171,6 +171,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .lost = grid->lost.data,
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
+                      .iterations = world->settings.iterations,
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
@@ -355,6 +356,20 @@ static void integrate_moving(void *context, int32_t begin, int32_t end)
     }
 }
 
+static void fly(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    const int32_t first = world->grid.particle_blocks;
+    world->kernels->fly(&world->args, first + begin, first + end);
+}
+
+static void let_fly(World *world)
+{
+    if (world->grid.flights == 0) return;
+    world->args.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
+    pool_for(world->pool, world->grid.flights, BLOCK_GRAIN, fly, world);
+}
+
 void solver_integrate(World *world, const ContactFrame *contacts)
 {
     const bool by_primal = world->record.solver == PBMPM_SOLVER_PRIMAL || joint_is_chosen(world);
@@ -364,4 +379,5 @@ void solver_integrate(World *world, const ContactFrame *contacts)
     else
         solver_over_particles(world, world->kernels->integrate);
     if (by_primal) primal_calm(world, contacts);
+    let_fly(world);
 }
