@@ -60,11 +60,20 @@ static uint32_t *find_slot(const Grid *grid, const int32_t c[3])
     }
 }
 
+/* A power of two: for as many blocks as all particles may touch, at most a thousand or so. */
+static size_t first_room(const Grid *grid)
+{
+    enum { MOST = 1024 };
+    size_t room = 1;
+    while (room < MOST && room < (size_t)grid->capacity << grid->dimension) room *= 2;
+    return room;
+}
+
 /* Room for at least one more block, with the table at most half full. Growing keeps what was found. */
 static bool reserve_found(Grid *grid, Memory *memory)
 {
     if ((size_t)grid->found_count + 1 <= grid->found.bytes / sizeof(FoundBlock)) return true;
-    const size_t room = grid->found.bytes ? 2 * (grid->found.bytes / sizeof(FoundBlock)) : 1024;
+    const size_t room = grid->found.bytes ? 2 * (grid->found.bytes / sizeof(FoundBlock)) : first_room(grid);
     FoundBlock *found = memory_take(memory, room * sizeof(FoundBlock));
     uint32_t *table = found ? memory_take(memory, 2 * room * sizeof(uint32_t)) : NULL;
     if (!table) {
