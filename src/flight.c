@@ -21,7 +21,7 @@ void flight_begin(Flight *flight, const World *world, float dt)
     const pbmpm_solver solver = world->settings.solver;
     const bool solved = solver == PBMPM_SOLVER_PAPER || solver == PBMPM_SOLVER_DUAL || solver == PBMPM_SOLVER_CONVERGENT;
     *flight = (Flight){.world = world,
-                       .possible = solved && !world->sleep.on && solver_holds_liquid(world) && !is_felt_everywhere(&world->forces),
+                       .possible = solved && solver_holds_liquid(world) && !is_felt_everywhere(&world->forces),
                        .dt = dt,
                        .to_cells = (double)dt / (double)world->def.cell_size};
 }
@@ -46,6 +46,15 @@ static Motion motion_of(const Flight *flight, uint32_t row)
     }
     motion.way = sqrt(motion.way);
     return motion;
+}
+
+/* What is to fall asleep stays in the grid. */
+static bool is_slow(const World *world, uint32_t row)
+{
+    const Particles *p = &world->particles;
+    float speed2 = 0.0f;
+    for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
+    return world->sleep.on && speed2 < world->settings.sleep_speed * world->settings.sleep_speed;
 }
 
 /* Whether it is a liquid that the solver leaves as it is: its volume does not fall below the rest volume, so it bears no pressure, and viscosity is the paper's own. All
@@ -94,5 +103,5 @@ bool flight_is_free(const void *context, uint32_t row)
 {
     const Flight *flight = context;
     const Motion motion = motion_of(flight, row);
-    return is_slack(flight, row, &motion) && is_far_from_all(flight, row, &motion);
+    return !is_slow(flight->world, row) && is_slack(flight, row, &motion) && is_far_from_all(flight, row, &motion);
 }

@@ -489,7 +489,7 @@ static void mark_flying(void *context, int32_t begin, int32_t end)
         const uint32_t at = grid->first_row + (uint32_t)i, row = job->listed ? grid->order_scratch[at] : at;
         const FoundBlock *block = (const FoundBlock *)grid->found.data + grid->block_of[row];
         int32_t cell[3];
-        if (!may_hold_lone(grid, block)) continue;
+        if (!may_hold_lone(grid, block) || block->rank != GRID_MOVING) continue;
         cell_of(grid, job->particles, row, cell);
         if (is_alone(grid, block, cell) && grid->flies(grid->flies_context, row)) grid->block_of[row] = -1 - grid->block_of[row];
     }
