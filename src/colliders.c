@@ -18,7 +18,7 @@ static size_t obstacle_bytes(uint32_t room) { return (room + DOMAIN_WALLS + 1) *
 static pbmpm_result make_room(Colliders *colliders, Memory *memory, uint32_t room)
 {
     Collider *slot = memory_take(memory, room * sizeof(Collider));
-    Obstacle *obstacle = slot || room == 0 ? memory_take(memory, obstacle_bytes(room)) : NULL;
+    Obstacle *obstacle = slot ? memory_take(memory, obstacle_bytes(room)) : NULL;
     if (!obstacle) {
         memory_give(memory, slot, room * sizeof(Collider));
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u colliders", room);
@@ -36,7 +36,7 @@ static pbmpm_result make_room(Colliders *colliders, Memory *memory, uint32_t roo
 pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 {
     *colliders = (Colliders){0};
-    return make_room(colliders, memory, 0);
+    return make_room(colliders, memory, 1);
 }
 
 void colliders_free(Colliders *colliders, Memory *memory)
@@ -78,7 +78,7 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
     while (slot < colliders->used && colliders->slot[slot].generation != 0) slot++;
     if (slot == PBMPM_MAX_COLLIDERS) return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d colliders", PBMPM_MAX_COLLIDERS);
     pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
-    if (result == PBMPM_OK && slot == colliders->room) result = make_room(colliders, memory, slot == 0 ? 1 : 2 * slot);
+    if (result == PBMPM_OK && slot == colliders->room) result = make_room(colliders, memory, 2 * slot);
     if (result != PBMPM_OK) return result;
     colliders->slot[slot] = (Collider){.generation = generation, .def = *def, .grid = grid};
     collider_place(&colliders->slot[slot], def->shape.position, def->shape.rotation, true);

@@ -171,7 +171,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .lost = grid->lost.data,
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
-                      .iterations = world->settings.iterations,
+                      .iterations = world->record.solver == PBMPM_SOLVER_PAPER ? world->settings.iterations : 0,
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
