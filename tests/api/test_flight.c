@@ -259,6 +259,7 @@ static void test_guards_hold_in_flight(void)
     TEST_ASSERT_EQUAL_UINT32(1, world_events_of(world, PBMPM_EVENT_SPEED_CLAMPED, &event));
     TEST_ASSERT_EQUAL_UINT32(SPRAY, event.count);
     TEST_ASSERT_FLOAT_WITHIN(1e-5f, 0.5f, world_stats(world).max_displacement);
+    TEST_ASSERT_FLOAT_WITHIN(1e-2f, 0.5f * 0.1f * 60, world_stats(world).max_speed);
     static float positions[3 * SPRAY];
     for (int i = 0; i < SPRAY; i++) {
         positions[3 * i] = (float)i;
