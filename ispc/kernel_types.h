@@ -174,6 +174,7 @@ struct KernelArgs {
     float growth_max;           /* largest growth per substep that a crushed liquid is asked for */
 
     K_CONST_PTR(struct KernelMaterial) material;
+    int32_t iterations;     /* the paper's solver; 0 with the others; see flight.isph */
     float flip;             /* share of motion below the grid's resolution that liquids keep */
     float feedback_way;     /* [cells] per substep from which on the volume feedback of liquids without tension is full; 0: always full */
     float quiet_way;        /* the same for liquids that store energy, where it fades faster; 0: see feedback_way */

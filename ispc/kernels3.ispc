@@ -4,6 +4,7 @@
 #include "cells.isph"
 #include "viscosity.isph"
 #include "primal.isph"
+#include "flight.isph"
 
 export void scatter3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     scatter_blocks(*args, begin, end);
@@ -19,6 +20,9 @@ export void update_nodes3(uniform struct KernelArgs *uniform args, uniform int b
 }
 export void integrate3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     integrate_blocks(*args, begin, end);
+}
+export void fly3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
+    fly_blocks(*args, begin, end);
 }
 export void drift3(uniform struct KernelArgs *uniform args, uniform int begin, uniform int end) {
     drift_blocks(*args, begin, end);

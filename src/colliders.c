@@ -12,19 +12,37 @@
 /* Colliders, walls, and what holds nodes. */
 enum { OBSTACLES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1 };
 
+static size_t obstacle_bytes(uint32_t room) { return (room + DOMAIN_WALLS + 1) * sizeof(Obstacle); }
+
+/* Makes room for so many colliders and their obstacles. On failure nothing has changed. */
+static pbmpm_result make_room(Colliders *colliders, Memory *memory, uint32_t room)
+{
+    Collider *slot = memory_take(memory, room * sizeof(Collider));
+    Obstacle *obstacle = slot ? memory_take(memory, obstacle_bytes(room)) : NULL;
+    if (!obstacle) {
+        memory_give(memory, slot, room * sizeof(Collider));
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u colliders", room);
+    }
+    if (colliders->used > 0) memcpy(slot, colliders->slot, colliders->used * sizeof(Collider));
+    if (colliders->obstacle) memcpy(obstacle, colliders->obstacle, obstacle_bytes(colliders->room));
+    memory_give(memory, colliders->slot, colliders->room * sizeof(Collider));
+    memory_give(memory, colliders->obstacle, obstacle_bytes(colliders->room));
+    colliders->slot = slot;
+    colliders->obstacle = obstacle;
+    colliders->room = room;
+    return PBMPM_OK;
+}
+
 pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 {
-    *colliders = (Colliders){.slot = memory_take(memory, PBMPM_MAX_COLLIDERS * sizeof(Collider)),
-                             .obstacle = memory_take(memory, OBSTACLES * sizeof(Obstacle))};
-    if (colliders->slot && colliders->obstacle) return PBMPM_OK;
-    colliders_free(colliders, memory);
-    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for colliders");
+    *colliders = (Colliders){0};
+    return make_room(colliders, memory, 1);
 }
 
 void colliders_free(Colliders *colliders, Memory *memory)
 {
-    memory_give(memory, colliders->slot, PBMPM_MAX_COLLIDERS * sizeof(Collider));
-    memory_give(memory, colliders->obstacle, OBSTACLES * sizeof(Obstacle));
+    memory_give(memory, colliders->slot, colliders->room * sizeof(Collider));
+    memory_give(memory, colliders->obstacle, obstacle_bytes(colliders->room));
     array_free(memory, &colliders->contact);
     array_free(memory, &colliders->contact_begin);
     array_free(memory, &colliders->solid);
@@ -54,19 +72,18 @@ const char *collider_problem(const pbmpm_collider_def *def)
 pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const pbmpm_shape *shape, const DistanceGrid *grid,
                            uint32_t generation, pbmpm_collider_id *id)
 {
-    const pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
+    uint32_t slot = 0;
+    while (slot < colliders->used && colliders->slot[slot].generation != 0) slot++;
+    if (slot == PBMPM_MAX_COLLIDERS) return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d colliders", PBMPM_MAX_COLLIDERS);
+    pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
+    if (result == PBMPM_OK && slot == colliders->room) result = make_room(colliders, memory, 2 * slot);
     if (result != PBMPM_OK) return result;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_COLLIDERS; slot++) {
-        Collider *collider = &colliders->slot[slot];
-        if (collider->generation != 0) continue;
-        *collider = (Collider){.generation = generation, .def = *def, .shape = *shape, .grid = grid};
-        collider_place(collider, shape->position, shape->rotation, true);
-        if (slot >= colliders->used) colliders->used = slot + 1;
-        if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
-        *id = (pbmpm_collider_id){slot, generation};
-        return PBMPM_OK;
-    }
-    return fail(PBMPM_ERROR_CAPACITY, "a world holds at most %d colliders", PBMPM_MAX_COLLIDERS);
+    colliders->slot[slot] = (Collider){.generation = generation, .def = *def, .shape = *shape, .grid = grid};
+    collider_place(&colliders->slot[slot], shape->position, shape->rotation, true);
+    if (slot >= colliders->used) colliders->used = slot + 1;
+    if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
+    *id = (pbmpm_collider_id){slot, generation};
+    return PBMPM_OK;
 }
 
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid)
@@ -78,7 +95,7 @@ bool colliders_use(const Colliders *colliders, const DistanceGrid *grid)
 
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id)
 {
-    if (id.index >= PBMPM_MAX_COLLIDERS || id.generation == 0) return NULL;
+    if (id.index >= colliders->used || id.generation == 0) return NULL;
     Collider *collider = &colliders->slot[id.index];
     return collider->generation == id.generation ? collider : NULL;
 }

@@ -46,8 +46,9 @@ typedef struct Contact {
 } Contact;
 
 typedef struct Colliders {
-    Collider *slot; /* PBMPM_MAX_COLLIDERS */
-    uint32_t used;  /* slots [used, PBMPM_MAX_COLLIDERS) were never taken */
+    Collider *slot;
+    uint32_t room;  /* of slots; and of obstacles, with the walls and one more */
+    uint32_t used;  /* slots [used, room) were never taken */
     Obstacle *obstacle;
     int obstacle_count; /* behind them stands one that is nowhere, for nodes that are held */
 

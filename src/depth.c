@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-/* A block with particles: how far it lies along gravity, in blocks times |g|, and how many they are. */
+/* A block with particles, or one that flies: how far it lies along gravity, in blocks times |g|, and how many they are. */
 typedef struct Layer {
     double depth;
     uint32_t particles;
@@ -19,7 +19,9 @@ static uint32_t liquid_in(const World *world, int32_t block)
     return particles;
 }
 
-/* Blocks that are asleep follow those of the grid. */
+static int32_t layers_awake(const World *world) { return world->grid.particle_blocks + (int32_t)(world->grid.end_row - world->grid.flight_row); }
+
+/* Those that fly follow the blocks of the grid, and blocks that are asleep them. */
 static Layer layer_of(const World *world, int32_t i, bool liquid)
 {
     const Grid *grid = &world->grid;
@@ -29,8 +31,12 @@ static Layer layer_of(const World *world, int32_t i, bool liquid)
         const uint32_t *begin = grid->block_begin.data;
         memcpy(place, (const int32_t *)grid->coordinate.data + 3 * i, sizeof place);
         layer.particles = liquid ? liquid_in(world, i) : begin[i + 1] - begin[i];
+    } else if (i < layers_awake(world)) {
+        const uint32_t row = grid->flight_row + (uint32_t)(i - grid->particle_blocks);
+        for (int a = 0; a < grid->dimension; a++) place[a] = (world->particles.cell[a][row] - grid->anchor[a]) / K_BLOCK_AXIS;
+        layer.particles = !liquid || world->materials.kernel[world->particles.material[row]].kind == K_LIQUID;
     } else {
-        const SleepBlock *block = sleep_list_block(&world->sleep.asleep, (uint32_t)(i - grid->particle_blocks));
+        const SleepBlock *block = sleep_list_block(&world->sleep.asleep, (uint32_t)(i - layers_awake(world)));
         sleep_place(&world->sleep, grid->anchor, grid->dimension, corner);
         for (int a = 0; a < 3; a++) place[a] = block->place[a] - corner[a];
         layer.particles = block->rows;
@@ -39,14 +45,14 @@ static Layer layer_of(const World *world, int32_t i, bool liquid)
     return layer;
 }
 
-/* Of so many particles in the first `blocks`; liquid: in those of liquids alone. */
-static double depth_of(const World *world, int32_t blocks, double particles, bool liquid)
+/* Of so many particles in the first `layers`; liquid: in those of liquids alone. */
+static double depth_of(const World *world, int32_t layers, double particles, bool liquid)
 {
     enum { BINS = 64, ROUNDS = 4 };
     const double trim = 0.02 * particles;
     double low = INFINITY, high = -INFINITY;
-    for (int32_t block = 0; block < blocks; block++) {
-        const Layer layer = layer_of(world, block, liquid);
+    for (int32_t i = 0; i < layers; i++) {
+        const Layer layer = layer_of(world, i, liquid);
         if (layer.particles == 0) continue;
         low = fmin(low, layer.depth);
         high = fmax(high, layer.depth);
@@ -54,8 +60,8 @@ static double depth_of(const World *world, int32_t blocks, double particles, boo
     for (int round = 0; round < ROUNDS && high > low; round++) {
         double count[BINS] = {0}, below = 0.0;
         const double width = (high - low) / BINS;
-        for (int32_t block = 0; block < blocks; block++) {
-            const Layer layer = layer_of(world, block, liquid);
+        for (int32_t i = 0; i < layers; i++) {
+            const Layer layer = layer_of(world, i, liquid);
             const double bin = (layer.depth - low) / width;
             if (bin < 0.0) below += layer.particles;
             if (bin >= 0.0 && bin <= BINS) count[bin < BINS ? (int)bin : BINS - 1] += layer.particles;
@@ -73,8 +79,8 @@ static double depth_of(const World *world, int32_t blocks, double particles, boo
 
 double depth_along_gravity(const World *world, bool asleep_too)
 {
-    const int32_t blocks = world->grid.particle_blocks + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
-    return depth_of(world, blocks, world->grid.end_row - (asleep_too ? 0 : world->grid.first_row), false);
+    const int32_t layers = layers_awake(world) + (asleep_too ? (int32_t)world->sleep.asleep.count : 0);
+    return depth_of(world, layers, world->grid.end_row - (asleep_too ? 0 : world->grid.first_row), false);
 }
 
 double gravity_strength(const World *world)
@@ -93,15 +99,15 @@ double matter_depth(const World *world)
 {
     const double strength = gravity_strength(world);
     if (strength > 0.0) return fmax(1.0, depth_along_gravity(world, false) / strength);
-    return pow((double)world->grid.particle_blocks * world->grid.block_cells, 1.0 / world->def.dimension);
+    return pow((double)(world->grid.particle_blocks + world->grid.left_blocks) * world->grid.block_cells, 1.0 / world->def.dimension);
 }
 
 double liquid_depth(const World *world)
 {
     const double strength = gravity_strength(world);
     uint32_t particles = 0;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) particles += liquid_in(world, block);
-    return strength > 0.0 && particles > 0 ? fmax(1.0, depth_of(world, world->grid.particle_blocks, particles, true) / strength) : 1.0;
+    for (int32_t block = 0; block < grid_row_blocks(&world->grid); block++) particles += liquid_in(world, block);
+    return strength > 0.0 && particles > 0 ? fmax(1.0, depth_of(world, layers_awake(world), particles, true) / strength) : 1.0;
 }
 
 double slowest_pressure(const World *world) { return 3.14159265358979 / (4.0 * matter_depth(world)); }

@@ -2,9 +2,10 @@
 
 #include <string.h>
 
+#include "block_cells.h"
 #include "result.h"
 
-enum { BLOCK_GRAIN = 4, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
+enum { BLOCK_GRAIN = 4, ROW_GRAIN = 1024, CELL_IN_BLOCK = K_BLOCK_AXIS - 1 };
 
 /* Per particle, and the end of the runs of each part. */
 static size_t scratch_bytes(uint32_t capacity) { return ((size_t)capacity + GRID_PARTS) * 4; }
@@ -59,11 +60,20 @@ static uint32_t *find_slot(const Grid *grid, const int32_t c[3])
     }
 }
 
+/* A power of two: for as many blocks as all particles may touch, at most a thousand or so. */
+static size_t first_room(const Grid *grid)
+{
+    enum { MOST = 1024 };
+    size_t room = 1;
+    while (room < MOST && room < (size_t)grid->capacity << grid->dimension) room *= 2;
+    return room;
+}
+
 /* Room for at least one more block, with the table at most half full. Growing keeps what was found. */
 static bool reserve_found(Grid *grid, Memory *memory)
 {
     if ((size_t)grid->found_count + 1 <= grid->found.bytes / sizeof(FoundBlock)) return true;
-    const size_t room = grid->found.bytes ? 2 * (grid->found.bytes / sizeof(FoundBlock)) : 1024;
+    const size_t room = grid->found.bytes ? 2 * (grid->found.bytes / sizeof(FoundBlock)) : first_room(grid);
     FoundBlock *found = memory_take(memory, room * sizeof(FoundBlock));
     uint32_t *table = found ? memory_take(memory, 2 * room * sizeof(uint32_t)) : NULL;
     if (!table) {
@@ -91,15 +101,10 @@ static int32_t find_or_add(Grid *grid, Memory *memory, const int32_t c[3])
     return (int32_t)*slot - 1;
 }
 
-/* Which sides of its block a cell lies at, as in FoundBlock.sides. */
-static uint32_t sides_of(const int32_t cell[3], int dimension)
+/* The bit of a cell in FoundBlock.cells; cells are counted from the anchor. */
+static uint64_t cell_bit(const int32_t cell[3])
 {
-    uint32_t sides = 0;
-    for (int a = 0; a < dimension; a++) {
-        const int32_t local = cell[a] & CELL_IN_BLOCK;
-        sides |= (uint32_t)(local == 0) << (2 * a) | (uint32_t)(local == K_BLOCK_AXIS - 1) << (2 * a + 1);
-    }
-    return sides;
+    return (uint64_t)1 << ((cell[0] & CELL_IN_BLOCK) | (cell[1] & CELL_IN_BLOCK) << 2 | (cell[2] & CELL_IN_BLOCK) << 4);
 }
 
 /* A block that was asked for not long ago. Particles come in almost sorted order, in turns from a block and its neighbours;
@@ -146,7 +151,7 @@ static inline bool add_row(Grid *grid, Memory *memory, const Particles *p, uint3
     }
     FoundBlock *found = (FoundBlock *)grid->found.data + near->block;
     found->particles++;
-    found->sides |= sides_of(cell, p->dimension);
+    found->cells |= cell_bit(cell);
     grid->block_of[i] = near->block;
     return true;
 }
@@ -173,12 +178,11 @@ void grid_neighbour_offset(int n, int dimension, int32_t offset[3])
     offset[2] = dimension == 3 ? n / 9 - 1 : 0;
 }
 
-static bool touches(uint32_t sides, const int32_t offset[3])
+/* Whether some of the cells lie at the lowest side of each axis where the offset is negative, and some at the highest where it is positive. */
+static bool touches(uint64_t cells, const int32_t offset[3])
 {
-    for (int a = 0; a < 3; a++) {
-        if (offset[a] < 0 && !(sides & 1u << (2 * a))) return false;
-        if (offset[a] > 0 && !(sides & 2u << (2 * a))) return false;
-    }
+    for (int a = 0; a < 3; a++)
+        if (offset[a] != 0 && !(cells & block_cells_slice(a, offset[a] < 0 ? 0 : K_BLOCK_AXIS - 1))) return false;
     return true;
 }
 
@@ -190,9 +194,11 @@ static bool find_touched_blocks(Grid *grid, Memory *memory)
             const FoundBlock *block = (FoundBlock *)grid->found.data + b;
             int32_t c[3];
             grid_neighbour_offset(n, grid->dimension, c);
-            if (!touches(block->sides, c)) continue;
+            if (block->particles == 0 || !touches(block->cells, c)) continue; /* not those that its particles left */
             for (int a = 0; a < 3; a++) c[a] += block->coordinate[a];
-            if (find_or_add(grid, memory, c) < 0) return false;
+            const int32_t touched = find_or_add(grid, memory, c);
+            if (touched < 0) return false;
+            ((FoundBlock *)grid->found.data)[touched].touched = 1;
         }
     }
     return true;
@@ -210,6 +216,9 @@ static uint64_t spread_bits(uint32_t value)
     return (x | x << 2) & 0x1249249249249249u;
 }
 
+/* What has neither particles nor nodes of any is left over from particles that fly. */
+static bool is_wanted(const FoundBlock *block) { return block->particles > 0 || block->touched; }
+
 static bool comes_before(const FoundBlock *a, const FoundBlock *b)
 {
     const bool full_a = a->particles > 0, full_b = b->particles > 0;
@@ -217,16 +226,17 @@ static bool comes_before(const FoundBlock *a, const FoundBlock *b)
     return a->rank != b->rank ? a->rank < b->rank : a->morton < b->morton;
 }
 
-/* Bottom-up merge sort of the indices of the found blocks; returns the sorted half of grid->sorted. */
-static const uint32_t *sort_blocks(Grid *grid)
+/* Bottom-up merge sort of the indices of the `count` blocks that are wanted; returns the sorted half of grid->sorted. */
+static const uint32_t *sort_blocks(Grid *grid, uint32_t count)
 {
     FoundBlock *found = grid->found.data;
-    const uint32_t count = grid->found_count;
     uint32_t *from = grid->sorted.data, *to = from + count;
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0, wanted = 0; i < grid->found_count; i++) {
         const int32_t *c = found[i].coordinate;
+        found[i].index = GRID_NOWHERE;
+        if (!is_wanted(&found[i])) continue;
         found[i].morton = spread_bits((uint32_t)(c[0] + 1)) | spread_bits((uint32_t)(c[1] + 1)) << 1 | spread_bits((uint32_t)(c[2] + 1)) << 2;
-        from[i] = i;
+        from[wanted++] = i;
     }
     for (uint32_t width = 1; width < count; width *= 2) {
         for (uint32_t begin = 0; begin < count; begin += 2 * width) {
@@ -245,24 +255,29 @@ static const uint32_t *sort_blocks(Grid *grid)
     return from;
 }
 
+/* Counts the blocks and takes their memory. */
 static bool reserve_blocks(Grid *grid, Memory *memory, bool with_volume)
 {
-    const size_t nodes = grid->found_count;
-    size_t full = 0;
-    for (uint32_t i = 0; i < grid->found_count; i++) full += ((FoundBlock *)grid->found.data)[i].particles > 0;
+    const FoundBlock *found = grid->found.data;
+    grid->particle_blocks = grid->node_blocks = 0;
+    for (uint32_t i = 0; i < grid->found_count; i++) {
+        grid->particle_blocks += found[i].particles > 0;
+        grid->node_blocks += is_wanted(&found[i]);
+    }
+    const size_t nodes = (size_t)grid->node_blocks, full = (size_t)grid->particle_blocks, all = full + (size_t)grid->flights;
     const size_t tile = (size_t)grid->tile_nodes * K_NODE_WIDTH + K_TILE_PAD, cells = (size_t)grid->block_cells;
     bool ok = array_reserve(memory, &grid->sorted, 2 * nodes, sizeof(uint32_t)) &&
               array_reserve(memory, &grid->coordinate, 3 * nodes, sizeof(int32_t)) &&
               array_reserve(memory, &grid->neighbour, nodes * (size_t)grid->neighbours, sizeof(int32_t)) &&
-              array_reserve(memory, &grid->block_begin, full + 1, sizeof(uint32_t)) &&
-              array_reserve(memory, &grid->block_run, full + 1, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->block_begin, all + 1, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->block_run, all + 1, sizeof(uint32_t)) &&
               array_reserve(memory, &grid->tile, full * tile, sizeof(float)) &&
               array_reserve(memory, &grid->node, nodes * cells * K_NODE_WIDTH, sizeof(float)) &&
               array_reserve(memory, &grid->node_reach, nodes, sizeof(float)) &&
-              array_reserve(memory, &grid->clamped, full, sizeof(uint32_t)) &&
-              array_reserve(memory, &grid->moved, full, sizeof(uint32_t)) &&
-              array_reserve(memory, &grid->lost, full, sizeof(uint32_t)) &&
-              array_reserve(memory, &grid->travel, full, sizeof(float));
+              array_reserve(memory, &grid->clamped, all, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->moved, all, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->lost, all, sizeof(uint32_t)) &&
+              array_reserve(memory, &grid->travel, all, sizeof(float));
     if (ok && with_volume)
         ok = array_reserve(memory, &grid->tile_volume, full * ((size_t)grid->tile_nodes + K_TILE_PAD), sizeof(float)) &&
              array_reserve(memory, &grid->node_volume, nodes * cells, sizeof(float)) &&
@@ -273,23 +288,23 @@ static bool reserve_blocks(Grid *grid, Memory *memory, bool with_volume)
 /* Gives every block its final index and sets where its particles begin. */
 static void place_blocks(Grid *grid)
 {
-    const uint32_t *sorted = sort_blocks(grid);
+    const uint32_t *sorted = sort_blocks(grid, (uint32_t)grid->node_blocks);
     FoundBlock *found = grid->found.data;
     int32_t *coordinate = grid->coordinate.data;
     uint32_t *begin = grid->block_begin.data, particles = grid->first_row;
-    grid->node_blocks = (int32_t)grid->found_count;
-    grid->particle_blocks = grid->still_blocks = 0;
-    for (uint32_t i = 0; i < grid->found_count; i++) {
+    grid->still_blocks = 0;
+    for (int32_t i = 0; i < grid->node_blocks; i++) {
         FoundBlock *block = &found[sorted[i]];
-        block->index = (int32_t)i;
+        block->index = i;
         memcpy(coordinate + 3 * i, block->coordinate, sizeof block->coordinate);
         if (block->particles == 0) continue;
         begin[i] = particles;
         particles += block->particles;
-        grid->particle_blocks++;
         grid->still_blocks += block->rank != GRID_MOVING;
     }
-    begin[grid->particle_blocks] = particles;
+    grid->flight_row = particles;
+    for (int32_t flight = 0; flight < grid->flights; flight++) begin[grid->particle_blocks + flight] = particles + (uint32_t)flight * FLIGHT_ROWS;
+    begin[grid_row_blocks(grid)] = grid->end_row;
 }
 
 /* For loops over blocks. */
@@ -320,14 +335,16 @@ static void link_neighbours(void *context, int32_t begin, int32_t end)
 static void order_by_block(Grid *grid, bool listed)
 {
     const FoundBlock *found = grid->found.data;
-    uint32_t *begin = grid->block_begin.data;
+    uint32_t *begin = grid->block_begin.data, flying = grid->flight_row;
     for (uint32_t i = grid->first_row; i < grid->end_row; i++) {
         const uint32_t row = listed ? grid->order_scratch[i] : i;
-        const int32_t block = found[grid->block_of[row]].index;
-        grid->order[begin[block]++] = row;
+        if (grid->block_of[row] < 0)
+            grid->order[flying++] = row;
+        else
+            grid->order[begin[found[grid->block_of[row]].index]++] = row;
     }
-    for (int32_t b = grid->particle_blocks; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
-    begin[0] = grid->first_row;
+    for (int32_t b = grid->particle_blocks - 1; b > 0; b--) begin[b] = begin[b - 1]; /* each ended where the next one began */
+    if (grid->particle_blocks > 0) begin[0] = grid->first_row;
 }
 
 static uint32_t cell_in_block(const SortJob *job, uint32_t i)
@@ -338,9 +355,11 @@ static uint32_t cell_in_block(const SortJob *job, uint32_t i)
     return cell;
 }
 
+/* The particles are in order. Those that fly have no stencil to share. */
 static uint32_t run_key_of(const SortJob *job, uint32_t i)
 {
-    return cell_in_block(job, i) | job->particles->material[i] << K_RUN_CELL_BITS;
+    const uint32_t cell = i < job->grid->flight_row ? cell_in_block(job, i) : 0;
+    return cell | job->particles->material[i] << K_RUN_CELL_BITS;
 }
 
 enum { BUCKETS = 256 };
@@ -371,6 +390,14 @@ static void sort_inside_blocks(void *context, int32_t begin, int32_t end)
         else
             memcpy(order, scratch, count * sizeof *order);
     }
+}
+
+static void sort_flying(const SortJob *job)
+{
+    const uint32_t first = job->grid->flight_row, count = job->grid->end_row - first;
+    uint32_t *order = job->grid->order + first, *scratch = job->grid->order_scratch + first;
+    counting_pass(job, order, scratch, count, true);
+    memcpy(order, scratch, count * sizeof *order);
 }
 
 /* Particles are in order: a run ends where the key changes. */
@@ -409,16 +436,101 @@ static void place_runs(void *context, int32_t begin, int32_t end)
     const SortJob *job = context;
     Grid *grid = job->grid;
     uint32_t *block_run = grid->block_run.data;
+    const int32_t blocks = grid_row_blocks(grid);
     (void)begin;
     (void)end;
     block_run[0] = 0;
-    for (int32_t b = 0; b < grid->particle_blocks; b++) block_run[b + 1] += block_run[b];
-    grid->runs = block_run[grid->particle_blocks];
+    for (int32_t block = 0; block < blocks; block++) block_run[block + 1] += block_run[block];
+    grid->runs = block_run[blocks];
     grid->run_begin[grid->runs] = grid->end_row;
+}
+
+/* ---- Particles that share no node with another one ---- */
+
+typedef struct FlightJob {
+    Grid *grid;
+    const Particles *particles;
+    bool listed;
+} FlightJob;
+
+/* No more such particles fit into a block: the cells of two differ by three or more along an axis. */
+static uint32_t most_apart(const Grid *grid) { return 1u << grid->dimension; }
+
+/* A cell with two particles makes the bits fewer; its block is left as it is. */
+static bool may_hold_lone(const Grid *grid, const FoundBlock *block)
+{
+    return block->particles <= most_apart(grid) && (uint32_t)__builtin_popcountll(block->cells) == block->particles;
+}
+
+static void cell_of(const Grid *grid, const Particles *p, uint32_t row, int32_t cell[3])
+{
+    for (int a = 0; a < 3; a++) cell[a] = a < grid->dimension ? p->cell[a][row] - grid->anchor[a] : 0;
+}
+
+static bool is_alone(const Grid *grid, const FoundBlock *block, const int32_t cell[3])
+{
+    const uint64_t own = cell_bit(cell);
+    for (int n = 0; n < grid->neighbours; n++) {
+        int32_t offset[3], there[3];
+        grid_neighbour_offset(n, grid->dimension, offset);
+        const uint64_t near = block_cells_near(cell, offset, grid->dimension);
+        if (near == 0) continue;
+        const bool home = n == grid->neighbours / 2;
+        for (int a = 0; a < 3; a++) there[a] = block->coordinate[a] + offset[a];
+        const FoundBlock *other = home ? block : grid_found(grid, there);
+        if (other && near & other->cells & ~(home ? own : 0)) return false;
+    }
+    return true;
+}
+
+/* Marks those that fly by a negative block. */
+static void mark_flying(void *context, int32_t begin, int32_t end)
+{
+    const FlightJob *job = context;
+    Grid *grid = job->grid;
+    for (int32_t i = begin; i < end; i++) {
+        const uint32_t at = grid->first_row + (uint32_t)i, row = job->listed ? grid->order_scratch[at] : at;
+        const FoundBlock *block = (const FoundBlock *)grid->found.data + grid->block_of[row];
+        int32_t cell[3];
+        if (!may_hold_lone(grid, block) || block->rank != GRID_MOVING) continue;
+        cell_of(grid, job->particles, row, cell);
+        if (is_alone(grid, block, cell) && grid->flies(grid->flies_context, row)) grid->block_of[row] = -1 - grid->block_of[row];
+    }
+}
+
+/* Takes a particle that flies out of its block. */
+static void leave_block(Grid *grid, const Particles *p, uint32_t row)
+{
+    FoundBlock *block = (FoundBlock *)grid->found.data + (-1 - grid->block_of[row]);
+    int32_t cell[3];
+    cell_of(grid, p, row, cell);
+    block->cells &= ~cell_bit(cell);
+    block->particles--;
+    grid->left_blocks += block->particles == 0;
+}
+
+static void let_fly(Grid *grid, const Particles *p, Pool *pool, bool listed)
+{
+    FlightJob job = {grid, p, listed};
+    const FoundBlock *found = grid->found.data;
+    uint32_t flying = 0;
+    bool any = false;
+    grid->flights = grid->left_blocks = 0;
+    for (uint32_t i = 0; i < grid->found_count && grid->flies && !any; i++) any = may_hold_lone(grid, &found[i]);
+    if (!any) return;
+    pool_for(pool, (int32_t)(grid->end_row - grid->first_row), ROW_GRAIN, mark_flying, &job);
+    for (uint32_t i = grid->first_row; i < grid->end_row; i++) {
+        const uint32_t row = listed ? grid->order_scratch[i] : i;
+        if (grid->block_of[row] >= 0) continue;
+        leave_block(grid, p, row);
+        flying++;
+    }
+    grid->flights = (int32_t)((flying + FLIGHT_ROWS - 1) / FLIGHT_ROWS);
 }
 
 static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Loops *loops, bool with_volume, bool listed)
 {
+    let_fly(grid, p, loops->pool, listed);
     if (!find_touched_blocks(grid, memory) || !reserve_blocks(grid, memory, with_volume)) {
         grid_clear(grid);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a grid of %u blocks", grid->found_count);
@@ -427,15 +539,16 @@ static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Loops *loo
     place_blocks(grid);
     order_by_block(grid, listed);
     LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), sort_inside_blocks, &job);
+    if (grid->flights > 0) sort_flying(&job);
     return PBMPM_OK;
 }
 
 static void link_all(Grid *grid, Particles *p, Loops *loops)
 {
     const SortJob job = {grid, p};
-    LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), count_runs, &job);
+    LOOPS_ADD(loops, grid_rows_and_flights(grid, BLOCK_GRAIN), count_runs, &job);
     LOOPS_ADD(loops, span_once(), place_runs, &job);
-    LOOPS_ADD(loops, grid_rows(grid, BLOCK_GRAIN), write_runs, &job);
+    LOOPS_ADD(loops, grid_rows_and_flights(grid, BLOCK_GRAIN), write_runs, &job);
     LOOPS_ADD(loops, grid_nodes(grid, BLOCK_GRAIN), link_neighbours, &job);
 }
 
@@ -466,6 +579,8 @@ void grid_share(Grid *part, const Grid *whole, int place, uint32_t first, uint32
     part->block_of = whole->block_of;
     part->order = whole->order;
     part->order_scratch = whole->order_scratch;
+    part->flies = whole->flies;
+    part->flies_context = whole->flies_context;
     if (place == 0) return; /* the whole grid itself */
     part->run_begin = whole->run_begin + first + place;
     part->run_key = whole->run_key + first + place;

@@ -13,6 +13,14 @@
 /* Into how many parts the particles may be divided that have a grid each; see islands.h. */
 enum { GRID_PARTS = 7 };
 
+enum { GRID_NOWHERE = -1 };
+
+/* Rows per flight, see Grid. */
+enum { FLIGHT_ROWS = 64 };
+
+/* Whether a particle that shares no node with another one is to fly. Asked for many rows at once, in any order. */
+typedef bool GridFlies(const void *context, uint32_t row);
+
 /* How the blocks with particles are ordered: first those that sleep, see sleep.h. Without sleeping all move. */
 typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } GridRank;
 
@@ -20,8 +28,9 @@ typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } Gr
 typedef struct FoundBlock {
     int32_t coordinate[3];
     uint32_t particles;
-    uint32_t sides; /* bit 2a: a particle in the lowest cell of axis a; bit 2a+1: in the highest */
-    int32_t index;  /* its final place */
+    uint64_t cells;   /* bit n: a particle in cell n, x fastest */
+    int32_t index;    /* its final place; GRID_NOWHERE: it is not wanted any more */
+    uint32_t touched; /* by a particle of another block */
     uint64_t morton;
     GridRank rank;
 } FoundBlock;
@@ -44,10 +53,19 @@ typedef struct Grid {
     uint32_t first_row, end_row; /* particles before and from there on are not in the grid: they sleep, or are in another part */
     Array coordinate;    /* int32_t[3] per node block: its position in blocks from the anchor */
     Array neighbour;     /* int32_t per node block and neighbour: block index or -1 */
-    Array block_begin;   /* uint32_t per particle block, and the end: first particle */
-    Array block_run;     /* uint32_t per particle block, and the end: first run */
+    Array block_begin;   /* uint32_t per particle block and flight, and the end: first particle */
+    Array block_run;     /* uint32_t per particle block and flight, and the end: first run */
 
-    /* Runs: sorted particles of one cell and material. */
+    /* A particle that shares no node with another one gets back from its nodes what it gave to them, so it needs none. Those that `flies` takes have no blocks;
+     * their rows follow those of the blocks, FLIGHT_ROWS in a flight. block_begin, block_run and the results of kernels count flights as
+     * blocks behind those with particles. */
+    GridFlies *flies; /* null: none does */
+    const void *flies_context;
+    uint32_t flight_row; /* the first of them */
+    int32_t flights;
+    int32_t left_blocks; /* blocks that hold none but such particles */
+
+    /* Runs: sorted particles of one cell and material; of one material alone in a flight. */
     uint32_t *run_begin; /* one more than runs */
     uint32_t *run_key;
     uint32_t runs;
@@ -82,8 +100,18 @@ static inline Span grid_rows(const Grid *grid, int32_t grain)
 /* No blocks, no runs: there are no particles. */
 static inline void grid_clear(Grid *grid)
 {
-    grid->particle_blocks = grid->node_blocks = grid->still_blocks = 0;
+    grid->particle_blocks = grid->node_blocks = grid->still_blocks = grid->flights = grid->left_blocks = 0;
     grid->runs = 0;
+}
+
+/* Blocks with particles, and flights. */
+static inline int32_t grid_row_blocks(const Grid *grid) { return grid->particle_blocks + grid->flights; }
+
+static inline Span grid_rows_and_flights(const Grid *grid, int32_t grain)
+{
+    Span span = grid_rows(grid, grain);
+    span.count = grid_row_blocks(grid);
+    return span;
 }
 
 /* Sorts the particles by block, cell and material and lists the blocks they touch. `with_volume`: also room for rest
@@ -136,8 +164,6 @@ static inline uint64_t grid_hash(const int32_t place[3])
     mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
     return mixed >> 32;
 }
-
-enum { GRID_NOWHERE = -1 };
 
 /* The node `way` from that at `local` in a node block, or GRID_NOWHERE: at most a block away. */
 static inline int64_t grid_node_beside(const Grid *grid, int32_t block, const int local[3], const int way[3])

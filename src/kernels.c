@@ -26,6 +26,7 @@
     DO(end_sketch, suffix)                                                                                               \
     DO(viscous, suffix)                                                                                                 \
     DO(viscous_nodes, suffix)                                                                                          \
+    DO(fly, suffix)                                                                                                     \
     DO(drift, suffix)                                                                                                   \
     DO(integrate, suffix)
 

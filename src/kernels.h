@@ -14,6 +14,7 @@ typedef struct Kernels {
     Kernel *iterate;       /* particle blocks: G2P, projection, P2G */
     Kernel *update_nodes;  /* node blocks: grid update */
     Kernel *integrate;     /* particle blocks: last G2P and integration */
+    Kernel *fly;           /* flights: the whole substep */
     Kernel *drift;         /* particle blocks that sleep: what they would do */
     Kernel *dual_begin;    /* particle blocks: dual solver, first P2G of the multipliers */
     Kernel *dual_iterate;  /* particle blocks: G2P, proximal step, P2G of the multipliers */

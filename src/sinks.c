@@ -89,6 +89,9 @@ static Around around_block(const World *world, int32_t block)
     return around;
 }
 
+/* The particles of a flight lie anywhere. */
+static bool is_block(const World *world, int32_t block) { return block < world->grid.particle_blocks; }
+
 static void place_of(const World *world, uint32_t row, double point[3])
 {
     for (int a = 0; a < 3; a++)
@@ -105,11 +108,13 @@ static bool takes(const World *world, const Drain *drain, uint32_t row)
 static uint32_t drain_block(World *world, Drain *drain, int32_t block)
 {
     Particles *p = &world->particles;
-    const Around around = around_block(world, block);
     const uint32_t *begin = world->grid.block_begin.data;
     double normal[3], mass = 0.0;
     uint32_t count = 0;
-    if (solid_distance(&drain->solid, around.centre, normal) > around.radius) return 0;
+    if (is_block(world, block)) {
+        const Around around = around_block(world, block);
+        if (solid_distance(&drain->solid, around.centre, normal) > around.radius) return 0;
+    }
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         double point[3];
         if (p->status[row] != K_ALIVE || !takes(world, drain, row)) continue;
@@ -138,10 +143,12 @@ static bool inside(const World *world, const double point[3], double margin)
 static uint32_t kill_in_block(World *world, int32_t block, pbmpm_event *event)
 {
     Particles *p = &world->particles;
-    const Around around = around_block(world, block);
     const uint32_t *begin = world->grid.block_begin.data;
     uint32_t count = 0;
-    if (inside(world, around.centre, around.radius)) return 0;
+    if (is_block(world, block)) {
+        const Around around = around_block(world, block);
+        if (inside(world, around.centre, around.radius)) return 0;
+    }
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         double point[3];
         place_of(world, row, point);
@@ -165,12 +172,12 @@ uint32_t sinks_mark(World *world, uint32_t substep)
     for (uint32_t slot = 0; slot < sinks->used; slot++) {
         Drain *drain = &sinks->slot[slot];
         if (drain->generation == 0 || !drain->def.enabled) continue;
-        for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+        for (int32_t block = 0; block < grid_row_blocks(&world->grid); block++)
             if (!sleep_is_still(world, block)) count += drain_block(world, drain, block);
     }
     if (!sinks->bounds.enabled) return count;
     pbmpm_event event = {.kind = PBMPM_EVENT_KILLED, .substep = substep, .step = world->step_count};
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+    for (int32_t block = 0; block < grid_row_blocks(&world->grid); block++)
         if (!sleep_is_still(world, block)) count += kill_in_block(world, block, &event);
     world->flow.killed += event.count;
     if (event.count) events_add(&world->events, &event);

@@ -237,11 +237,13 @@ static void commit(const Decision *d, uint32_t blocks)
     World *world = d->world;
     Sleep *sleep = d->sleep;
     const uint32_t *begin = world->grid.block_begin.data;
-    sleep->active.count = blocks;
+    sleep->active.count = (uint32_t)world->grid.particle_blocks;
     for (uint32_t f = 0; f < blocks; f++) {
         const FoundBlock *found = found_block(world, f);
+        if (found->particles == 0) continue; /* they all fly */
         SleepBlock *block = sleep_list_block(&sleep->active, (uint32_t)found->index);
         *block = d->next[f];
+        block->rows = found->particles;
         if (block->stage != SLEEP_AWAKE) block->stage = found->rank == GRID_LEAVING ? SLEEP_LEAVING : SLEEP_DROWSY;
         if (block->stage != SLEEP_AWAKE && block->moved) lay_down(world, found->index);
         block->moved = 0;

@@ -171,6 +171,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .lost = grid->lost.data,
                       .travel = grid->travel.data,
                       .material = world->materials.kernel,
+                      .iterations = world->record.solver == PBMPM_SOLVER_PAPER ? world->settings.iterations : 0,
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
@@ -380,7 +381,22 @@ void solver_integrate(World *world, int32_t begin, int32_t end)
     }
 }
 
+static void fly(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    const int32_t first = world->grid.particle_blocks;
+    world->kernels->fly(&world->args, first + begin, first + end);
+}
+
+static void let_fly(World *world)
+{
+    if (world->grid.flights == 0) return;
+    world->args.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
+    pool_for(world->pool, world->grid.flights, BLOCK_GRAIN, fly, world);
+}
+
 void solver_after_going(World *world, const ContactFrame *contacts)
 {
     if (solver_ends_by_primal(world)) primal_calm(world, contacts);
+    let_fly(world);
 }

@@ -6,6 +6,7 @@
 
 #include "clock.h"
 #include "depth.h"
+#include "flight.h"
 #include "islands.h"
 #include "joint.h"
 #include "open_volume.h"
@@ -73,7 +74,7 @@ static uint32_t collect_events(World *world, uint32_t substep)
     uint32_t total_lost = 0, total_clamped = 0, total_moved = 0;
     pbmpm_event slowed = {0};
     world->record.travel = 0.0f;
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+    for (int32_t block = 0; block < grid_row_blocks(&world->grid); block++) {
         if (sleep_is_still(world, block)) continue;
         total_moved += moved[block];
         world->record.travel = travel[block] > world->record.travel ? travel[block] : world->record.travel;
@@ -141,14 +142,26 @@ static pbmpm_result empty_substep(World *world, int part)
 }
 
 /* Where the particles are: order, blocks, runs, and which of them touch. */
-static pbmpm_result find_places(World *world, float dt)
+static pbmpm_result build_grid(World *world, float dt)
 {
     const bool with_volume = solver_wants_volume(world);
-    world->islands.groups = 1;
-    world->islands.contacts = 0;
     if (islands_wanted(world)) return islands_build(world);
     return world->sleep.on ? sleep_build(world, dt, with_volume)
                            : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
+}
+
+static pbmpm_result find_places(World *world, float dt, int part)
+{
+    Flight flight;
+    world->islands.groups = 1;
+    world->islands.contacts = 0;
+    colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    flight_begin(&flight, world, dt);
+    world->grid.flies = flight.possible ? flight_is_free : NULL;
+    world->grid.flies_context = &flight;
+    const pbmpm_result result = build_grid(world, dt);
+    world->grid.flies = NULL;
+    return result;
 }
 
 /* Where they would go if nothing held them. */
@@ -232,7 +245,7 @@ static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *mar
     lap(&record->ms_contacts, &clock);
 
     /* Where their materials let them go. */
-    solver_solve(world, &contacts);
+    if (world->grid.particle_blocks > 0) solver_solve(world, &contacts); /* else all fly */
     if (world->sleep.on) sleep_judge(world, dt);
     lap(&record->ms_iterate, &clock);
 
@@ -289,9 +302,9 @@ static pbmpm_result substep(World *world, float dt, int part)
 {
     double clock = now_ms();
     uint32_t marked = 0;
-    pbmpm_result result = find_places(world, dt);
+    pbmpm_result result = find_places(world, dt, part);
     if (result != PBMPM_OK) return result;
-    if (world->grid.particle_blocks == 0) return empty_substep(world, part); /* all sleep */
+    if (grid_row_blocks(&world->grid) == 0) return empty_substep(world, part); /* all sleep */
     lap(&world->record.ms_sort, &clock);
     result = world->islands.groups > 1 ? take_by_groups(world, dt, part, &marked) : take_substep(world, dt, part, &marked);
     if (result == PBMPM_OK && marked > 0) remove_marked(world);

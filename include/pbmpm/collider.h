@@ -38,7 +38,7 @@ typedef struct pbmpm_collider_def {
 PBMPM_API pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 
 /** Adds an obstacle, with the shape's pose at the start. It may stand on top of matter: that is pushed out over the next steps.
- *  Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY. */
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape,
                                              pbmpm_collider_id *collider);
 

@@ -56,7 +56,8 @@ PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drai
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status);
 
-/** The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
+/** Matter that falls for ever keeps its capacity and costs time: these bounds take it out.
+ *  The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
  *  PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls. */
 typedef struct pbmpm_kill_bounds {
     uint32_t size;   /**< sizeof(pbmpm_kill_bounds), set by pbmpm_kill_bounds_init() */

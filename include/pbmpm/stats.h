@@ -20,7 +20,7 @@ typedef struct pbmpm_stats {
     uint64_t step_count;          /**< steps since creation */
     double simulated_seconds;     /**< since creation */
     uint64_t memory_bytes;        /**< held by the world */
-    uint32_t particle_blocks;     /**< blocks of 4^d cells with particles */
+    uint32_t particle_blocks;     /**< blocks of 4^d cells with particles; a liquid particle that flies free, far from all else, is in none */
     uint32_t node_blocks;         /**< blocks of 4^d nodes that they touch */
     uint32_t contacts;            /**< node-obstacle pairs in the last substep */
     uint32_t substeps;            /**< of the step */

@@ -97,6 +97,31 @@ static void test_worlds_stop_at_their_limit(void)
     OK(pbmpm_world_create(&def, &more));
 }
 
+/* ---- what a small world holds ---- */
+
+/* Its own tables, of materials and events; what else there is follows its particles, colliders and blocks. */
+static void test_a_small_world_is_small(void)
+{
+    enum { TABLES = 140000, COLLIDER = 1000 };
+    static const float positions[3];
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        const pbmpm_world_def def = default_world(dimension, 0.1f, 1);
+        const pbmpm_world_id world = create_world(&def);
+        pbmpm_particles_def particles;
+        OK(pbmpm_particles_def_init(&particles, sizeof particles));
+        particles.material = create_material(world, PBMPM_LIQUID);
+        particles.positions = positions;
+        particles.count = 1;
+        OK(pbmpm_particles_add(world, &particles, NULL));
+        for (int i = 0; i < 3; i++) OK(pbmpm_world_step(world, 0.01f));
+        const uint64_t bare = world_stats(world).memory_bytes;
+        TEST_ASSERT_TRUE(bare < TABLES);
+        for (int i = 0; i < 8; i++) create_collider(world, sphere_shape(100, 0, 0, 1), false);
+        TEST_ASSERT_TRUE(world_stats(world).memory_bytes - bare < 8 * COLLIDER);
+        OK(pbmpm_world_destroy(world));
+    }
+}
+
 /* ---- memory budget ---- */
 
 typedef struct limits {
@@ -319,6 +344,7 @@ int main(void)
     RUN_TEST(test_materials_stop_at_their_limit);
     RUN_TEST(test_colliders_stop_at_their_limit);
     RUN_TEST(test_worlds_stop_at_their_limit);
+    RUN_TEST(test_a_small_world_is_small);
     RUN_TEST(test_the_budget_is_never_exceeded);
     RUN_TEST(test_a_budget_too_small_for_the_world);
     RUN_TEST(test_any_single_allocation_may_fail);

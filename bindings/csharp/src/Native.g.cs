@@ -719,7 +719,9 @@ namespace Pbmpm
         public int Dimension;
         /// <summary>grid spacing dx [m], in [1e-6, 1e6]; default 0.1</summary>
         public float CellSize;
-        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation.</summary>
+        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 200 bytes per particle in 3D,
+        /// and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
+        /// blocks take theirs when they come.</summary>
         public uint ParticleCapacity;
         /// <summary>what positions are relative to [m]; default 0. Used by nothing but the caller's own
         /// conversion, so a scene far from zero loses no precision.</summary>
@@ -729,7 +731,8 @@ namespace Pbmpm
         /// <summary>1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
         /// With task hooks: how many shares the work is cut into.</summary>
         public int ThreadCount;
-        /// <summary>0 (default): unbounded. 1: closed box, walls that hold matter in.</summary>
+        /// <summary>0 (default): unbounded: what falls, falls for ever and costs time; set kill bounds (drain.h) to take it out.
+        /// 1: closed box, walls that hold matter in.</summary>
         public int DomainEnabled;
         /// <summary>lower corner of the box [m], relative to the origin; default 0</summary>
         public Float3 DomainMin;
@@ -948,7 +951,8 @@ namespace Pbmpm
         public double DrainedMass;
     }
 
-    /// <summary>The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
+    /// <summary>Matter that falls for ever keeps its capacity and costs time: these bounds take it out.
+    /// The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
     /// PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct KillBounds
@@ -1241,7 +1245,7 @@ namespace Pbmpm
         public double SimulatedSeconds;
         /// <summary>held by the world</summary>
         public ulong MemoryBytes;
-        /// <summary>blocks of 4^d cells with particles</summary>
+        /// <summary>blocks of 4^d cells with particles; a liquid particle that flies free, far from all else, is in none</summary>
         public uint ParticleBlocks;
         /// <summary>blocks of 4^d nodes that they touch</summary>
         public uint NodeBlocks;
@@ -1827,7 +1831,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_collider_def_init(ColliderDef* def, UIntPtr size);
 
         /// <summary>Adds an obstacle, with the shape's pose at the start. It may stand on top of matter: that is pushed out over the next steps.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, BUSY.</summary>
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, CAPACITY, OUT_OF_MEMORY, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_create(WorldId world, ColliderDef* def, Shape* shape, ColliderId* collider);
 
