@@ -26,7 +26,7 @@ run_target() {
     i=0
     while [ $i -lt $at_once ]; do
         # shellcheck disable=SC2086 # no folder, or one without blanks
-        build/fuzz/tests/fuzz/"$1" -max_total_time="$seconds" -timeout=60 -reload=1 -print_final_stats=1 -artifact_prefix="$work/" \
+        build/fuzz/tests/fuzz/"$1" -max_total_time="$seconds" -timeout=60 -max_len=8192 -len_control=10 -reload=1 -print_final_stats=1 -artifact_prefix="$work/" \
             "$work/corpus" "$work/seeds" $given >"$work/run.$i.log" 2>&1 &
         i=$((i + 1))
     done

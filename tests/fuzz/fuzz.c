@@ -6,6 +6,10 @@
 
 static const char *folder;
 
+/* Short stacks and a small quarantine: worlds come and go quickly here. */
+const char *__asan_default_options(void);
+const char *__asan_default_options(void) { return "malloc_context_size=8:quarantine_size_mb=32"; }
+
 void fuzz_begin(int count, char **arguments)
 {
     setenv("PBMPM_ISA", "sse4", 1);

@@ -42,8 +42,20 @@ uint32_t bytes_u32(Bytes *bytes);
 
 enum { FUZZ_CAPACITY = 64 };
 
-/* A small world with one of everything: all materials, obstacles (one of them baked), an emitter, a drain, a force, sleeping. All solvers have run. */
-pbmpm_world_id fuzz_world(int dimension);
+/* What is in a world of these. */
+typedef struct FuzzIds {
+    pbmpm_material_id material;
+    pbmpm_collider_id collider[2]; /* a kinematic ball, and the baked solid */
+    pbmpm_baked_id baked;
+    pbmpm_emitter_id emitter;
+    pbmpm_drain_id drain;
+    pbmpm_force_id force;
+} FuzzIds;
+
+/* A small world with one of everything: all materials, obstacles (one of them baked), an emitter, a drain, a force. */
+pbmpm_world_id fuzz_world(int dimension, FuzzIds *ids);
+/* The same; all solvers have run, and matter may sleep. */
+pbmpm_world_id fuzz_used_world(int dimension);
 
 /* A small solid, baked; the caller frees it. `form`: 0 a triangle or tetrahedron, 1 a hull, 2 heights. */
 void *fuzz_solid(int dimension, int form, uint64_t *bytes);

@@ -17,7 +17,7 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
 {
     fuzz_begin(*count, *arguments);
     for (int i = 0; i < 2; i++) {
-        worlds[i] = fuzz_world(2 + i);
+        worlds[i] = fuzz_used_world(2 + i);
         HOLDS(pbmpm_snapshot_size(worlds[i], &sound_bytes[i], NULL) == PBMPM_OK);
         sound[i] = malloc(sound_bytes[i]);
         HOLDS(sound[i] && pbmpm_snapshot_save(worlds[i], sound[i], sound_bytes[i], NULL) == PBMPM_OK);

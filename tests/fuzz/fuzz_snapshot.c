@@ -36,7 +36,7 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
     fuzz_begin(*count, *arguments);
     for (int i = 0; i < 2; i++) {
         Stage *stage = &stages[i];
-        stage->world = fuzz_world(2 + i);
+        stage->world = fuzz_used_world(2 + i);
         stage->sound = save(stage->world, &stage->bytes);
         HOLDS(pbmpm_snapshot_restore(stage->world, stage->sound, stage->bytes) == PBMPM_OK);
         stage->hash = hash_of(stage->world);

@@ -58,68 +58,69 @@ static pbmpm_material_id add_matter(pbmpm_world_id world, pbmpm_material_kind ki
     return fill.material;
 }
 
-static void add_obstacles(pbmpm_world_id world, int dimension)
+static void add_obstacles(pbmpm_world_id world, int dimension, FuzzIds *ids)
 {
     pbmpm_collider_def def;
-    pbmpm_collider_id id;
-    pbmpm_baked_id baked;
-    uint64_t bytes;
-    void *solid = fuzz_solid(dimension, 0, &bytes);
-    DONE(pbmpm_baked_create(world, solid, bytes, &baked));
-    free(solid);
+    static void *solids[2]; /* baking takes long */
+    static uint64_t bytes[2];
+    const int i = dimension - 2;
+    if (!solids[i]) solids[i] = fuzz_solid(dimension, 0, &bytes[i]);
+    DONE(pbmpm_baked_create(world, solids[i], bytes[i], &ids->baked));
     DONE(pbmpm_collider_def_init(&def, sizeof def));
     def.shape = shape_at(PBMPM_SPHERE, 0.8f, 0.3f, 0.15f);
     def.kinematic = def.measures_impulse = 1;
-    DONE(pbmpm_collider_create(world, &def, &id));
+    DONE(pbmpm_collider_create(world, &def, &ids->collider[0]));
     def.shape = shape_at(PBMPM_BAKED, 0.2f, 0.1f, 0.5f);
-    def.shape.baked = baked;
+    def.shape.baked = ids->baked;
     def.kinematic = def.measures_impulse = 0;
-    DONE(pbmpm_collider_create(world, &def, &id));
+    DONE(pbmpm_collider_create(world, &def, &ids->collider[1]));
 }
 
-static void add_flow(pbmpm_world_id world, pbmpm_material_id material)
+static void add_flow(pbmpm_world_id world, FuzzIds *ids)
 {
     pbmpm_emitter_def emitter;
     pbmpm_drain_def drain;
     pbmpm_force_def force;
-    pbmpm_emitter_id emitter_id;
-    pbmpm_drain_id drain_id;
-    pbmpm_force_id force_id;
     DONE(pbmpm_emitter_def_init(&emitter, sizeof emitter));
     DONE(pbmpm_drain_def_init(&drain, sizeof drain));
     DONE(pbmpm_force_def_init(&force, sizeof force));
-    emitter.material = material;
+    emitter.material = ids->material;
     emitter.shape = shape_at(PBMPM_BOX, 0.5f, 0.8f, 0.1f);
     emitter.rate = 0.01f;
     drain.shape = shape_at(PBMPM_BOX, 0.9f, 0.9f, 0.05f);
     force.shape = shape_at(PBMPM_SPHERE, 0.5f, 0.5f, 0.2f);
     force.strength = 1.0f;
-    DONE(pbmpm_emitter_create(world, &emitter, &emitter_id));
-    DONE(pbmpm_drain_create(world, &drain, &drain_id));
-    DONE(pbmpm_force_create(world, &force, &force_id));
+    DONE(pbmpm_emitter_create(world, &emitter, &ids->emitter));
+    DONE(pbmpm_drain_create(world, &drain, &ids->drain));
+    DONE(pbmpm_force_create(world, &force, &ids->force));
 }
 
-pbmpm_world_id fuzz_world(int dimension)
+pbmpm_world_id fuzz_world(int dimension, FuzzIds *ids)
 {
-    static const pbmpm_material_kind kinds[] = {PBMPM_LIQUID, PBMPM_ELASTIC, PBMPM_SAND, PBMPM_VISCO};
-    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_PAPER, PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_DUAL, PBMPM_SOLVER_CONVERGENT};
     pbmpm_world_def def;
-    pbmpm_settings settings;
     pbmpm_world_id world;
-    pbmpm_material_id material = {0, 0};
     DONE(pbmpm_world_def_init(&def, sizeof def));
-    DONE(pbmpm_settings_init(&settings, sizeof settings));
     def.dimension = dimension;
     def.particle_capacity = FUZZ_CAPACITY;
     def.thread_count = 1;
     def.domain_enabled = def.domain_measures_impulse = 1;
     DONE(pbmpm_world_create(&def, &world));
-    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
-        const pbmpm_material_id added = add_matter(world, kinds[i]);
-        if (i == 0) material = added;
-    }
-    add_obstacles(world, dimension);
-    add_flow(world, material);
+    ids->material = add_matter(world, PBMPM_LIQUID);
+    add_matter(world, PBMPM_ELASTIC);
+    add_matter(world, PBMPM_SAND);
+    add_matter(world, PBMPM_VISCO);
+    add_obstacles(world, dimension, ids);
+    add_flow(world, ids);
+    return world;
+}
+
+pbmpm_world_id fuzz_used_world(int dimension)
+{
+    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_PAPER, PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_DUAL, PBMPM_SOLVER_CONVERGENT};
+    FuzzIds ids;
+    pbmpm_settings settings;
+    const pbmpm_world_id world = fuzz_world(dimension, &ids);
+    DONE(pbmpm_settings_init(&settings, sizeof settings));
     settings.iterations = 2;
     settings.gravity[1] = -9.81f;
     settings.integrator = PBMPM_INTEGRATOR_BDF2;

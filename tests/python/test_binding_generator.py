@@ -9,7 +9,7 @@ from pathlib import Path
 import cffi
 import pytest
 
-from generator import cdef, layout, model, parser
+from generator import cdef, fuzz, layout, model, parser
 
 
 @pytest.fixture(scope="module")
@@ -33,6 +33,13 @@ def test_committed_layout_list_is_current(api: model.Api, root: Path) -> None:
     assert committed == layout.emit(api), (
         "run: cd bindings && python -m generator layout --headers ../include --output ../src/layout_table.inc"
     )
+
+
+def test_committed_calls_of_the_fuzz_target_are_current(api: model.Api, root: Path) -> None:
+    committed = (root / "tests" / "fuzz" / "calls.inc").read_text(encoding="utf-8")
+    assert committed == fuzz.emit(api), "run: cd bindings && python -m generator fuzz --headers ../include --output ../tests/fuzz/calls.inc"
+    for function in api.functions:
+        assert f" {function.name}(" in committed or f"({function.name}(" in committed or f"(void){function.name}(" in committed, function.name
 
 
 def test_every_declared_function_is_exported(api: model.Api, root: Path) -> None:
