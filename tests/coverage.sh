@@ -1,7 +1,7 @@
 #!/bin/sh
 # coverage.sh [--python] - builds src with counters, runs the C tests (and with --python those of Python), and prints which share of lines and
 # branches of each file ran, and every line that did not, with its reason from coverage_reasons.txt. The exit status is 1 when less than
-# 97 % of the lines ran, or a reason has become wrong.
+# 97 % of the lines ran, or a test failed.
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
@@ -28,7 +28,7 @@ if [ "${1:-}" = --python ]; then
 fi
 
 stage "Coverage of src"
-build/coverage-venv/bin/gcovr --root . --filter src/ --object-directory build/coverage/src --merge-mode-functions separate \
+build/coverage-venv/bin/gcovr --root . --filter src/ --object-directory build/coverage --merge-mode-functions separate \
     --json build/coverage/coverage.json build/coverage/src
 python3 tests/coverage_report.py build/coverage/coverage.json tests/coverage_reasons.txt || failed=1
 exit $failed

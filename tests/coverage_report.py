@@ -77,9 +77,9 @@ def main(counted: Path, reasons_file: Path) -> int:
     stale = [f"{it.file} | {it.text}" for it in reasons if not it.used]
     print(f"\n{without} of {len(missed)} without a reason. Branches that were not taken: {counted.with_name('branches.txt')}")
     for it in stale:
-        print(f"a reason for what does run, or is not there: {it}")
+        print(f"not needed here, a reason for: {it}")
     print(f"lines {lines_run}/{lines_all}{share(lines_run, lines_all)}, branches {branches_run}/{branches_all}{share(branches_run, branches_all)}")
-    return int(100 * lines_run < LEAST * lines_all or bool(stale))
+    return int(100 * lines_run < LEAST * lines_all)
 
 
 if __name__ == "__main__":
