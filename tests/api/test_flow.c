@@ -203,6 +203,9 @@ static void test_definitions_are_kept(void)
     drain.shape = sphere_shape(5, 5, 0, 0.5f);
     drain.material = good.spare;
     OK(pbmpm_drain_set(good.world, good.drain, &drain));
+    pbmpm_drain_def foreign_drain = drain;
+    foreign_drain.material.generation++;
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_drain_set(good.world, good.drain, &foreign_drain));
     OK(pbmpm_drain_get(good.world, good.drain, &drain_back));
     TEST_ASSERT_EQUAL_MEMORY(&drain, &drain_back, sizeof drain);
     pbmpm_force_def force = default_force(PBMPM_FORCE_VORTEX), force_back = {.size = sizeof force_back};
