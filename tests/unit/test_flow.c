@@ -6,6 +6,7 @@
 #include "books.h"
 #include "random.h"
 #include "solver.h"
+#include "step.h"
 #include "world.h"
 
 enum { PARTICLES = 3000 };
@@ -102,6 +103,46 @@ static void check_marks(int dimension, uint32_t seed)
 static void test_sinks_find_every_particle(void)
 {
     for (uint32_t seed = 1; seed <= 40; seed++) check_marks(2 + (int)(seed & 1), seed);
+}
+
+/* ---- Emitters ---- */
+
+/* The rate is a rest volume per second: so many particles, each with its share of the mass. */
+static void check_rate(int dimension)
+{
+    pbmpm_world_def def = world_def_defaults();
+    pbmpm_emitter_def emitter = emitter_defaults();
+    pbmpm_material_def water = material_defaults();
+    pbmpm_emitter_status status = {.size = sizeof status};
+    pbmpm_emitter_id id;
+    def.dimension = dimension;
+    def.cell_size = 0.25f;
+    def.particle_capacity = 4 * PARTICLES;
+    def.thread_count = 1;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &world));
+    water.density = 800.0f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &emitter.material));
+    emitter.rate = 0.5f;
+    emitter.particles_per_axis = 8.0f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&world->emitters, &world->memory, &emitter, 1, &id));
+    for (int step = 0; step < 10; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+    const double each = pow(0.25 / 8.0, dimension);
+    emitter_report(emitters_find(&world->emitters, id), &status);
+    TEST_ASSERT_EQUAL_UINT64(world->particles.count, status.emitted);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 0.05 / each, (double)(status.emitted + status.refused_full));
+    TEST_ASSERT_TRUE(status.emitted > status.refused_full);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, status.emitted_mass / (800.0 * each * (double)status.emitted));
+    double mass = 0.0;
+    for (uint32_t row = 0; row < world->particles.count; row++) mass += (double)world->particles.mass[row] * world_cell_volume(world);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0, mass / status.emitted_mass);
+    world_destroy(world);
+    world = NULL;
+}
+
+static void test_rates_of_emitters(void)
+{
+    check_rate(2);
+    check_rate(3);
 }
 
 /* ---- Forces ---- */
@@ -300,6 +341,7 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_sinks_find_every_particle);
+    RUN_TEST(test_rates_of_emitters);
     RUN_TEST(test_forces_reach_every_node_and_no_further);
     RUN_TEST(test_drag_and_grab);
     RUN_TEST(test_forces_that_are_off_cost_nothing);
