@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "random.h"
 #include "result.h"
+#include "shapes.h"
 
 static Mesh mesh;
 
@@ -183,6 +184,36 @@ static void test_torus(void)
 }
 
 /* ---- Windings ---- */
+
+/* The box around a solid that was turned and moved is the box around the corners of its grid. */
+static void test_bounds_of_turned_solids(void)
+{
+    static const float turns[2][4] = {{0, 0, 0.6f, 0.8f}, {0.1f, -0.5f, 0.5f, 0.7f}};
+    for (int d = 2; d <= 3; d++) {
+        mesh_clear(&mesh, d);
+        mesh_add_box(&mesh, (const double[3]){0.5, 0.25, -1}, (const double[3]){1, 0.5, 0.25});
+        bake_now(16);
+        Solid solid = {.kind = PBMPM_BAKED, .dimension = d, .position = {3, -2, d == 3 ? 5 : 0}, .grid = &baked.grid};
+        float turn[4];
+        memcpy(turn, turns[d - 2], sizeof turn);
+        normalise_quaternion(turn);
+        rotation_from_quaternion(turn, solid.rotation);
+        double low[3], high[3], least[3], most[3];
+        for (int corner = 0; corner < 1 << d; corner++)
+            for (int a = 0; a < d; a++) {
+                double at = solid.position[a];
+                for (int b = 0; b < d; b++)
+                    at += solid.rotation[a * 3 + b] * (corner >> b & 1 ? distance_grid_high(&baked.grid, b) : baked.grid.low[b]);
+                least[a] = corner ? fmin(least[a], at) : at;
+                most[a] = corner ? fmax(most[a], at) : at;
+            }
+        solid_bounds(&solid, low, high);
+        for (int a = 0; a < d; a++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, least[a], low[a]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, most[a], high[a]);
+        }
+    }
+}
 
 static void test_winding_inward_is_the_same_solid(void)
 {
@@ -555,6 +586,7 @@ int main(void)
     RUN_TEST(test_ball);
     RUN_TEST(test_box);
     RUN_TEST(test_torus);
+    RUN_TEST(test_bounds_of_turned_solids);
     RUN_TEST(test_winding_inward_is_the_same_solid);
     RUN_TEST(test_parts_may_overlap);
     RUN_TEST(test_hollows);
