@@ -12,6 +12,8 @@ from pathlib import Path
 #: What is code but says nothing of behaviour: declarations of types, includes, what only a compiler reads.
 _IDLE = re.compile(r"^\s*(#|typedef|extern|_Static_assert|static_assert|export\b.*\);$|\}|\{|case [\w ]+:$|default:$)")
 _NUMBER = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?f?|\d+e[-+]?\d+f?|\d+u?)(?![\w.])")
+#: A declaration up to its value: a larger array changes nothing.
+_DECLARED = re.compile(r"^\s*(?:static |const |uniform )*(?:float|double|bool|char|size_t|u?int(?:\d+_t)?|[A-Z]\w*) [^=;]*")
 _CALL = re.compile(r"^(\s*)([a-z]\w*\(.*\));$")
 _IF = re.compile(r"\b(c?if|c?while) \(")
 
@@ -53,8 +55,11 @@ def _swap(pairs: dict[str, str], pattern: str) -> Callable[[str, str], Iterator[
 
 
 def _constants(line: str, code: str) -> Iterator[str]:
+    declared = _DECLARED.match(code)
     for match in _NUMBER.finditer(code):
         text = match[1]
+        if declared and match.end() <= declared.end() and code[match.start() - 1] == "[":
+            continue
         if text.rstrip("u").isdigit():
             changed = str(int(text.rstrip("u")) + 1) + ("u" if text.endswith("u") else "")
         else:
