@@ -9,6 +9,9 @@ set(PBMPM_KERNEL_ISAS sse4 avx2 avx512skx CACHE INTERNAL "")
 set(PBMPM_KERNEL_TARGETS sse4-i32x4,avx2-i32x8,avx512skx-x8 CACHE INTERNAL "")
 set(PBMPM_KERNEL_MACHINES nehalem haswell skylake-avx512 CACHE INTERNAL "") # what Clang calls them
 
+option(PBMPM_ONE_ISA "For tests that build often: SSE4 kernels stand in for all others" OFF)
+mark_as_advanced(PBMPM_ONE_ISA)
+
 set(instrument FALSE)
 if(NOT PBMPM_SANITIZE STREQUAL none)
     if(CMAKE_C_COMPILER_ID STREQUAL "Clang" AND CMAKE_C_COMPILER_VERSION VERSION_GREATER_EQUAL 19)
@@ -35,6 +38,11 @@ function(pbmpm_compile_kernels file objects)
     list(TRANSFORM arg_INCLUDE PREPEND "-I" OUTPUT_VARIABLE includes)
     set(definitions ${PBMPM_MATERIAL_DEFINITIONS} ${PBMPM_STRICT_DEFINITION})
     list(TRANSFORM definitions PREPEND "-D")
+    if(PBMPM_ONE_ISA AND NOT PBMPM_INSTRUMENT_KERNELS)
+        compile_one_isa("${file}" "${stem}" "${includes}" "${definitions}" "${arg_DEPENDS}" "${outputs}")
+        set(${objects} ${${objects}} ${outputs} PARENT_SCOPE)
+        return()
+    endif()
     add_custom_command(
         OUTPUT ${outputs}
         BYPRODUCTS "${stem}${suffix}"
@@ -47,6 +55,27 @@ function(pbmpm_compile_kernels file objects)
         instrument_kernels("${stem}" outputs)
     endif()
     set(${objects} ${${objects}} ${outputs} PARENT_SCOPE)
+endfunction()
+
+# The same functions under the names of each instruction set.
+function(compile_one_isa file stem includes definitions depends outputs)
+    find_program(CMAKE_OBJCOPY objcopy REQUIRED)
+    find_program(CMAKE_NM nm REQUIRED)
+    list(GET PBMPM_KERNEL_TARGETS 0 target)
+    string(REGEX REPLACE ",.*" "" target "${target}")
+    set(renamings "")
+    foreach(isa output IN ZIP_LISTS PBMPM_KERNEL_ISAS outputs)
+        string(APPEND renamings "'${CMAKE_NM}' -g --defined-only '${stem}.o' | sed 's/.* //; s/.*/& &_${isa}/' > '${output}.names' && "
+            "'${CMAKE_OBJCOPY}' --redefine-syms='${output}.names' '${stem}.o' '${output}' && ")
+    endforeach()
+    add_custom_command(
+        OUTPUT ${outputs}
+        BYPRODUCTS "${stem}.o"
+        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} ${definitions} --target=${target} --pic --wno-perf -O2 -o "${stem}.o"
+        COMMAND sh -c "${renamings} true"
+        DEPENDS "${file}" ${depends} "${CMAKE_ISPC_COMPILER}"
+        COMMENT "Compiling ${file} for ${target} alone"
+        VERBATIM)
 endfunction()
 
 # instrument_kernels(STEM OBJECTS): ISPC has written LLVM's text; its functions are marked, and Clang makes the objects.

@@ -66,6 +66,7 @@ const char *collider_problem(const pbmpm_collider_def *def)
     if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
     if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
+    if (def->reserved != 0) return "collider.reserved must be 0";
     return NULL;
 }
 

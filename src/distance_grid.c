@@ -143,6 +143,14 @@ void distance_grid_write(const DistanceGrid *grid, void *data)
     memcpy((char *)data + sizeof header, grid->value, bytes);
 }
 
+void distance_grid_seal(void *data, uint64_t size)
+{
+    Header header;
+    memcpy(&header, data, sizeof header);
+    header.checksum = checksum(header, (const char *)data + sizeof header, size - sizeof header);
+    memcpy(data, &header, sizeof header);
+}
+
 static const char *header_problem(const Header *header)
 {
     const bool deep = header->dimension == 3;

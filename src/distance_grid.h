@@ -34,6 +34,9 @@ size_t distance_grid_bytes(const DistanceGrid *grid);
 /* Writes distance_grid_bytes() bytes; `data` needs no alignment. */
 void distance_grid_write(const DistanceGrid *grid, void *data);
 
+/* Writes the checksum of stored bytes that are final otherwise; `size` is that of a header and whole values. */
+void distance_grid_seal(void *data, uint64_t size);
+
 /* Checks everything and describes the grid; `value` stays null, the values begin at *values (unaligned). */
 pbmpm_result distance_grid_read(const void *data, uint64_t size, DistanceGrid *grid, const void **values);
 

@@ -1,4 +1,4 @@
-"""Command line: ``python -m generator cdef|csharp|layout|sized|header --headers include --output FILE``."""
+"""Command line: ``python -m generator cdef|csharp|layout|sized|header|fuzz --headers include --output FILE``."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from .parser import ParseError, parse
 _TARGETS = {
     "cdef": "declarations for cffi",
     "csharp": "P/Invoke declarations for C#",
+    "fuzz": "calls of every function with arguments out of bytes, for the fuzz target of them",
     "layout": "the list of structures and fields in the library",
     "sized": "the table of the sizes of structures in all versions, in the library",
     "header": "one header without comments, kept in tests/abi",

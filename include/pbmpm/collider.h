@@ -29,6 +29,7 @@ typedef struct pbmpm_collider_def {
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
+    uint32_t reserved;          /**< 0 */
     uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */

@@ -234,6 +234,9 @@ static void test_definitions_are_kept(void)
     drain.user_data = UINT64_MAX;
     back = (pbmpm_shape){.size = sizeof back};
     OK(pbmpm_drain_set(good.world, good.drain, &drain, &shape));
+    pbmpm_drain_def foreign_drain = drain;
+    foreign_drain.material.generation++;
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_drain_set(good.world, good.drain, &foreign_drain, NULL));
     OK(pbmpm_drain_get(good.world, good.drain, &drain_back, &back));
     TEST_ASSERT_EQUAL_MEMORY(&drain, &drain_back, sizeof drain);
     TEST_ASSERT_EQUAL_MEMORY(&shape, &back, sizeof shape);

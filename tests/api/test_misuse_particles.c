@@ -172,7 +172,7 @@ static void test_values_of_setters(void)
     REFUSED(pbmpm_particles_set(good.world, PBMPM_MATERIAL, &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, PBMPM_PARTICLE, &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, PBMPM_MASS, &good.particle, 1, wild));
-    REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)8, &good.particle, 1, wild));
+    REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)(PBMPM_PRESSURE + 1), &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)-1, &good.particle, 1, wild));
     snapshot_expect_same(&before, good.world, "setters");
 }
@@ -196,9 +196,56 @@ static void test_volume_ratio_setter(void)
     OK(pbmpm_particles_set(good.world, PBMPM_VOLUME_RATIO, &id, 1, &ends[1]));
 }
 
+/* The first pressure that is set makes room for all. */
+static void test_pressure_setter(void)
+{
+    static const float wrong[] = {NAN, INFINITY, -1e-6f, -1, 1.1e30f}, ends[] = {1e30f, 0, 1234.5f};
+    const float position[2] = {0.25f, 0.25f};
+    pbmpm_particles_def def;
+    pbmpm_particle_id id;
+    uint32_t row;
+    OK(pbmpm_particles_def_init(&def, sizeof def));
+    def.material = good.spare;
+    def.count = 1;
+    def.positions = position;
+    OK(pbmpm_particles_add(good.world, &def, &id));
+    before = snapshot_take(good.world);
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_set(good.world, PBMPM_PRESSURE, &id, 1, &wrong[i]));
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_set(good.world, PBMPM_PRESSURE, &good.particle, 1, &ends[1])); /* an elastic one */
+    snapshot_expect_same(&before, good.world, "pressure");
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        OK(pbmpm_particles_set(good.world, PBMPM_PRESSURE, &id, 1, &ends[i]));
+        OK(pbmpm_particles_find(good.world, &id, 1, &row));
+        const pbmpm_view view = view_of(good.world, PBMPM_PRESSURE);
+        TEST_ASSERT_EQUAL_FLOAT(ends[i], view_float(&view, row, 0));
+    }
+}
+
+/* A volume for all is between 1e-6 and 1e6 cells of 0.01 m^2. */
+static void test_volume_in_cells(void)
+{
+    static const float wrong[] = {0.9e-8f, 1.1e4f, 1e27f}, right[] = {1.1e-8f, 0.9e4f, 0};
+    const float position[2] = {0.25f, 0.25f};
+    pbmpm_particles_def def;
+    OK(pbmpm_particles_def_init(&def, sizeof def));
+    def.material = good.spare;
+    def.count = 1;
+    def.positions = position;
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        def.volume = wrong[i];
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_add(good.world, &def, NULL));
+        snapshot_expect_same(&before, good.world, "volume");
+    }
+    for (size_t i = 0; i < sizeof right / sizeof *right; i++) {
+        def.volume = right[i];
+        OK(pbmpm_particles_add(good.world, &def, NULL));
+    }
+}
+
 static void test_unknown_fields(void)
 {
-    static const int wrong[] = {8, -1, 1000, INT_MAX, INT_MIN};
+    static const int wrong[] = {PBMPM_PRESSURE + 1, -1, 1000, INT_MAX, INT_MIN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         pbmpm_view view = {.size = sizeof view};
         REFUSED(pbmpm_particles_view(good.world, (pbmpm_field)wrong[i], &view));
@@ -320,6 +367,8 @@ int main(void)
     RUN_TEST(test_immense_fills);
     RUN_TEST(test_values_of_setters);
     RUN_TEST(test_volume_ratio_setter);
+    RUN_TEST(test_pressure_setter);
+    RUN_TEST(test_volume_in_cells);
     RUN_TEST(test_unknown_fields);
     RUN_TEST(test_absurd_but_finite_numbers);
     RUN_TEST(test_random_bits);

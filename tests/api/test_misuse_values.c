@@ -147,6 +147,32 @@ static void test_lengths_of_step(void)
     }
 }
 
+/* A substep lasts at least 1e-25 s, and 1e-25 s/m times the cell size. */
+static void test_substeps_that_are_too_short(void)
+{
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(good.world, 0.9e-25f));
+    snapshot_expect_same(&before, good.world, "short step");
+    set_rate(good.world, 4, 1);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(good.world, 3.9e-25f));
+    OK(pbmpm_world_step(good.world, 4.1e-25f));
+    const pbmpm_world_def def = default_world(2, 1e3f, 16);
+    const pbmpm_world_id coarse = create_world(&def);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(coarse, 0.9e-22f));
+    OK(pbmpm_world_step(coarse, 1.1e-22f));
+    OK(pbmpm_world_destroy(coarse));
+}
+
+/* Without one a liquid is incompressible, which the explicit solver cannot be. */
+static void test_the_explicit_solver_needs_moduli(void)
+{
+    set_solver(good.world, PBMPM_SOLVER_EXPLICIT);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_step(good.world, 1e-4f));
+    pbmpm_material_def liquid = default_material(PBMPM_LIQUID);
+    liquid.bulk_modulus = 1e4f;
+    OK(pbmpm_material_set(good.world, good.spare, &liquid));
+    OK(pbmpm_world_step(good.world, 1e-4f));
+}
+
 /* ---- materials ---- */
 
 static pbmpm_result use_new_material(const void *structure)
@@ -520,6 +546,8 @@ int main(void)
     RUN_TEST(test_half_given_callbacks);
     RUN_TEST(test_settings);
     RUN_TEST(test_lengths_of_step);
+    RUN_TEST(test_substeps_that_are_too_short);
+    RUN_TEST(test_the_explicit_solver_needs_moduli);
     RUN_TEST(test_unknown_kinds_of_material_are_unsupported);
     RUN_TEST(test_materials);
     RUN_TEST(test_a_bulk_modulus_is_none_or_large_enough);

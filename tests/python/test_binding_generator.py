@@ -9,7 +9,7 @@ from pathlib import Path
 import cffi
 import pytest
 
-from generator import cdef, header, layout, model, parser, sized
+from generator import cdef, fuzz, header, layout, model, parser, sized
 
 
 @pytest.fixture(scope="module")
@@ -49,6 +49,13 @@ def test_the_header_of_this_version_is_kept(api: model.Api, root: Path) -> None:
     assert kept.read_text(encoding="utf-8") == header.emit(api), (
         f"run: cd bindings && python -m generator header --headers ../include --output ../tests/abi/{version}/include/pbmpm/pbmpm.h"
     )
+
+
+def test_committed_calls_of_the_fuzz_target_are_current(api: model.Api, root: Path) -> None:
+    committed = (root / "tests" / "fuzz" / "calls.inc").read_text(encoding="utf-8")
+    assert committed == fuzz.emit(api), "run: cd bindings && python -m generator fuzz --headers ../include --output ../tests/fuzz/calls.inc"
+    for function in api.functions:
+        assert f" {function.name}(" in committed or f"({function.name}(" in committed or f"(void){function.name}(" in committed, function.name
 
 
 def test_every_declared_function_is_exported(api: model.Api, root: Path) -> None:

@@ -116,6 +116,24 @@ def test_error_names_the_field(path: str, value: Any, named: str, said: str) -> 
     assert said in message
 
 
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (b"[" * 100_000, "nested too deeply"),
+        (b'{"a":' * 100_000, "nested too deeply"),
+        (b'{"seconds": ' + b"9" * 5000 + b"}", "cannot be read"),
+        (b'{"name": "\xff"}', "cannot be read"),
+        (b"{", "scene.json:1:2: not JSON"),
+        (b"", "scene.json:1:1: not JSON"),
+    ],
+)
+def test_files_that_are_no_json(tmp_path: Path, text: bytes, said: str) -> None:
+    path = tmp_path / "scene.json"
+    path.write_bytes(text)
+    with pytest.raises(InputError, match=said):
+        load_scene(path)
+
+
 def test_the_world_gets_what_the_scene_says() -> None:
     data = changed("materials", {"gel": {"kind": "elastic", "elastic_model": "neo_hookean", "poisson_ratio": 0.4}})
     data["fills"][0]["material"] = "gel"

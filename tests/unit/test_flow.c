@@ -6,6 +6,7 @@
 #include "books.h"
 #include "random.h"
 #include "solver.h"
+#include "step.h"
 #include "world.h"
 
 enum { PARTICLES = 3000 };
@@ -104,6 +105,46 @@ static void test_sinks_find_every_particle(void)
     for (uint32_t seed = 1; seed <= 40; seed++) check_marks(2 + (int)(seed & 1), seed);
 }
 
+/* ---- Emitters ---- */
+
+/* The rate is a rest volume per second: so many particles, each with its share of the mass. */
+static void check_rate(int dimension)
+{
+    pbmpm_world_def def = world_def_defaults();
+    pbmpm_emitter_def emitter = emitter_defaults();
+    pbmpm_material_def water = material_defaults();
+    pbmpm_emitter_status status = {.size = sizeof status};
+    pbmpm_emitter_id id;
+    def.dimension = dimension;
+    def.cell_size = 0.25f;
+    def.particle_capacity = 4 * PARTICLES;
+    def.thread_count = 1;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &world));
+    water.density = 800.0f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &emitter.material));
+    emitter.rate = 0.5f;
+    emitter.particles_per_axis = 8.0f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&world->emitters, &world->memory, &emitter, 1, &id));
+    for (int step = 0; step < 10; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+    const double each = pow(0.25 / 8.0, dimension);
+    emitter_report(emitters_find(&world->emitters, id), &status);
+    TEST_ASSERT_EQUAL_UINT64(world->particles.count, status.emitted);
+    TEST_ASSERT_DOUBLE_WITHIN(1.0, 0.05 / each, (double)(status.emitted + status.refused_full));
+    TEST_ASSERT_TRUE(status.emitted > status.refused_full);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 1.0, status.emitted_mass / (800.0 * each * (double)status.emitted));
+    double mass = 0.0;
+    for (uint32_t row = 0; row < world->particles.count; row++) mass += (double)world->particles.mass[row] * world_cell_volume(world);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0, mass / status.emitted_mass);
+    world_destroy(world);
+    world = NULL;
+}
+
+static void test_rates_of_emitters(void)
+{
+    check_rate(2);
+    check_rate(3);
+}
+
 /* ---- Forces ---- */
 
 static void predict(void)
@@ -123,7 +164,17 @@ static void place_of_node(int32_t block, int i, double point[3])
         point[a] = a < world->def.dimension ? 0.25 * (world->grid.anchor[a] + corner[a] * K_BLOCK_AXIS + local[a]) : 0.0;
 }
 
-/* Inside of its shape and range every node gets the acceleration, to the rounding of a float; elsewhere none changes a bit. */
+/* See pbmpm_falloff. */
+static double share_of(const pbmpm_force_def *def, double distance)
+{
+    const double part = distance / (double)def->range;
+    if (distance <= 0.0) return 1.0;
+    if (def->falloff == PBMPM_FALLOFF_INVERSE_SQUARE) return pow(1.0 + part, -2.0);
+    if (part > 1.0) return 0.0;
+    return def->falloff == PBMPM_FALLOFF_LINEAR ? 1.0 - part : def->falloff == PBMPM_FALLOFF_SMOOTH ? pow(1.0 - part * part, 2.0) : 1.0;
+}
+
+/* Every node gets the acceleration, to the rounding of a float, by its share; where that is 0 none changes a bit. */
 static void check_reach(int dimension, uint32_t seed)
 {
     static float before[1 << 20];
@@ -138,6 +189,7 @@ static void check_reach(int dimension, uint32_t seed)
     pbmpm_force_id id;
     def.everywhere = 0;
     def.range = (float)random_in(&random, 0.0, 1.0);
+    def.falloff = (pbmpm_falloff)(seed / 2 % 4);
     def.strength = 500.0f; /* 0.2 cells per substep */
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &shape, dimension, 1, &id));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
@@ -150,11 +202,11 @@ static void check_reach(int dimension, uint32_t seed)
             const size_t at = ((size_t)block * (size_t)world->grid.block_cells + (size_t)i) * K_NODE_WIDTH;
             double point[3], normal[3];
             place_of_node(block, i, point);
-            const bool felt = before[at + 3] > 0.0f && solid_distance(&solid, point, normal) <= (double)def.range;
+            const double share = before[at + 3] > 0.0f ? share_of(&def, solid_distance(&solid, point, normal)) : 0.0;
             TEST_ASSERT_EQUAL_FLOAT(before[at], node[at]);
-            TEST_ASSERT_TRUE(fabsf(node[at + 1] - before[at + 1] - (felt ? 0.2f : 0.0f)) <= (felt ? 1e-6f : 0.0f));
+            TEST_ASSERT_TRUE(fabs((double)node[at + 1] - (double)before[at + 1] - 0.2 * share) <= (share > 0.0 ? 1e-6 : 0.0));
             for (int a = 0; a < dimension; a++) reach = fmaxf(reach, fabsf(node[at + (size_t)a]));
-            if (felt) impulse += (double)before[at + 3] * world_cell_volume(world) * 5.0;
+            impulse += share * (double)before[at + 3] * world_cell_volume(world) * 5.0;
         }
         TEST_ASSERT_EQUAL_FLOAT(reach, ((const float *)world->grid.node_reach.data)[block]);
     }
@@ -169,6 +221,52 @@ static void check_reach(int dimension, uint32_t seed)
 static void test_forces_reach_every_node_and_no_further(void)
 {
     for (uint32_t seed = 1; seed <= 20; seed++) check_reach(2 + (int)(seed & 1), seed);
+}
+
+/* The exact solution of v' = -k (v - w) with a wind that turns; a grab leaves nothing but the wind. */
+static void check_drag(pbmpm_force_kind kind)
+{
+    static float before[1 << 18];
+    make_world(2, 7);
+    world->settings.solver = PBMPM_SOLVER_DUAL;
+    predict();
+    TEST_ASSERT_TRUE(node_floats() <= sizeof before / sizeof *before);
+    memcpy(before, world->grid.node.data, node_floats() * sizeof(float));
+    pbmpm_force_def def = force_defaults();
+    pbmpm_force_id id;
+    def.kind = kind;
+    def.strength = 30.0f;
+    def.velocity[0] = 1.0f;
+    def.velocity[1] = -2.0f;
+    def.spin = 0.5f;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, 2, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
+    const float *node = world->grid.node.data;
+    const double kept = kind == PBMPM_FORCE_GRAB ? 0.0 : exp(-0.3);
+    double impulse[2] = {0}, size = 0.0;
+    for (int32_t block = 0; block < world->grid.node_blocks; block++)
+        for (int i = 0; i < world->grid.block_cells; i++) {
+            const size_t at = ((size_t)block * (size_t)world->grid.block_cells + (size_t)i) * K_NODE_WIDTH;
+            double point[3];
+            place_of_node(block, i, point);
+            const double wind[2] = {(1.0 - 0.5 * point[1]) * 0.04, (-2.0 + 0.5 * point[0]) * 0.04}; /* cells per substep */
+            for (size_t a = 0; a < 2; a++) {
+                const double expected = before[at + 3] > 0.0f ? wind[a] + kept * ((double)before[at + a] - wind[a]) : (double)before[at + a];
+                TEST_ASSERT_DOUBLE_WITHIN(1e-6, expected, (double)node[at + a]);
+                impulse[a] += (expected - (double)before[at + a]) * 25.0 * (double)before[at + 3] * world_cell_volume(world);
+                size += fabs(expected - (double)before[at + a]) * 25.0 * (double)before[at + 3] * world_cell_volume(world);
+            }
+        }
+    forces_account(&world->forces, world->grid.node_blocks);
+    for (int a = 0; a < 2; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-5 * size, impulse[a], forces_find(&world->forces, id)->impulse[a]);
+    world_destroy(world);
+    world = NULL;
+}
+
+static void test_drag_and_grab(void)
+{
+    check_drag(PBMPM_FORCE_DRAG);
+    check_drag(PBMPM_FORCE_GRAB);
 }
 
 /* A world without forces that are on is not passed over: the predictor is what it was, and no memory is taken. */
@@ -246,7 +344,9 @@ int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_sinks_find_every_particle);
+    RUN_TEST(test_rates_of_emitters);
     RUN_TEST(test_forces_reach_every_node_and_no_further);
+    RUN_TEST(test_drag_and_grab);
     RUN_TEST(test_forces_that_are_off_cost_nothing);
     RUN_TEST(test_a_shape_between_two_poses);
     RUN_TEST(test_slots_are_used_again_and_never_mistaken);

@@ -299,9 +299,21 @@ static void test_particles_survive_without_memory_for_deformation(void)
     close_particles();
 }
 
+static void test_fields_that_cannot_be_switched_on(void)
+{
+    static const FieldTag tags[] = {(FieldTag)0, FIELD_CELL, FIELD_STATUS, FIELD_ID, (FieldTag)99};
+    open_particles(2, false);
+    const int fields = particles.field_count;
+    for (size_t i = 0; i < sizeof tags / sizeof *tags; i++)
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_UNSUPPORTED, particles_enable(&particles, &memory, tags[i]));
+    TEST_ASSERT_EQUAL_INT(fields, particles.field_count);
+    close_particles();
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_fields_that_cannot_be_switched_on);
     RUN_TEST(test_positions);
     RUN_TEST(test_new_particles_start_undeformed_at_rest);
     RUN_TEST(test_deformation_can_come_later);

@@ -316,9 +316,23 @@ static void test_turn_in_the_plane(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, sin(angle), normal[1]);
 }
 
+/* A kind is any number that the caller wrote there. */
+static void test_unknown_kinds_are_refused(void)
+{
+    static const int32_t kinds[] = {-1, 5, 6, 1000, INT32_MAX, INT32_MIN};
+    pbmpm_shape shape = shape_defaults();
+    TEST_ASSERT_NULL(shape_problem(&shape, 2));
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        shape.kind = (pbmpm_shape_kind)kinds[i];
+        TEST_ASSERT_EQUAL_STRING("shape.kind is unknown", shape_problem(&shape, 2));
+        TEST_ASSERT_EQUAL_STRING("shape.kind is unknown", shape_problem(&shape, 3));
+    }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(test_unknown_kinds_are_refused);
     RUN_TEST(test_distances);
     RUN_TEST(test_other_faces);
     RUN_TEST(test_normals);

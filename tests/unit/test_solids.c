@@ -9,6 +9,7 @@
 #include "meshes.h"
 #include "random.h"
 #include "result.h"
+#include "shapes.h"
 
 static Mesh mesh;
 
@@ -183,6 +184,36 @@ static void test_torus(void)
 }
 
 /* ---- Windings ---- */
+
+/* The box around a solid that was turned and moved is the box around the corners of its grid. */
+static void test_bounds_of_turned_solids(void)
+{
+    static const float turns[2][4] = {{0, 0, 0.6f, 0.8f}, {0.1f, -0.5f, 0.5f, 0.7f}};
+    for (int d = 2; d <= 3; d++) {
+        mesh_clear(&mesh, d);
+        mesh_add_box(&mesh, (const double[3]){0.5, 0.25, -1}, (const double[3]){1, 0.5, 0.25});
+        bake_now(16);
+        Solid solid = {.kind = PBMPM_BAKED, .dimension = d, .position = {3, -2, d == 3 ? 5 : 0}, .grid = &baked.grid};
+        float turn[4];
+        memcpy(turn, turns[d - 2], sizeof turn);
+        normalise_quaternion(turn);
+        rotation_from_quaternion(turn, solid.rotation);
+        double low[3], high[3], least[3], most[3];
+        for (int corner = 0; corner < 1 << d; corner++)
+            for (int a = 0; a < d; a++) {
+                double at = solid.position[a];
+                for (int b = 0; b < d; b++)
+                    at += solid.rotation[a * 3 + b] * (corner >> b & 1 ? distance_grid_high(&baked.grid, b) : baked.grid.low[b]);
+                least[a] = corner ? fmin(least[a], at) : at;
+                most[a] = corner ? fmax(most[a], at) : at;
+            }
+        solid_bounds(&solid, low, high);
+        for (int a = 0; a < d; a++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, least[a], low[a]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-9, most[a], high[a]);
+        }
+    }
+}
 
 static void test_winding_inward_is_the_same_solid(void)
 {
@@ -449,6 +480,17 @@ static void test_flat_hulls(void)
     refuse(&def, true, "smaller than 1e-6");
 }
 
+/* Said at once, before any memory is asked for. */
+static void test_grids_of_too_many_nodes(void)
+{
+    uint64_t bytes = 0;
+    small_ball(3);
+    const pbmpm_mesh_def def = mesh_def_of(&mesh, 1024);
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ARGUMENT, bake_mesh(&def, false, NULL, 0, &bytes));
+    TEST_ASSERT_NOT_NULL(strstr(result_message(), "more than 2^27"));
+    TEST_ASSERT_EQUAL_UINT64(0, bytes);
+}
+
 /* ---- Stored bytes ---- */
 
 static pbmpm_result read_bytes(const void *data, uint64_t size)
@@ -493,6 +535,41 @@ static void test_distances_that_cannot_be(void)
     }
 }
 
+/* Each field of the header outside of its range, with the right checksum; where they lie: distance_grid.c. */
+static void test_headers_that_cannot_be(void)
+{
+    enum { DIMENSION_AT = 12, COUNT_AT = 16, SPACING_AT = 32, LOW_AT = 40 };
+    static const int32_t counts[] = {0, 1, -1, INT32_MIN, (1 << 27) + 1, 1 << 14};
+    static const double spacings[] = {0.0, -1.0, 1e-13, 1e10, NAN, INFINITY}, lows[] = {2e9, -2e9, NAN, -INFINITY};
+    static char bytes[1 << 16];
+    small_ball(2);
+    bake_now(8);
+    TEST_ASSERT_TRUE(baked.bytes <= sizeof bytes);
+#define FORGE(at, value)                                                                                 \
+    memcpy(bytes, baked.data, baked.bytes);                                                              \
+    memcpy(bytes + (at), &(value), sizeof(value));                                                       \
+    distance_grid_seal(bytes, baked.bytes);                                                              \
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_DAMAGED, read_bytes(bytes, baked.bytes))
+    for (uint32_t dimension = 0; dimension < 6; dimension++) {
+        if (dimension == 2) continue;
+        FORGE(DIMENSION_AT, dimension);
+    }
+    for (size_t a = 0; a < 3; a++) {
+        for (size_t i = a < 2 ? 0 : 2; i < sizeof counts / sizeof *counts; i++) {
+            FORGE(COUNT_AT + 4 * a, counts[i]);
+        }
+        for (size_t i = 0; i < sizeof lows / sizeof *lows; i++) {
+            FORGE(LOW_AT + 8 * a, lows[i]);
+        }
+    }
+    for (size_t i = 0; i < sizeof spacings / sizeof *spacings; i++) {
+        FORGE(SPACING_AT, spacings[i]);
+    }
+    memcpy(bytes, baked.data, baked.bytes);
+    distance_grid_seal(bytes, baked.bytes);
+    TEST_ASSERT_EQUAL_MEMORY(baked.data, bytes, baked.bytes); /* sealed as it was written */
+}
+
 static void test_a_small_buffer_is_refused(void)
 {
     char small[64];
@@ -509,6 +586,7 @@ int main(void)
     RUN_TEST(test_ball);
     RUN_TEST(test_box);
     RUN_TEST(test_torus);
+    RUN_TEST(test_bounds_of_turned_solids);
     RUN_TEST(test_winding_inward_is_the_same_solid);
     RUN_TEST(test_parts_may_overlap);
     RUN_TEST(test_hollows);
@@ -522,7 +600,9 @@ int main(void)
     RUN_TEST(test_meshes_wound_in_two_ways);
     RUN_TEST(test_meshes_without_volume);
     RUN_TEST(test_flat_hulls);
+    RUN_TEST(test_grids_of_too_many_nodes);
     RUN_TEST(test_every_changed_byte_is_noticed);
+    RUN_TEST(test_headers_that_cannot_be);
     RUN_TEST(test_distances_that_cannot_be);
     RUN_TEST(test_a_small_buffer_is_refused);
     return UNITY_END();

@@ -859,6 +859,8 @@ namespace Pbmpm
         public int Kinematic;
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
+        /// <summary>0</summary>
+        public uint Reserved;
         /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
         /// snapshot.h</summary>
         public ulong Key;
@@ -2409,6 +2411,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "measures_impulse", &it, &it.MeasuresImpulse, &it.MeasuresImpulse + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "key", &it, &it.Key, &it.Key + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));

@@ -488,6 +488,10 @@ def read_json(path: Path) -> Any:
         return json.loads(text)
     except json.JSONDecodeError as error:
         raise InputError(f"{path}:{error.lineno}:{error.colno}: not JSON: {error.msg}") from None
+    except RecursionError:
+        raise InputError(f"{path}: cannot be read: brackets are nested too deeply") from None
+    except ValueError as error:  # a number of thousands of digits
+        raise InputError(f"{path}: cannot be read: {error}") from None
 
 
 def describe_problems(error: ValidationError, data: Any, source: str) -> str:

@@ -118,7 +118,7 @@ pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const 
 pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
 typedef enum pbmpm_friction { PBMPM_FRICTION_COULOMB = 0, PBMPM_FRICTION_STICK = 1, PBMPM_FRICTION_SLIP = 2, PBMPM_FRICTION_FORCE32 = 2147483647 } pbmpm_friction;
-typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint64_t key; uint64_t user_data; } pbmpm_collider_def;
+typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint32_t reserved; uint64_t key; uint64_t user_data; } pbmpm_collider_def;
 pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape, pbmpm_collider_id *collider);
 pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);

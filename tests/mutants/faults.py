@@ -1,0 +1,153 @@
+"""Where faults can be planted in C and ISPC text, and which. A fault changes one line."""
+
+from __future__ import annotations
+
+import hashlib
+import random
+import re
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+#: What is code but says nothing of behaviour: declarations of types, includes, what only a compiler reads.
+_IDLE = re.compile(r"^\s*(#|typedef|extern|_Static_assert|static_assert|export\b.*\);$|\}|\{|case [\w ]+:$|default:$)")
+_NUMBER = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[-+]?\d+)?f?|\d+e[-+]?\d+f?|\d+u?)(?![\w.])")
+#: A declaration up to its value: a larger array changes nothing.
+_DECLARED = re.compile(r"^\s*(?:static |const |uniform )*(?:float|double|bool|char|size_t|u?int(?:\d+_t)?|[A-Z]\w*) [^=;]*")
+_CALL = re.compile(r"^(\s*)([a-z]\w*\(.*\));$")
+_IF = re.compile(r"\b(c?if|c?while) \(")
+
+
+@dataclass(frozen=True)
+class Fault:
+    file: str  #: relative to the top folder
+    line: int  #: from 1
+    kind: str
+    before: str
+    after: str
+
+    @property
+    def name(self) -> str:
+        """The same as long as the line is the same, wherever it stands; two faults of equal lines are told apart by their places."""
+        return hashlib.sha1(f"{self.file}\0{self.line}\0{self.before}\0{self.after}".encode()).hexdigest()[:12]
+
+    def diff(self) -> str:
+        return f"{self.file}:{self.line} ({self.kind})\n  - {self.before.strip()}\n  + {self.after.strip()}"
+
+
+def bare(text: str) -> list[str]:
+    """The lines with blanks in place of comments and literal text, so that columns stay."""
+
+    def blank(match: re.Match[str]) -> str:
+        return re.sub(r"[^\n]", " ", match[0])
+
+    return re.sub(r"/\*.*?\*/|//[^\n]*|\"(?:\\.|[^\"\\])*\"|'(?:\\.|[^'\\])*'", blank, text, flags=re.DOTALL).splitlines()
+
+
+def _swap(pairs: dict[str, str], pattern: str) -> Callable[[str, str], Iterator[str]]:
+    finder = re.compile(pattern)
+
+    def changes(line: str, code: str) -> Iterator[str]:
+        for match in finder.finditer(code):
+            yield line[: match.start(1)] + pairs[match[1]] + line[match.end(1) :]
+
+    return changes
+
+
+def _constants(line: str, code: str) -> Iterator[str]:
+    declared = _DECLARED.match(code)
+    for match in _NUMBER.finditer(code):
+        text = match[1]
+        if declared and match.end() <= declared.end() and code[match.start() - 1] == "[":
+            continue
+        if text.rstrip("u").isdigit():
+            changed = str(int(text.rstrip("u")) + 1) + ("u" if text.endswith("u") else "")
+        else:
+            value = float(text.rstrip("f"))
+            changed = f"{value * 1.5 if value else 1.0!r}" + ("f" if text.endswith("f") else "")
+        yield line[: match.start(1)] + changed + line[match.end(1) :]
+
+
+def _signs(line: str, code: str) -> Iterator[str]:
+    for match in re.finditer(r"(?:[=(,?:]|return) (-)(?=[\w(])|\((-)(?=[\w(])", code):
+        place = match.start(1) if match[1] else match.start(2)
+        yield line[:place] + line[place + 1 :]
+    for match in re.finditer(r"(?:[^=!<>]= |return |\+ )(?=[a-zA-Z(])", code):
+        rest = code[match.end() :]
+        # Of what is no number a sign changes nothing, or does not compile.
+        if rest.rstrip().endswith(";") and not re.match(r"&|(true|false|result|fail|NULL)\b|\(?const|[A-Z]\w+\)", rest) and not re.search(r"\?|\|\||&&|[=!<>]=| [<>] |!", rest):
+            yield line[: match.end()] + "-" + line[match.end() :]
+
+
+def _dropped(line: str, code: str) -> Iterator[str]:
+    match = _CALL.match(code)
+    if match and not match[2].startswith(("return", "sizeof")):
+        yield f"{match[1]};"
+
+
+def _negated(line: str, code: str) -> Iterator[str]:
+    for match in _IF.finditer(code):
+        depth, end = 1, match.end()
+        while end < len(code) and depth:
+            depth += {"(": 1, ")": -1}.get(code[end], 0)
+            end += 1
+        if depth == 0:
+            yield f"{line[: match.end()]}!({line[match.end() : end - 1]}){line[end - 1 :]}"
+
+
+KINDS: dict[str, Callable[[str, str], Iterator[str]]] = {
+    "bound": _swap({"<": "<=", "<=": "<", ">": ">=", ">=": ">"}, r" (<=?|>=?) "),
+    "sum": _swap({"+": "-", "-": "+", "+=": "-=", "-=": "+="}, r"(?<=[\w)\]]) ([-+]=?) "),
+    "sign": _signs,
+    "constant": _constants,
+    "call dropped": _dropped,
+    "condition negated": _negated,
+    "logic": _swap({"&&": "||", "||": "&&", "==": "!=", "!=": "=="}, r" (&&|\|\||==|!=) "),
+}
+
+
+def faults_of(root: Path, file: str) -> Iterator[Fault]:
+    text = (root / file).read_text(encoding="utf-8")
+    inside = False
+    for number, (line, code) in enumerate(zip(text.splitlines(), bare(text), strict=True), 1):
+        if code.startswith("{"):
+            inside = True
+        one_line = re.match(r"^(static |const |inline |unmasked |export )*[\w *]+\(.*\)\s*\{.*\}$", code)
+        if (inside or one_line) and not _IDLE.match(code) and code.strip():
+            begin = code.index("{") + 1 if one_line and not inside else 0
+            for kind, changes in KINDS.items():
+                seen = set()
+                for after in changes(line, " " * begin + code[begin:]):
+                    if after != line and after not in seen:
+                        seen.add(after)
+                        yield Fault(file, number, kind, line, after)
+        if code.startswith("}"):
+            inside = False
+        elif not inside and code.rstrip().endswith(") {"):
+            inside = True
+
+
+def choose(root: Path, files: list[str], seed: int) -> Iterator[Fault]:
+    """Faults in an order that the seed decides: folders and kinds in turn, of each a place at random; no line twice."""
+    chance = random.Random(seed)
+    heaps: dict[tuple[str, str], list[Fault]] = {}
+    for kind in KINDS:
+        for folder in sorted({Path(file).parent.as_posix() for file in files}, reverse=True):
+            heaps[kind, folder] = []
+    for file in sorted(files):
+        for fault in faults_of(root, file):
+            heaps[fault.kind, Path(file).parent.as_posix()].append(fault)
+    for faults in heaps.values():
+        chance.shuffle(faults)
+    turns = [key for key in heaps for _ in range(3 if key[1] == "src" else 1)]
+    used: set[tuple[str, int]] = set()
+    while any(heaps.values()):
+        chance.shuffle(turns)
+        for key in turns:
+            faults = heaps[key]
+            while faults:
+                fault = faults.pop()
+                if (fault.file, fault.line) not in used:
+                    used.add((fault.file, fault.line))
+                    yield fault
+                    break
