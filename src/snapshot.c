@@ -131,7 +131,7 @@ pbmpm_result snapshot_take_name(const World *world, SnapshotIn *in, KeyedKind ki
     if (!whole) return snapshot_malformed();
     *place = place_of(world, kind, &name);
     if (*place < 0 && in->restoring->keeps) return PBMPM_OK;
-    if (*place < 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", keyed_name(kind), name.slot);
+    if (*place < 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot has more %s than the world: that of index %u is not there", keyed_name(kind), name.slot);
     uint64_t *word = &matched->seen[*place / 64], bit = (uint64_t)1 << *place % 64;
     if (*word & bit) return fail(PBMPM_ERROR_FOREIGN, "two %s of the snapshot are the one at index %d of the world: give them keys", keyed_name(kind), *place);
     *word |= bit;
@@ -142,7 +142,7 @@ pbmpm_result snapshot_all_matched(const World *world, const SnapshotIn *in, Keye
 {
     for (uint32_t slot = 0; slot < keyed_slots(world, kind) && !in->restoring->keeps; slot++)
         if (keyed_live(world, kind, slot) && !(matched->seen[slot / 64] >> slot % 64 & 1))
-            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has other %s than the world: not the one at index %u", keyed_name(kind), slot);
+            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has not all %s of the world: that of index %u is not there", keyed_name(kind), slot);
     return PBMPM_OK;
 }
 
