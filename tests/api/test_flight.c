@@ -56,11 +56,12 @@ static pbmpm_world_id spray_world(int32_t dimension, pbmpm_solver solver, uint32
 /* Nothing flies where a force is felt everywhere, not even by one that does nothing. */
 static void keep_in_grid(pbmpm_world_id world)
 {
+    const pbmpm_shape everywhere = default_shape();
     pbmpm_force_def def;
     pbmpm_force_id force;
     OK(pbmpm_force_def_init(&def, sizeof def));
     def.strength = 0.0f;
-    OK(pbmpm_force_create(world, &def, &force));
+    OK(pbmpm_force_create(world, &def, &everywhere, &force));
 }
 
 static void set_sleeping(pbmpm_world_id world)

@@ -51,12 +51,14 @@ static pbmpm_world_id make_pool(const pool_plan *plan, host *own)
 {
     const float size = plan->size, half = size / 2, rest[3] = {0, 0, 0};
     pbmpm_world_def def = default_world(3, 0.1f, (uint32_t)(8000.0f * size * size * size));
+    pbmpm_task_hooks hooks;
     def.domain_enabled = 1;
     for (int a = 0; a < 3; a++)
         def.domain_max[a] = size;
     if (own) {
         def.thread_count = THREADS;
-        def.tasks = (pbmpm_task_hooks){host_enqueue, host_finish, own};
+        hooks = (pbmpm_task_hooks){sizeof hooks, host_enqueue, host_finish, own};
+        def.tasks = &hooks;
     }
     const pbmpm_world_id world = create_world(&def);
     fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(half, half / 2, half, half, half / 2, half), rest);

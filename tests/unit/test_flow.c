@@ -124,7 +124,8 @@ static void check_rate(int dimension)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &emitter.material));
     emitter.rate = 0.5f;
     emitter.particles_per_axis = 8.0f;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&world->emitters, &world->memory, &emitter, 1, &id));
+    const pbmpm_shape box = shape_defaults();
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, emitters_add(&world->emitters, &world->memory, &emitter, &box, 1, &id));
     for (int step = 0; step < 10; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
     const double each = pow(0.25 / 8.0, dimension);
     emitter_report(emitters_find(&world->emitters, id), &status);
@@ -232,6 +233,7 @@ static void check_drag(pbmpm_force_kind kind)
     predict();
     TEST_ASSERT_TRUE(node_floats() <= sizeof before / sizeof *before);
     memcpy(before, world->grid.node.data, node_floats() * sizeof(float));
+    const pbmpm_shape box = shape_defaults();
     pbmpm_force_def def = force_defaults();
     pbmpm_force_id id;
     def.kind = kind;
@@ -239,7 +241,7 @@ static void check_drag(pbmpm_force_kind kind)
     def.velocity[0] = 1.0f;
     def.velocity[1] = -2.0f;
     def.spin = 0.5f;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, 2, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &box, 2, 1, &id));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
     const float *node = world->grid.node.data;
     const double kept = kind == PBMPM_FORCE_GRAB ? 0.0 : exp(-0.3);
