@@ -230,7 +230,7 @@ static bool comes_before(const FoundBlock *a, const FoundBlock *b)
 static const uint32_t *sort_blocks(Grid *grid, uint32_t count)
 {
     FoundBlock *found = grid->found.data;
-    uint32_t *from = grid->sorted.data, *to = from + count;
+    uint32_t *from = grid->sorted.data, *to = count ? from + count : from; /* if all fly there may be no memory */
     for (uint32_t i = 0, wanted = 0; i < grid->found_count; i++) {
         const int32_t *c = found[i].coordinate;
         found[i].index = GRID_NOWHERE;

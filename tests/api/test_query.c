@@ -179,7 +179,7 @@ static void test_nulls_and_sizes(void)
     hit.size = 1;
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_query_ray(world, &ray, &hit));
     hit.size = sizeof hit;
-    ray.size++;
+    ray.size--;
     EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_query_ray(world, &ray, &hit));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_query_points(world, NULL, 1, &height, NULL, NULL));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_query_heights(world, NULL, 1, point, 0.5f, &height));
