@@ -95,7 +95,7 @@ bool contacts_open_volume(const ContactFrame *frame, Memory *memory, Pool *pool,
     const Grid *grid = frame->grid;
     const size_t blocks = (size_t)grid->node_blocks;
     if (colliders->obstacle_count == 0) {
-        memset(grid->edged.data, 0, blocks * sizeof(uint32_t));
+        if (blocks > 0) memset(grid->edged.data, 0, blocks * sizeof(uint32_t));
         return true;
     }
     if (!array_reserve(memory, &colliders->open, blocks * (size_t)grid->block_cells, sizeof(float))) return false;

@@ -662,7 +662,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     if (frame->colliders->obstacle_count == 0) return PBMPM_OK;
     bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
-        memset(walls->place.data, 0, nodes * sizeof(uint32_t));
+        if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
         ok = bind_nodes(&builder, pool);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
