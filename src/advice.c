@@ -146,6 +146,16 @@ static bool lands(const World *world, const double from[3])
     return way < far; /* it comes close to something for long: along a wall, which leads to what holds it or does not */
 }
 
+/* Whether a wall of the domain is where gravity leads. */
+static bool wall_below(const World *world)
+{
+    for (int a = 0; a < world->def.dimension; a++) {
+        const float pull = world->settings.gravity[a];
+        if (pull != 0.0f && !world->domain.wall[domain_place(a, pull > 0.0f)].open) return true;
+    }
+    return false;
+}
+
 static bool any_sticks(const World *world)
 {
     for (uint32_t c = 0; c < world->colliders.used; c++)
@@ -159,7 +169,7 @@ static void falls_forever(Adviser *adviser)
     static const double FEW = 0.05;
     const World *world = adviser->world;
     const Particles *p = &world->particles;
-    if (world->domain.enabled || world->sinks.bounds.enabled || gravity_strength(world) == 0.0) return;
+    if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || wall_below(world)) return;
     const bool hangs = any_sticks(world);
     const uint32_t step = p->count / SAMPLES + 1;
     double looked = 0.0, falls = 0.0;
@@ -337,10 +347,10 @@ static bool some_wall_leans(const World *world)
         const Solid solid = collider_obstacle(collider, dimension, 0, 1).start;
         if (solid_leans(world, &solid)) return true;
     }
-    for (int a = 0; a < dimension && world->domain.enabled; a++) {
+    for (int place = 0; place < 2 * dimension; place++) {
         double normal[3] = {0};
-        normal[a] = 1.0;
-        if (leans(world, normal)) return true;
+        normal[place / 2] = 1.0;
+        if (!world->domain.wall[place].open && leans(world, normal)) return true;
     }
     return false;
 }
@@ -490,7 +500,11 @@ static double patch_of(const Adviser *adviser, uint32_t slot)
 
 static bool any_rubs(const World *world)
 {
-    bool rubs = world->domain.enabled && world->domain.friction > 0.0f;
+    bool rubs = false;
+    for (int place = 0; place < 2 * world->def.dimension; place++) {
+        const pbmpm_domain_wall *wall = &world->domain.wall[place];
+        rubs = rubs || (!wall->open && wall->friction != PBMPM_FRICTION_SLIP && wall->friction_coefficient > 0.0f);
+    }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         rubs = rubs || (collider->generation != 0 && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);

@@ -295,6 +295,19 @@ static void wake_near_collider(World *w, const Collider *collider)
     sleep_wake_near(w, &solid, SLEEP_FELT);
 }
 
+/* `slot`: -1 for a new one. */
+static const char *wrong_collider(const World *w, const pbmpm_collider_def *def, const pbmpm_shape *shape, int32_t slot)
+{
+    const char *problem = collider_problem(def);
+    if (!problem) problem = keyed_problem(w, KEYED_COLLIDERS, def->key, slot);
+    return problem ? problem : shape_problem_among(shape, w->def.dimension, &w->baked);
+}
+
+static const DistanceGrid *grid_of(const World *w, const pbmpm_shape *shape)
+{
+    return shape->kind == PBMPM_BAKED ? baked_find(&w->baked, shape->baked) : NULL;
+}
+
 pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape, pbmpm_collider_id *collider)
 {
     REQUIRE(collider);
@@ -302,12 +315,9 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     READ(pbmpm_collider_def, own, def, collider_defaults());
     READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    const char *problem = collider_problem(&own);
-    if (!problem) problem = keyed_problem(w, KEYED_COLLIDERS, own.key, -1);
-    if (!problem) problem = shape_problem_among(&form, w->def.dimension, &w->baked);
+    const char *problem = wrong_collider(w, &own, &form, -1);
     if (problem) LET_GO(api_invalid(problem));
-    const DistanceGrid *grid = form.kind == PBMPM_BAKED ? baked_find(&w->baked, form.baked) : NULL;
-    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, &own, &form, grid, registry_next_generation(), collider);
+    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, &own, &form, grid_of(w, &form), registry_next_generation(), collider);
     if (result == PBMPM_OK) wake_near_collider(w, colliders_find(&w->colliders, *collider));
     LET_GO(result);
 }
@@ -334,6 +344,21 @@ pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider
     if (def) WRITE(pbmpm_collider_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_collider_def *def, const pbmpm_shape *shape)
+{
+    HOLD(world);
+    Collider *found = colliders_find(&w->colliders, collider);
+    if (!found) LET_GO(no_collider());
+    READ_OR_KEEP(pbmpm_collider_def, own, def, found->def);
+    READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
+    const char *problem = wrong_collider(w, &own, &form, (int32_t)collider.index);
+    if (problem) LET_GO(api_invalid(problem));
+    wake_near_collider(w, found);
+    const pbmpm_result result = colliders_set(&w->colliders, &w->memory, found, &own, shape ? &form : NULL, grid_of(w, &form));
+    wake_near_collider(w, found);
+    LET_GO(result);
 }
 
 static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const float *position, const float *rotation, bool at_once)

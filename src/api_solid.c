@@ -119,14 +119,42 @@ pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id coll
     LET_GO(PBMPM_OK);
 }
 
+static const char *wrong_wall(const World *w, int32_t axis, int32_t upper)
+{
+    if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1) return "there is no such wall: axis is below the dimension, upper 0 or 1";
+    return w->def.domain_enabled ? NULL : "there are no walls: set world.domain_enabled";
+}
+
+pbmpm_result pbmpm_domain_wall_get(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_domain_wall *wall)
+{
+    REQUIRE_SIZE(pbmpm_domain_wall, wall);
+    HOLD(world);
+    const char *problem = wrong_wall(w, axis, upper);
+    if (problem) LET_GO(api_invalid(problem));
+    WRITE(pbmpm_domain_wall, wall, &w->domain.wall[domain_place(axis, upper)]);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t upper, const pbmpm_domain_wall *wall)
+{
+    HOLD(world);
+    const char *problem = wrong_wall(w, axis, upper);
+    if (problem) LET_GO(api_invalid(problem));
+    READ_HELD(pbmpm_domain_wall, own, wall, w->domain.wall[domain_place(axis, upper)]);
+    problem = domain_wall_problem(&own);
+    if (problem) LET_GO(api_invalid(problem));
+    domain_set_wall(&w->domain, &w->def, domain_place(axis, upper), &own);
+    sleep_wake_all(w);
+    LET_GO(PBMPM_OK);
+}
+
 pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse)
 {
     REQUIRE_SIZE(pbmpm_impulse, impulse);
     HOLD(world);
-    if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1)
-        LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));
-    if (!w->def.domain_enabled || !w->def.domain_measures_impulse)
-        LET_GO(api_invalid("the walls measure no impulse: set world.domain_enabled and domain_measures_impulse"));
-    read_impulse(w, (uint32_t)(PBMPM_MAX_COLLIDERS + 2 * axis + upper), NULL, impulse);
+    const char *problem = wrong_wall(w, axis, upper);
+    if (!problem && !w->def.domain_measures_impulse) problem = "the walls measure no impulse: set world.domain_measures_impulse";
+    if (problem) LET_GO(api_invalid(problem));
+    read_impulse(w, (uint32_t)(PBMPM_MAX_COLLIDERS + domain_place(axis, upper)), NULL, impulse);
     LET_GO(PBMPM_OK);
 }

@@ -59,10 +59,14 @@ pbmpm_collider_def collider_defaults(void)
                                 .friction_coefficient = 0.2f};
 }
 
+bool friction_known(pbmpm_friction friction)
+{
+    return friction == PBMPM_FRICTION_COULOMB || friction == PBMPM_FRICTION_STICK || friction == PBMPM_FRICTION_SLIP;
+}
+
 const char *collider_problem(const pbmpm_collider_def *def)
 {
-    if (def->friction != PBMPM_FRICTION_COULOMB && def->friction != PBMPM_FRICTION_STICK && def->friction != PBMPM_FRICTION_SLIP)
-        return "collider.friction is unknown";
+    if (!friction_known(def->friction)) return "collider.friction is unknown";
     if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
     if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
@@ -84,6 +88,22 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
     if (slot >= colliders->used) colliders->used = slot + 1;
     if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
     *id = (pbmpm_collider_id){slot, generation};
+    return PBMPM_OK;
+}
+
+pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *collider, const pbmpm_collider_def *def, const pbmpm_shape *shape,
+                           const DistanceGrid *grid)
+{
+    const bool begins = def->measures_impulse && !collider->def.measures_impulse;
+    const pbmpm_result result = begins ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
+    if (result != PBMPM_OK) return result;
+    if (begins) colliders->impulses.sum[collider - colliders->slot] = (ImpulseSum){{0}, {0}};
+    collider->def = *def;
+    if (shape) {
+        collider->shape = *shape;
+        collider->grid = grid;
+    }
+    if (shape || !def->kinematic) collider_place(collider, collider->shape.position, collider->shape.rotation, true);
     return PBMPM_OK;
 }
 
@@ -156,11 +176,12 @@ Obstacle collider_obstacle(const Collider *collider, int dimension, int part, in
 
 static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool upper)
 {
-    Obstacle o = {.wall = true, .friction = PBMPM_FRICTION_COULOMB, .coefficient = domain->friction, .measures = domain->measures};
+    const pbmpm_domain_wall *wall = &domain->wall[domain_place(axis, upper)];
+    Obstacle o = {.wall = true, .friction = wall->friction, .coefficient = wall->friction_coefficient, .measures = domain->measures};
     o.start = (Solid){.kind = PBMPM_PLANE, .dimension = dimension};
     o.start.position[axis] = upper ? domain->high[axis] : domain->low[axis];
     o.start.normal[axis] = upper ? -1.0 : 1.0;
-    o.place = (uint16_t)(PBMPM_MAX_COLLIDERS + 2 * axis + (upper ? 1 : 0));
+    o.place = (uint16_t)(PBMPM_MAX_COLLIDERS + domain_place(axis, upper));
     o.end = o.start;
     return o;
 }
@@ -168,7 +189,7 @@ static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool 
 void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts)
 {
     int count = 0;
-    colliders->measures = domain->enabled && domain->measures;
+    colliders->measures = domain && domain->measures;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         if (colliders->slot[slot].generation == 0) continue;
         Obstacle *o = &colliders->obstacle[count++];
@@ -176,10 +197,8 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         o->place = (uint16_t)slot;
         colliders->measures = colliders->measures || o->measures;
     }
-    for (int axis = 0; domain->enabled && axis < dimension; axis++) {
-        colliders->obstacle[count++] = domain_wall(domain, dimension, axis, false);
-        colliders->obstacle[count++] = domain_wall(domain, dimension, axis, true);
-    }
+    for (int place = 0; domain && place < 2 * dimension; place++)
+        if (!domain->wall[place].open) colliders->obstacle[count++] = domain_wall(domain, dimension, place / 2, place % 2);
     colliders->obstacle_count = count;
 }
 

@@ -68,9 +68,13 @@ void colliders_free(Colliders *colliders, Memory *memory);
 
 pbmpm_collider_def collider_defaults(void);
 const char *collider_problem(const pbmpm_collider_def *def);
+bool friction_known(pbmpm_friction friction);
 /* `grid`: of a baked shape, else null. */
 pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_collider_def *def, const pbmpm_shape *shape, const DistanceGrid *grid,
                            uint32_t generation, pbmpm_collider_id *id);
+/* `shape` null: it stays, and so does its way. On failure nothing has changed. */
+pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *collider, const pbmpm_collider_def *def, const pbmpm_shape *shape,
+                           const DistanceGrid *grid);
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
@@ -81,13 +85,7 @@ bool collider_moves(const Collider *collider);
 /* A live collider during part `part` of `parts` of a step. */
 Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts);
 
-/* The obstacles of part `part` of `parts` of a step. */
-typedef struct Domain {
-    bool enabled;
-    bool measures; /* its walls' impulses */
-    double low[3], high[3]; /* [m] */
-    float friction;
-} Domain;
+/* The obstacles of part `part` of `parts` of a step. `domain` null: without its walls. */
 void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dimension, int part, int parts);
 /* After the last part: the targets are reached. */
 void colliders_end_step(Colliders *colliders);

@@ -26,7 +26,7 @@ static bool position_is_valid(const World *world, const float *position)
     const double limit = (double)CELL_LIMIT * (double)world->def.cell_size;
     for (int a = 0; a < world->def.dimension; a++) {
         if (!in_range(position[a], -limit, limit)) return false;
-        if (world->domain.enabled && !in_range(position[a], world->domain.low[a], world->domain.high[a])) return false;
+        if (!in_range(position[a], world->domain.low[a], world->domain.high[a])) return false;
     }
     return true;
 }
@@ -107,25 +107,24 @@ typedef struct Lattice {
     double spacing;
     uint64_t size[3];
     uint64_t begin[3], end[3]; /* of it, where particles may be */
+    double low[3], high[3];    /* where particles may be [m] */
     bool whole;                /* all points there are where particles may be */
     const Near *near;          /* obstacles that the shape may overlap; null: none */
 } Lattice;
 
 static double lattice_coordinate(const Lattice *lattice, int axis, uint64_t i) { return lattice->first[axis] + (double)i * lattice->spacing; }
 
-/* Leaves the points of an axis that are in the domain, or, since jitter moves them, those that may be in range. */
+/* Leaves the points of an axis that are where particles may be. */
 static void clip_lattice(const World *world, Lattice *lattice, int a)
 {
-    const Domain *domain = &world->domain;
     const double limit = (double)CELL_LIMIT * (double)world->def.cell_size, size = (double)lattice->size[a];
-    const double low = domain->enabled ? domain->low[a] : -limit, high = domain->enabled ? domain->high[a] : limit;
+    const double low = lattice->low[a] = fmax(world->domain.low[a], -limit), high = lattice->high[a] = fmin(world->domain.high[a], limit);
     const double begin = floor((low - lattice->first[a]) / lattice->spacing) - 1.0, end = ceil((high - lattice->first[a]) / lattice->spacing) + 2.0;
     lattice->begin[a] = (uint64_t)fmin(fmax(begin, 0.0), size);
     lattice->end[a] = (uint64_t)fmin(fmax(end, (double)lattice->begin[a]), size);
-    if (!domain->enabled) lattice->whole = lattice->whole && begin < 0.0 && end > size;
-    while (domain->enabled && lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->begin[a]), low, high))
+    while (lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->begin[a]), low, high))
         lattice->begin[a]++;
-    while (domain->enabled && lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->end[a] - 1), low, high))
+    while (lattice->begin[a] < lattice->end[a] && !in_range(lattice_coordinate(lattice, a, lattice->end[a] - 1), low, high))
         lattice->end[a]--;
 }
 
@@ -156,14 +155,13 @@ static void look_for_obstacles(World *world, Lattice *lattice, Near *near)
 {
     const ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size};
     double centre[3] = {0}, reach = 0.0;
-    const Domain none = {.enabled = false};
     for (int a = 0; a < world->def.dimension; a++) {
         if (lattice->begin[a] == lattice->end[a]) return;
         const double low = lattice_coordinate(lattice, a, lattice->begin[a]), high = lattice_coordinate(lattice, a, lattice->end[a] - 1);
         centre[a] = 0.5 * (low + high);
         reach += 0.25 * (high - low) * (high - low);
     }
-    colliders_begin_substep(&world->colliders, &none, world->def.dimension, 0, 1);
+    colliders_begin_substep(&world->colliders, NULL, world->def.dimension, 0, 1);
     field_near(near, &frame, centre, sqrt(reach) / frame.cell_size + 1.0, false);
     near->dimension = world->def.dimension; /* the grid of a new world has none yet */
     if (near->count == 0) return;
@@ -171,18 +169,15 @@ static void look_for_obstacles(World *world, Lattice *lattice, Near *near)
     lattice->whole = false;
 }
 
-/* Moves a lattice point at random. False: it is out of range or in an obstacle then. Jitter never leaves the domain. */
+/* Moves a lattice point at random, never out of where particles may be. False: it is in an obstacle then. */
 static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm_fill_def *def, const uint64_t index[3], double point[3])
 {
-    const Domain *domain = &world->domain;
     const uint64_t number = (index[2] * lattice->size[1] + index[1]) * lattice->size[0] + index[0];
     for (int a = 0; a < world->def.dimension; a++) {
         point[a] += (double)def->jitter * lattice->spacing * scatter_number(def->seed, number * 3 + (uint64_t)a);
-        if (domain->enabled) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
+        point[a] = fmin(fmax(point[a], lattice->low[a]), lattice->high[a]);
     }
-    const float place[3] = {(float)point[0], (float)point[1], (float)point[2]};
-    if (lattice->near && field_distance(lattice->near, point) < -ON_OBSTACLE) return false;
-    return domain->enabled || position_is_valid(world, place);
+    return !lattice->near || field_distance(lattice->near, point) >= -ON_OBSTACLE;
 }
 
 static double lattice_distance(const Lattice *lattice, const uint64_t index[3], double point[3])

@@ -343,11 +343,9 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
     }
     for (int a = 0; a < world->def.dimension; a++) {
         double first = fmin(low[0][a], low[1][a]) / dx - reach, last = fmax(high[0][a], high[1][a]) / dx + reach;
-        if (world->domain.enabled) {
-            const double inmost = world->domain.low[a] / dx, outmost = world->domain.high[a] / dx;
-            first = fmin(fmax(first, inmost - CROWD_RIM), outmost);
-            last = fmax(fmin(last, outmost + CROWD_RIM), inmost);
-        }
+        const double inmost = world->domain.low[a] / dx, outmost = world->domain.high[a] / dx; /* infinite where no wall is */
+        first = fmin(fmax(first, inmost - CROWD_RIM), outmost);
+        last = fmax(fmin(last, outmost + CROWD_RIM), inmost);
         crowd.low[a] = (int32_t)floor(first);
         crowd.size[a] = (int32_t)fmax(ceil(last) - floor(first) + 1.0, 1.0);
     }
@@ -413,7 +411,7 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     }
     if (clear < -SURFACE) return false;
     const Domain *domain = &world->domain;
-    for (int a = 0; a < world->def.dimension && domain->enabled; a++) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
+    for (int a = 0; a < world->def.dimension; a++) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
     return settle(world, emitter, crowd, birth, point, clear, generation);
 }
 

@@ -7,13 +7,14 @@
 #ifndef PBMPM_SRC_IMPULSES_H
 #define PBMPM_SRC_IMPULSES_H
 
+#include "domain.h"
 #include <stdbool.h>
 #include <stdint.h>
 
 #include "memory.h"
 #include "pbmpm/collider.h"
 
-enum { DOMAIN_WALLS = 6, IMPULSE_PLACES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS, PUSH_NOTES = 4 };
+enum { IMPULSE_PLACES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS, PUSH_NOTES = 4 };
 
 /* What matter gave to an obstacle: [kg m/s], and about the world's origin [kg m^2/s]. */
 typedef struct ImpulseSum {

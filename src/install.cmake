@@ -1,9 +1,11 @@
-# Installs the headers, the shared library, a CMake package (pbmpm::pbmpm) and a pkg-config file.
+# Installs the headers, the library, a CMake package (pbmpm::pbmpm) and a pkg-config file.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
-install(TARGETS pbmpm EXPORT pbmpm LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(TARGETS pbmpm EXPORT pbmpm
+    LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
+    ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
 install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-targets.cmake DESTINATION "${package_dir}")
 configure_package_config_file(pbmpm-config.cmake.in pbmpm-config.cmake INSTALL_DESTINATION "${package_dir}")
@@ -16,5 +18,9 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" DESTINATI
 # The paths in the .pc file are relative to itself, so an installed tree may be moved.
 file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 list(JOIN PBMPM_MATERIALS_BUILT " " pc_materials)
+if(NOT BUILD_SHARED_LIBS)
+    set(pc_libs " -pthread -lm")
+    set(pc_cflags " -DPBMPM_STATIC")
+endif()
 configure_file(pbmpm.pc.in pbmpm.pc @ONLY)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

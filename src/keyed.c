@@ -14,17 +14,17 @@ uint32_t keyed_slots(const World *world, KeyedKind kind)
     return 0;
 }
 
-bool keyed_live(const World *world, KeyedKind kind, uint32_t slot)
+uint32_t keyed_generation(const World *world, KeyedKind kind, uint32_t slot)
 {
-    if (slot >= keyed_slots(world, kind)) return false;
+    if (slot >= keyed_slots(world, kind)) return 0;
     switch (kind) {
-    case KEYED_MATERIALS: return world->materials.generation[slot] != 0;
-    case KEYED_COLLIDERS: return world->colliders.slot[slot].generation != 0;
-    case KEYED_EMITTERS: return world->emitters.slot[slot].generation != 0;
-    case KEYED_DRAINS: return world->sinks.slot[slot].generation != 0;
-    case KEYED_FORCES: return world->forces.slot[slot].generation != 0;
+    case KEYED_MATERIALS: return world->materials.generation[slot];
+    case KEYED_COLLIDERS: return world->colliders.slot[slot].generation;
+    case KEYED_EMITTERS: return world->emitters.slot[slot].generation;
+    case KEYED_DRAINS: return world->sinks.slot[slot].generation;
+    case KEYED_FORCES: return world->forces.slot[slot].generation;
     }
-    return false;
+    return 0;
 }
 
 static uint64_t key_at(const World *world, KeyedKind kind, uint32_t slot)
@@ -42,7 +42,7 @@ static uint64_t key_at(const World *world, KeyedKind kind, uint32_t slot)
 int32_t keyed_find(const World *world, KeyedKind kind, uint64_t key)
 {
     for (uint32_t slot = 0; slot < keyed_slots(world, kind); slot++)
-        if (keyed_live(world, kind, slot) && key_at(world, kind, slot) == key) return (int32_t)slot;
+        if (keyed_generation(world, kind, slot) != 0 && key_at(world, kind, slot) == key) return (int32_t)slot;
     return -1;
 }
 

@@ -12,8 +12,8 @@ typedef enum KeyedKind { KEYED_MATERIALS, KEYED_COLLIDERS, KEYED_EMITTERS, KEYED
 /* Slots that were ever taken are [0, this). */
 uint32_t keyed_slots(const struct World *world, KeyedKind kind);
 
-/* Whether something stands in a slot. */
-bool keyed_live(const struct World *world, KeyedKind kind, uint32_t slot);
+/* The generation of what stands in a slot; 0: nothing does. */
+uint32_t keyed_generation(const struct World *world, KeyedKind kind, uint32_t slot);
 
 /* The slot of what has this key, which is not 0; -1: nothing has. */
 int32_t keyed_find(const struct World *world, KeyedKind kind, uint64_t key);

@@ -46,6 +46,23 @@ pbmpm_result registry_add(World *world, pbmpm_world_id *id)
     return fail(PBMPM_ERROR_CAPACITY, "there are already %d worlds", PBMPM_MAX_WORLDS);
 }
 
+bool registry_has(pbmpm_world_id id)
+{
+    return id.index < PBMPM_MAX_WORLDS && id.generation != 0 && atomic_load(&slots[id.index].generation) == id.generation;
+}
+
+uint32_t registry_list(pbmpm_world_id *ids, uint32_t capacity)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
+        const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};
+        if (id.generation == 0) continue;
+        if (count < capacity) ids[count] = id;
+        count++;
+    }
+    return count;
+}
+
 /* False: a thread of this process has it. What a thread of the parent had when the process forked is `orphaned`: nobody will give it back. */
 static bool hold(Slot *slot, bool *orphaned)
 {
@@ -61,8 +78,7 @@ static bool hold(Slot *slot, bool *orphaned)
 pbmpm_result registry_enter(pbmpm_world_id id, World **world)
 {
     bool orphaned;
-    if (id.index >= PBMPM_MAX_WORLDS || id.generation == 0 || atomic_load(&slots[id.index].generation) != id.generation)
-        return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
+    if (!registry_has(id)) return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
     Slot *slot = &slots[id.index];
     if (!hold(slot, &orphaned)) return fail(PBMPM_ERROR_BUSY, "another thread is using this world");
     if (atomic_load(&slot->generation) != id.generation) { /* destroyed in the meantime */

@@ -19,6 +19,12 @@ void registry_skip_particle_generations(uint32_t last);
 /* Makes a world known. */
 pbmpm_result registry_add(World *world, pbmpm_world_id *id);
 
+/* Whether there is such a world. */
+bool registry_has(pbmpm_world_id id);
+
+/* Writes the identifiers of the first `capacity` worlds, and returns how many there are. */
+uint32_t registry_list(pbmpm_world_id *ids, uint32_t capacity);
+
 /* The world, held for the calling thread until registry_leave(). */
 pbmpm_result registry_enter(pbmpm_world_id id, World **world);
 void registry_leave(pbmpm_world_id id);

@@ -118,7 +118,7 @@ bool sleep_is_measured(const World *world, const int32_t place[3])
         const Obstacle o = collider_obstacle(collider, world->def.dimension, 0, 1);
         if (solid_least(&o.start, centre) <= reach) return true;
     }
-    for (int a = 0; a < world->def.dimension && world->domain.enabled && world->domain.measures; a++)
+    for (int a = 0; a < world->def.dimension && world->domain.measures; a++)
         if (centre[a] - world->domain.low[a] <= reach || world->domain.high[a] - centre[a] <= reach) return true;
     return false;
 }

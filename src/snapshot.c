@@ -119,7 +119,7 @@ static int32_t place_of(const World *world, KeyedKind kind, const Name *name)
 {
     const int32_t place = name->key ? keyed_find(world, kind, name->key) : -1;
     if (place >= 0) return place;
-    return keyed_live(world, kind, name->slot) ? (int32_t)name->slot : -1;
+    return keyed_generation(world, kind, name->slot) != 0 ? (int32_t)name->slot : -1;
 }
 
 pbmpm_result snapshot_take_name(const World *world, SnapshotIn *in, KeyedKind kind, Matched *matched, int32_t *place, uint32_t *saved)
@@ -141,7 +141,7 @@ pbmpm_result snapshot_take_name(const World *world, SnapshotIn *in, KeyedKind ki
 pbmpm_result snapshot_all_matched(const World *world, const SnapshotIn *in, KeyedKind kind, const Matched *matched)
 {
     for (uint32_t slot = 0; slot < keyed_slots(world, kind) && !in->restoring->keeps; slot++)
-        if (keyed_live(world, kind, slot) && !(matched->seen[slot / 64] >> slot % 64 & 1))
+        if (keyed_generation(world, kind, slot) != 0 && !(matched->seen[slot / 64] >> slot % 64 & 1))
             return fail(PBMPM_ERROR_FOREIGN, "the snapshot has not all %s of the world: that of index %u is not there", keyed_name(kind), slot);
     return PBMPM_OK;
 }
@@ -409,6 +409,38 @@ static void load_colliders(World *world, SnapshotIn in)
     }
 }
 
+/* ---- Walls of the domain, where one is not as the definition has it ---- */
+
+static void save_walls(const World *world, SnapshotOut *out)
+{
+    for (int place = 0; place < 2 * world->def.dimension && domain_changed(&world->domain, &world->def); place++)
+        snapshot_put_part(out, &world->domain.wall[place], sizeof(pbmpm_domain_wall));
+}
+
+/* Walls as the definition has them where the snapshot has none. */
+static bool read_walls(const World *world, SnapshotIn in, Domain *domain)
+{
+    *domain = domain_of(&world->def);
+    for (int place = 0; place < 2 * world->def.dimension && in.bytes; place++) {
+        pbmpm_domain_wall wall = domain->wall[place];
+        if (!snapshot_take_part(&in, &wall, sizeof wall) || domain_wall_problem(&wall) || !world->def.domain_enabled) return false;
+        wall.size = sizeof wall;
+        domain_set_wall(domain, &world->def, place, &wall);
+    }
+    return !snapshot_goes_on(&in);
+}
+
+static pbmpm_result check_walls(World *world, SnapshotIn in)
+{
+    Domain domain;
+    return read_walls(world, in, &domain) ? PBMPM_OK : snapshot_malformed();
+}
+
+static void load_walls(World *world, SnapshotIn in)
+{
+    if (!in.restoring->keeps) read_walls(world, in, &world->domain);
+}
+
 /* ---- The list ---- */
 
 static const SnapshotSection made_section = {1, save_made, check_made, NULL, load_nothing};
@@ -416,11 +448,12 @@ static const SnapshotSection materials_section = {2, save_materials, check_mater
 static const SnapshotSection settings_section = {3, save_settings, check_settings, NULL, load_settings};
 static const SnapshotSection counters_section = {4, save_counters, check_counters, NULL, load_counters};
 static const SnapshotSection colliders_section = {5, save_colliders, check_colliders, NULL, load_colliders};
+static const SnapshotSection walls_section = {12, save_walls, check_walls, NULL, load_walls};
 
 /* Particles and their sleep take memory. Sleep comes last: what it has now is lost when it makes room. */
 static const SnapshotSection *const sections[] = {&made_section,      &materials_section, &settings_section, &counters_section,
-                                                  &colliders_section, &emitters_section,  &drains_section,   &forces_section,
-                                                  &flow_section,      &particles_section, &sleep_section};
+                                                  &colliders_section, &walls_section,     &emitters_section, &drains_section,
+                                                  &forces_section,    &flow_section,      &particles_section, &sleep_section};
 enum { SECTIONS = sizeof sections / sizeof *sections };
 
 static uint64_t payload_bytes(const World *world, const SnapshotSection *section)

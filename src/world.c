@@ -87,16 +87,6 @@ bool settings_change_motion(const pbmpm_settings *before, const pbmpm_settings *
     return memcmp(before, &same, sizeof same) != 0;
 }
 
-static void set_domain(World *world)
-{
-    const pbmpm_world_def *def = &world->def;
-    world->domain = (Domain){.enabled = def->domain_enabled, .measures = def->domain_measures_impulse, .friction = def->domain_friction};
-    for (int a = 0; a < def->dimension; a++) {
-        world->domain.low[a] = def->domain_min[a];
-        world->domain.high[a] = def->domain_max[a];
-    }
-}
-
 pbmpm_result world_make_room_for(World *world, uint32_t material)
 {
     return material_is_solid(&world->materials, material) ? particles_enable_deformation(&world->particles, &world->memory) : PBMPM_OK;
@@ -124,7 +114,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     world->owner = getpid();
     world->kernels = kernels_for(isa, def->dimension);
     world->generation = 1;
-    set_domain(world);
+    world->domain = domain_of(def);
     const int threads = def->thread_count ? def->thread_count : cpu_core_count();
     pbmpm_result result = particles_init(&world->particles, &world->memory, def->dimension, def->particle_capacity);
     if (result == PBMPM_OK) result = grid_init(&world->grid, &world->memory, def->dimension, def->particle_capacity);

@@ -11,7 +11,10 @@
 extern "C" {
 #endif
 
-#if defined(PBMPM_BUILDING_LIBRARY) && defined(__GNUC__)
+/* Define PBMPM_STATIC where the static library is linked. */
+#if defined(PBMPM_STATIC)
+#define PBMPM_API
+#elif defined(PBMPM_BUILDING_LIBRARY) && defined(__GNUC__)
 #define PBMPM_API __attribute__((visibility("default")))
 #elif defined(_WIN32) && defined(PBMPM_BUILDING_LIBRARY)
 #define PBMPM_API __declspec(dllexport)

@@ -46,8 +46,21 @@ PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_c
 /** Takes an obstacle away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
 
+/** Whether an identifier is that of a collider of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+ *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
+PBMPM_API pbmpm_result pbmpm_collider_is_valid(pbmpm_world_id world, pbmpm_collider_id collider, int32_t *valid);
+
+/** Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to colliders, which may be null with a
+ *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_colliders(pbmpm_world_id world, pbmpm_collider_id *colliders, uint32_t capacity, uint32_t *count);
+
 /** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape);
+
+/** Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
+ *  A new shape is there at once, without velocity. A way that pbmpm_collider_move() asked for is then forgotten, as when `kinematic` becomes 0.
+ *  Errors as pbmpm_collider_create(), but CAPACITY. */
+PBMPM_API pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_collider_def *def, const pbmpm_shape *shape);
 
 /** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
  *  matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
@@ -83,6 +96,22 @@ PBMPM_API pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collid
 /** The same for a wall of the domain: that at the lower (`upper` 0) or upper (1) end of an axis. Errors: INVALID_ID, INVALID_ARGUMENT (no such
  *  wall, or world_def.domain_measures_impulse is 0), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse);
+
+/** A wall of the domain. Read it with pbmpm_domain_wall_get(), change what differs, and give it to pbmpm_domain_wall_set(). */
+typedef struct pbmpm_domain_wall {
+    uint32_t size;              /**< sizeof(pbmpm_domain_wall), set by the caller */
+    int32_t open;               /**< 0 (default): holds matter in. 1: there is no wall. What gets out falls for ever: set kill bounds (drain.h). */
+    pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
+    float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default world_def.domain_friction */
+} pbmpm_domain_wall;
+
+/** Reads a wall: that at the lower (`upper` 0) or upper (1) end of an axis. `wall->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null, or no
+ *  such wall: also where world_def.domain_enabled is 0), UNSUPPORTED, BUSY. */
+PBMPM_API pbmpm_result pbmpm_domain_wall_get(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_domain_wall *wall);
+
+/** Changes a wall; the next step knows it. Matter that is behind a wall when it closes is put back to it at once: remove it before, see
+ *  pbmpm_particles_remove_in(). Wakes all matter. Errors as pbmpm_domain_wall_get(). */
+PBMPM_API pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t upper, const pbmpm_domain_wall *wall);
 
 /** Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape(). */
 PBMPM_API pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity,

@@ -47,6 +47,14 @@ PBMPM_API pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drai
 /** Takes a drain away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain);
 
+/** Whether an identifier is that of a drain of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+ *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
+PBMPM_API pbmpm_result pbmpm_drain_is_valid(pbmpm_world_id world, pbmpm_drain_id drain, int32_t *valid);
+
+/** Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to drains, which may be null with a
+ *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_drains(pbmpm_world_id world, pbmpm_drain_id *drains, uint32_t capacity, uint32_t *count);
+
 /** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def, pbmpm_shape *shape);
 

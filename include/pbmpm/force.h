@@ -82,6 +82,14 @@ PBMPM_API pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_forc
 /** Takes a force away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force);
 
+/** Whether an identifier is that of a force of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+ *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
+PBMPM_API pbmpm_result pbmpm_force_is_valid(pbmpm_world_id world, pbmpm_force_id force, int32_t *valid);
+
+/** Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to forces, which may be null with a
+ *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_forces(pbmpm_world_id world, pbmpm_force_id *forces, uint32_t capacity, uint32_t *count);
+
 /** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def, pbmpm_shape *shape);
 

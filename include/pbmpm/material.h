@@ -157,6 +157,14 @@ PBMPM_API pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_i
 /** Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material);
 
+/** Whether an identifier is that of a material of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+ *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
+PBMPM_API pbmpm_result pbmpm_material_is_valid(pbmpm_world_id world, pbmpm_material_id material, int32_t *valid);
+
+/** Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to materials, which may be null with a
+ *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_get_materials(pbmpm_world_id world, pbmpm_material_id *materials, uint32_t capacity, uint32_t *count);
+
 #ifdef __cplusplus
 }
 #endif

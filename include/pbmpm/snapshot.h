@@ -20,7 +20,7 @@ typedef enum pbmpm_restore_flags {
 } pbmpm_restore_flags;
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
- * storage order and with all fields; the settings; poses and targets of colliders; emitters, drains, forces and kill bounds with
+ * storage order and with all fields; the settings; walls of the domain; poses and targets of colliders; emitters, drains, forces and kill bounds with
  * their definitions and books; who sleeps; counters and totals. It does not hold what a world is made of: its definition, the
  * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
  * It holds no user_data.
@@ -55,7 +55,7 @@ PBMPM_API pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, u
  *  parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
  *  identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
  *
- *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the friction of the domain, materials
+ *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
  *  (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
  *  that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
  *  is awake.

@@ -33,7 +33,7 @@ typedef struct pbmpm_world_def {
     int32_t thread_count;       /**< 1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
                                      With task hooks: how many shares the work is cut into. */
     int32_t domain_enabled;     /**< 0 (default): unbounded: what falls, falls for ever and costs time; set kill bounds (drain.h) to take it out.
-                                     1: closed box, walls that hold matter in. */
+                                     1: closed box, walls that hold matter in; pbmpm_domain_wall_set() opens one. */
     float domain_min[3];        /**< lower corner of the box [m], relative to the origin; default 0 */
     float domain_max[3];        /**< upper corner; at least 4 cells above domain_min per axis; default 1 */
     float domain_friction;      /**< Coulomb coefficient of the walls, in [0, 100]; default 0; see pbmpm_friction */
@@ -128,6 +128,14 @@ PBMPM_API pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_worl
 /** Destroys a world and everything in it; views and identifiers of it become invalid.
  *  Errors: INVALID_ID (also on a second destroy), BUSY. Any thread. */
 PBMPM_API pbmpm_result pbmpm_world_destroy(pbmpm_world_id world);
+
+/** Whether an identifier is that of a world: *valid is then 1, else 0, which is no error. A world that a step or another thread is at work on is
+ *  valid. Errors: INVALID_ARGUMENT (null). Any thread. */
+PBMPM_API pbmpm_result pbmpm_world_is_valid(pbmpm_world_id world, int32_t *valid);
+
+/** Lists all worlds of the process. *count is how many there are; the first `capacity` of them are written to `worlds`, which may be null with a
+ *  capacity of 0. Another thread may have destroyed one before the call returns. Errors: INVALID_ARGUMENT (null). Any thread. */
+PBMPM_API pbmpm_result pbmpm_get_worlds(pbmpm_world_id *worlds, uint32_t capacity, uint32_t *count);
 
 /** The definition the world was made from; its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);

@@ -1,5 +1,6 @@
 #!/bin/sh
-# compare_symbols.sh library NM LIBRARY EXPORTS    the library's dynamic symbols against the list
+# compare_symbols.sh library NM LIBRARY EXPORTS    the shared library's dynamic symbols against the list
+# compare_symbols.sh archive NM LIBRARY EXPORTS    what programs see of the static library against the list
 # compare_symbols.sh headers FOLDER EXPORTS        the functions that the headers declare against the list
 # Prints the difference and fails if there is one.
 set -eu
@@ -11,6 +12,10 @@ case $1 in
     library)
         exports=$4
         "$2" -D --defined-only "$3" | awk '{ print $NF }' | sort >"$work/found"
+        ;;
+    archive)
+        exports=$4
+        "$2" -g --defined-only "$3" | awk 'NF == 3 { print $NF }' | sort >"$work/found"
         ;;
     headers)
         exports=$3

@@ -162,6 +162,8 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
                 particles_append(&s->particles, &particle, s->particles.count + 1);
             }
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
+    const pbmpm_world_def def = world_def_defaults();
+    s->domain = domain_of(&def);
     s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .max_displacement = LIMIT};
 }
 
@@ -368,7 +370,12 @@ static void test_particles_are_pushed_out(void)
     static Setting s;
     const float dt = 0.01f;
     setting_open(&s, 2, 4);
-    s.domain = (Domain){.enabled = true, .low = {-1.2, -1.3, 0}, .high = {100, 100, 0}};
+    pbmpm_world_def def = world_def_defaults();
+    def.domain_enabled = 1;
+    def.domain_min[0] = -1.2f;
+    def.domain_min[1] = -1.3f;
+    def.domain_max[0] = def.domain_max[1] = 100.0f;
+    s.domain = domain_of(&def);
     pbmpm_shape ball = shape_defaults();
     ball.kind = PBMPM_SPHERE;
     ball.radius = 1.0f;

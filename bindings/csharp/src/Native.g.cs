@@ -732,7 +732,7 @@ namespace Pbmpm
         /// With task hooks: how many shares the work is cut into.</summary>
         public int ThreadCount;
         /// <summary>0 (default): unbounded: what falls, falls for ever and costs time; set kill bounds (drain.h) to take it out.
-        /// 1: closed box, walls that hold matter in.</summary>
+        /// 1: closed box, walls that hold matter in; pbmpm_domain_wall_set() opens one.</summary>
         public int DomainEnabled;
         /// <summary>lower corner of the box [m], relative to the origin; default 0</summary>
         public Float3 DomainMin;
@@ -899,6 +899,20 @@ namespace Pbmpm
         public Double3 Linear;
         /// <summary>[N m s] about the obstacle's position after the step; walls: about the world's origin. 2D: only component 2</summary>
         public Double3 Angular;
+    }
+
+    /// <summary>A wall of the domain. Read it with pbmpm_domain_wall_get(), change what differs, and give it to pbmpm_domain_wall_set().</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct DomainWall
+    {
+        /// <summary>sizeof(pbmpm_domain_wall), set by the caller</summary>
+        public uint Size;
+        /// <summary>0 (default): holds matter in. 1: there is no wall. What gets out falls for ever: set kill bounds (drain.h).</summary>
+        public int Open;
+        /// <summary>default PBMPM_FRICTION_COULOMB</summary>
+        public Friction Friction;
+        /// <summary>Coulomb coefficient, in [0, 100]; default world_def.domain_friction</summary>
+        public float FrictionCoefficient;
     }
 
     /// <summary>A drain of one world.</summary>
@@ -1661,6 +1675,16 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_destroy(WorldId world, MaterialId material);
 
+        /// <summary>Whether an identifier is that of a material of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_material_is_valid(WorldId world, MaterialId material, int* valid);
+
+        /// <summary>Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to materials, which may be null with a
+        /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_materials(WorldId world, MaterialId* materials, uint capacity, uint* count);
+
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_mesh_def_init(MeshDef* def, UIntPtr size);
@@ -1723,6 +1747,16 @@ namespace Pbmpm.Native
         /// Errors: INVALID_ID (also on a second destroy), BUSY. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_destroy(WorldId world);
+
+        /// <summary>Whether an identifier is that of a world: *valid is then 1, else 0, which is no error. A world that a step or another thread is at work on is
+        /// valid. Errors: INVALID_ARGUMENT (null). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_is_valid(WorldId world, int* valid);
+
+        /// <summary>Lists all worlds of the process. *count is how many there are; the first `capacity` of them are written to `worlds`, which may be null with a
+        /// capacity of 0. Another thread may have destroyed one before the call returns. Errors: INVALID_ARGUMENT (null). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_get_worlds(WorldId* worlds, uint capacity, uint* count);
 
         /// <summary>The definition the world was made from; its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1841,9 +1875,25 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_destroy(WorldId world, ColliderId collider);
 
+        /// <summary>Whether an identifier is that of a collider of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_is_valid(WorldId world, ColliderId collider, int* valid);
+
+        /// <summary>Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to colliders, which may be null with a
+        /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_colliders(WorldId world, ColliderId* colliders, uint capacity, uint* count);
+
         /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
+
+        /// <summary>Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
+        /// A new shape is there at once, without velocity. A way that pbmpm_collider_move() asked for is then forgotten, as when `kinematic` becomes 0.
+        /// Errors as pbmpm_collider_create(), but CAPACITY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_set(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
         /// <summary>Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
         /// matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
@@ -1865,6 +1915,16 @@ namespace Pbmpm.Native
         /// wall, or world_def.domain_measures_impulse is 0), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_domain_impulse(WorldId world, int axis, int upper, Impulse* impulse);
+
+        /// <summary>Reads a wall: that at the lower (`upper` 0) or upper (1) end of an axis. `wall-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null, or no
+        /// such wall: also where world_def.domain_enabled is 0), UNSUPPORTED, BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_domain_wall_get(WorldId world, int axis, int upper, DomainWall* wall);
+
+        /// <summary>Changes a wall; the next step knows it. Matter that is behind a wall when it closes is put back to it at once: remove it before, see
+        /// pbmpm_particles_remove_in(). Wakes all matter. Errors as pbmpm_domain_wall_get().</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_domain_wall_set(WorldId world, int axis, int upper, DomainWall* wall);
 
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1926,6 +1986,16 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_destroy(WorldId world, DrainId drain);
 
+        /// <summary>Whether an identifier is that of a drain of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_drain_is_valid(WorldId world, DrainId drain, int* valid);
+
+        /// <summary>Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to drains, which may be null with a
+        /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_drains(WorldId world, DrainId* drains, uint capacity, uint* count);
+
         /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
@@ -1968,6 +2038,16 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_destroy(WorldId world, EmitterId emitter);
 
+        /// <summary>Whether an identifier is that of a emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_emitter_is_valid(WorldId world, EmitterId emitter, int* valid);
+
+        /// <summary>Lists the emitters of the world. *count is how many there are; the first `capacity` of them are written to emitters, which may be null with a
+        /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_emitters(WorldId world, EmitterId* emitters, uint capacity, uint* count);
+
         /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID,
         /// UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1998,6 +2078,16 @@ namespace Pbmpm.Native
         /// <summary>Takes a force away. Errors: INVALID_ID, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_destroy(WorldId world, ForceId force);
+
+        /// <summary>Whether an identifier is that of a force of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_force_is_valid(WorldId world, ForceId force, int* valid);
+
+        /// <summary>Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to forces, which may be null with a
+        /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_forces(WorldId world, ForceId* forces, uint capacity, uint* count);
 
         /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2075,7 +2165,7 @@ namespace Pbmpm.Native
         /// parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
         /// identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
         ///
-        /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the friction of the domain, materials
+        /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
         /// (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
         /// that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
         /// is awake.
@@ -2128,6 +2218,7 @@ namespace Pbmpm.Native
             CopyDef(fields);
             ColliderDef(fields);
             Impulse(fields);
+            DomainWall(fields);
             Advice(fields);
             DrainId(fields);
             DrainDef(fields);
@@ -2424,6 +2515,16 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_impulse", "linear", &it, &it.Linear, &it.Linear + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "angular", &it, &it.Angular, &it.Angular + 1, false));
             fields.Add(new MirrorField("pbmpm_impulse", "", &it, &it, &it + 1, true));
+        }
+
+        static void DomainWall(List<MirrorField> fields)
+        {
+            var it = default(DomainWall);
+            fields.Add(new MirrorField("pbmpm_domain_wall", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_domain_wall", "open", &it, &it.Open, &it.Open + 1, false));
+            fields.Add(new MirrorField("pbmpm_domain_wall", "friction", &it, &it.Friction, &it.Friction + 1, false));
+            fields.Add(new MirrorField("pbmpm_domain_wall", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
+            fields.Add(new MirrorField("pbmpm_domain_wall", "", &it, &it, &it + 1, true));
         }
 
         static void Advice(List<MirrorField> fields)

@@ -1,0 +1,65 @@
+/* The exported functions that tell whether something exists and list what there is. */
+#include "api_call.h"
+#include "keyed.h"
+#include "registry.h"
+
+pbmpm_result pbmpm_world_is_valid(pbmpm_world_id world, int32_t *valid)
+{
+    REQUIRE(valid);
+    *valid = registry_has(world);
+    return PBMPM_OK;
+}
+
+pbmpm_result pbmpm_get_worlds(pbmpm_world_id *worlds, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE(count);
+    if (capacity) REQUIRE(worlds);
+    *count = registry_list(worlds, capacity);
+    return PBMPM_OK;
+}
+
+/* Identifiers of all kinds are alike, but each is a type of its own. */
+typedef struct KeyedId {
+    uint32_t index, generation;
+} KeyedId;
+
+static pbmpm_result is_valid(pbmpm_world_id world, KeyedKind kind, KeyedId id, int32_t *valid)
+{
+    if (!registry_has(world)) return *valid = 0, PBMPM_OK;
+    HOLD(world);
+    *valid = id.generation != 0 && keyed_generation(w, kind, id.index) == id.generation;
+    LET_GO(PBMPM_OK);
+}
+
+/* The next thing of a kind from `slot` on; its slot is the number of slots when there is none. */
+static KeyedId next_from(const World *w, KeyedKind kind, uint32_t slot)
+{
+    while (slot < keyed_slots(w, kind) && keyed_generation(w, kind, slot) == 0) slot++;
+    return (KeyedId){slot, keyed_generation(w, kind, slot)};
+}
+
+#define DEFINE_LISTS(one, many, kind)                                                                                   \
+    pbmpm_result pbmpm_##one##_is_valid(pbmpm_world_id world, pbmpm_##one##_id one, int32_t *valid)                     \
+    {                                                                                                                   \
+        REQUIRE(valid);                                                                                                 \
+        return is_valid(world, kind, (KeyedId){one.index, one.generation}, valid);                                      \
+    }                                                                                                                   \
+                                                                                                                        \
+    pbmpm_result pbmpm_world_get_##many(pbmpm_world_id world, pbmpm_##one##_id *many, uint32_t capacity, uint32_t *count) \
+    {                                                                                                                   \
+        REQUIRE(count);                                                                                                 \
+        if (capacity) REQUIRE(many);                                                                                    \
+        HOLD(world);                                                                                                    \
+        *count = 0;                                                                                                     \
+        for (KeyedId id = next_from(w, kind, 0); id.generation != 0; id = next_from(w, kind, id.index + 1)) {           \
+            if (*count < capacity) many[*count] = (pbmpm_##one##_id){id.index, id.generation};                          \
+            ++*count;                                                                                                   \
+        }                                                                                                               \
+        LET_GO(PBMPM_OK);                                                                                               \
+    }
+
+DEFINE_LISTS(material, materials, KEYED_MATERIALS)
+DEFINE_LISTS(collider, colliders, KEYED_COLLIDERS)
+DEFINE_LISTS(emitter, emitters, KEYED_EMITTERS)
+DEFINE_LISTS(drain, drains, KEYED_DRAINS)
+DEFINE_LISTS(force, forces, KEYED_FORCES)
