@@ -15,6 +15,7 @@
 #include "keyed.h"
 #include "layout.h"
 #include "numbers.h"
+#include "origin.h"
 #include "query.h"
 #include "registry.h"
 #include "step.h"
@@ -113,8 +114,13 @@ static pbmpm_result create_world(const pbmpm_world_def *def, pbmpm_world_id *wor
     pbmpm_result result = world_create(def, &created);
     if (result != PBMPM_OK) return result;
     result = registry_add(created, world);
-    if (result != PBMPM_OK) world_destroy(created);
-    return result;
+    if (result != PBMPM_OK) {
+        world_destroy(created);
+        return result;
+    }
+    result_log(PBMPM_LOG_INFO, "world %u: %dD, cells of %g m, room for %u particles, %s, %d threads", world->index, def->dimension, (double)def->cell_size,
+               def->particle_capacity, cpu_isa_name(cpu_isa()), pool_thread_count(created->pool));
+    return PBMPM_OK;
 }
 
 pbmpm_result pbmpm_world_create(const pbmpm_world_def *def, pbmpm_world_id *world)
@@ -188,6 +194,14 @@ pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt)
     const char *problem = api_step_problem(w, dt);
     if (problem) LET_GO(api_invalid(problem));
     LET_GO(world_step(w, dt));
+}
+
+pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3])
+{
+    REQUIRE(wanted);
+    REQUIRE(moved);
+    HOLD(world);
+    LET_GO(origin_shift(w, wanted, moved));
 }
 
 pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation)

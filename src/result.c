@@ -9,11 +9,11 @@ static _Thread_local char message[256];
 static pbmpm_log_callback *log_callback;
 static void *log_user;
 
-static void tell(const char *line)
+static void tell(pbmpm_log_level level, const char *line)
 {
     if (!log_callback) return;
     const uint32_t mode = float_mode_lend();
-    log_callback(line, log_user);
+    log_callback(level, line, log_user);
     float_mode_take_back(mode);
 }
 
@@ -23,7 +23,7 @@ pbmpm_result fail(pbmpm_result result, const char *format, ...)
     va_start(arguments, format);
     vsnprintf(message, sizeof message, format, arguments);
     va_end(arguments);
-    tell(message);
+    tell(PBMPM_LOG_ERROR, message);
     return result;
 }
 
@@ -33,7 +33,7 @@ pbmpm_result result_pass_on(pbmpm_result result, const char *text)
     return result;
 }
 
-void result_log(const char *format, ...)
+void result_log(pbmpm_log_level level, const char *format, ...)
 {
     if (!log_callback) return;
     char line[256];
@@ -41,7 +41,7 @@ void result_log(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
-    tell(line);
+    tell(level, line);
 }
 
 const char *result_message(void) { return message; }

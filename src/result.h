@@ -14,6 +14,6 @@ const char *result_message(void);
 const char *result_name(pbmpm_result result);
 void result_set_log(pbmpm_log_callback *callback, void *user);
 /* Tells the log callback something that is no failure of a call. */
-void result_log(const char *format, ...) __attribute__((format(printf, 1, 2)));
+void result_log(pbmpm_log_level level, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 #endif

@@ -159,7 +159,7 @@ pbmpm_result snapshot_malformed(void)
     return fail(PBMPM_ERROR_FOREIGN, "a section of the snapshot is not laid out as this version writes it");
 }
 
-/* ---- What the world is made of: compared, not loaded ---- */
+/* ---- What the world is made of: compared, not loaded, but for the origin ---- */
 
 typedef struct Made {
     int32_t dimension;
@@ -167,6 +167,7 @@ typedef struct Made {
     int32_t domain_enabled;
     float domain_min[3], domain_max[3];
     float domain_friction;
+    double origin[3];
 } Made;
 
 static Made made_of(const World *world)
@@ -178,6 +179,7 @@ static Made made_of(const World *world)
         made.domain_max[a] = def->domain_max[a];
     }
     if (def->domain_enabled) made.domain_friction = def->domain_friction;
+    memcpy(made.origin, def->origin, sizeof made.origin);
     return made;
 }
 
@@ -190,8 +192,11 @@ static void save_made(const World *world, SnapshotOut *out)
 static pbmpm_result check_made(World *world, SnapshotIn in)
 {
     const Made own = made_of(world);
-    Made made = {0};
+    Made made = own;
     if (!snapshot_take_part(&in, &made, sizeof made) || snapshot_goes_on(&in)) return snapshot_malformed();
+    for (int a = 0; a < 3; a++)
+        if (!isfinite(made.origin[a])) return snapshot_malformed();
+    memcpy(made.origin, own.origin, sizeof made.origin); /* of an earlier place of the same world */
     if (in.restoring->keeps) made.domain_friction = own.domain_friction;
     if (made.dimension != own.dimension)
         return fail(PBMPM_ERROR_FOREIGN, "the snapshot is of a world in %dD, not %dD", made.dimension, own.dimension);
@@ -199,6 +204,13 @@ static pbmpm_result check_made(World *world, SnapshotIn in)
         return fail(PBMPM_ERROR_FOREIGN, "the snapshot's world has the cell size %g, not %g", (double)made.cell_size, (double)own.cell_size);
     if (memcmp(&made, &own, sizeof made) != 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot's world has another domain box");
     return PBMPM_OK;
+}
+
+static void load_origin(World *world, SnapshotIn in)
+{
+    Made made = made_of(world);
+    snapshot_take_part(&in, &made, sizeof made);
+    memcpy(world->def.origin, made.origin, sizeof made.origin);
 }
 
 static void load_nothing(World *world, SnapshotIn in)
@@ -443,7 +455,7 @@ static void load_walls(World *world, SnapshotIn in)
 
 /* ---- The list ---- */
 
-static const SnapshotSection made_section = {1, save_made, check_made, NULL, load_nothing};
+static const SnapshotSection made_section = {1, save_made, check_made, NULL, load_origin};
 static const SnapshotSection materials_section = {2, save_materials, check_materials, NULL, load_nothing};
 static const SnapshotSection settings_section = {3, save_settings, check_settings, NULL, load_settings};
 static const SnapshotSection counters_section = {4, save_counters, check_counters, NULL, load_counters};

@@ -92,7 +92,7 @@ static uint32_t collect_events(World *world, uint32_t substep)
     world->clamped_total += total_clamped;
     world->deleted_total += total_lost;
     if (total_lost)
-        result_log("%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
+        result_log(PBMPM_LOG_WARNING, "%u particles deleted in step %llu", total_lost, (unsigned long long)world->step_count);
     return total_lost;
 }
 

@@ -75,9 +75,17 @@ typedef struct pbmpm_particle_id {
     uint32_t generation;
 } pbmpm_particle_id;
 
-/** Receives one line per notable happening (a refused call, an event). May come from any thread that calls the
+/** How grave a line of the log is. */
+typedef enum pbmpm_log_level {
+    PBMPM_LOG_ERROR = 1,   /**< a call was refused or failed */
+    PBMPM_LOG_WARNING = 2, /**< a step went on, but not as asked: particles were deleted */
+    PBMPM_LOG_INFO = 3,    /**< a world was created: its grid, kernels and threads */
+    PBMPM_LOG_LEVEL_FORCE32 = 0x7fffffff
+} pbmpm_log_level;
+
+/** Receives one line per notable happening. May come from any thread that calls the
  *  library and from a step in the background, never from a worker; must not call the library. */
-typedef void pbmpm_log_callback(const char *message, void *user);
+typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void *user);
 
 /** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
  *  library. Bindings need not use it: everything it says can also be polled. */

@@ -28,7 +28,7 @@ typedef struct pbmpm_world_def {
                                      and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
                                      blocks take theirs when they come. */
     double origin[3];           /**< what positions are relative to [m]; default 0. Used by nothing but the caller's own
-                                     conversion, so a scene far from zero loses no precision. */
+                                     conversion, so a scene far from zero loses no precision. pbmpm_world_shift_origin() moves it. */
     uint64_t memory_budget;     /**< bytes that the world may hold at once; 0 (default): no limit */
     int32_t thread_count;       /**< 1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
                                      With task hooks: how many shares the work is cut into. */
@@ -155,6 +155,13 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
  *  was set from outside is brought into its material's range.
  *  Any thread, one at a time per world; different worlds step at the same time. */
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
+
+/** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
+ *  is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
+ *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
+ *  meets obstacles, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed. */
+PBMPM_API pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3]);
 
 /** A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
  *  the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */

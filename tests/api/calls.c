@@ -136,6 +136,69 @@ static pbmpm_result call_domain_impulse(const target *ids)
     return pbmpm_domain_impulse(ids->world, 1, 0, &impulse);
 }
 
+static pbmpm_result call_collider_set(const target *ids)
+{
+    pbmpm_collider_def def;
+    const pbmpm_shape shape = unit_box();
+    pbmpm_collider_def_init(&def, sizeof def);
+    def.kinematic = def.measures_impulse = 1;
+    return pbmpm_collider_set(ids->world, ids->collider, &def, &shape);
+}
+
+static pbmpm_result call_domain_wall_get(const target *ids)
+{
+    pbmpm_domain_wall wall = {.size = sizeof wall};
+    return pbmpm_domain_wall_get(ids->world, 1, 0, &wall);
+}
+
+static pbmpm_result call_domain_wall_set(const target *ids)
+{
+    pbmpm_domain_wall wall = {.size = sizeof wall};
+    const pbmpm_result result = pbmpm_domain_wall_get(ids->world, 1, 0, &wall);
+    return result == PBMPM_OK ? pbmpm_domain_wall_set(ids->world, 1, 0, &wall) : result;
+}
+
+static pbmpm_result call_shift_origin(const target *ids)
+{
+    double moved[3];
+    return pbmpm_world_shift_origin(ids->world, (const double[3]){0}, moved);
+}
+
+static pbmpm_result call_get_materials(const target *ids)
+{
+    pbmpm_material_id found[4];
+    uint32_t count;
+    return pbmpm_world_get_materials(ids->world, found, 4, &count);
+}
+
+static pbmpm_result call_get_colliders(const target *ids)
+{
+    pbmpm_collider_id found[4];
+    uint32_t count;
+    return pbmpm_world_get_colliders(ids->world, found, 4, &count);
+}
+
+static pbmpm_result call_get_emitters(const target *ids)
+{
+    pbmpm_emitter_id found[4];
+    uint32_t count;
+    return pbmpm_world_get_emitters(ids->world, found, 4, &count);
+}
+
+static pbmpm_result call_get_drains(const target *ids)
+{
+    pbmpm_drain_id found[4];
+    uint32_t count;
+    return pbmpm_world_get_drains(ids->world, found, 4, &count);
+}
+
+static pbmpm_result call_get_forces(const target *ids)
+{
+    pbmpm_force_id found[4];
+    uint32_t count;
+    return pbmpm_world_get_forces(ids->world, found, 4, &count);
+}
+
 pbmpm_result load_triangle(pbmpm_world_id world, pbmpm_baked_id *baked)
 {
     static const float vertices[6] = {0, 0, 1, 0, 0, 1};
@@ -479,6 +542,15 @@ const world_call world_calls[] = {
     {"pbmpm_material_destroy", call_material_destroy, USES_SPARE},
     {"pbmpm_collider_create", call_collider_create, 0},
     {"pbmpm_collider_get", call_collider_get, USES_COLLIDER},
+    {"pbmpm_collider_set", call_collider_set, USES_COLLIDER},
+    {"pbmpm_domain_wall_get", call_domain_wall_get, 0},
+    {"pbmpm_domain_wall_set", call_domain_wall_set, 0},
+    {"pbmpm_world_shift_origin", call_shift_origin, 0},
+    {"pbmpm_world_get_materials", call_get_materials, 0},
+    {"pbmpm_world_get_colliders", call_get_colliders, 0},
+    {"pbmpm_world_get_emitters", call_get_emitters, 0},
+    {"pbmpm_world_get_drains", call_get_drains, 0},
+    {"pbmpm_world_get_forces", call_get_forces, 0},
     {"pbmpm_collider_move", call_collider_move, USES_COLLIDER},
     {"pbmpm_collider_teleport", call_collider_teleport, USES_COLLIDER},
     {"pbmpm_query_collider", call_query_collider, USES_COLLIDER},

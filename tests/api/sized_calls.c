@@ -164,6 +164,33 @@ static void sound_shape(void *structure)
     memcpy(structure, &shape, sizeof shape);
 }
 
+static pbmpm_result give_changed_collider(const void *structure, void *outcome)
+{
+    const pbmpm_result result = pbmpm_collider_set(world.world, world.collider, structure, NULL);
+    if (result == PBMPM_OK) OK(pbmpm_collider_get(world.world, world.collider, outcome, NULL));
+    return result;
+}
+
+static pbmpm_result give_changed_collider_shape(const void *structure, void *outcome)
+{
+    const pbmpm_result result = pbmpm_collider_set(world.world, world.collider, NULL, structure);
+    if (result == PBMPM_OK) OK(pbmpm_collider_get(world.world, world.collider, NULL, outcome));
+    return result;
+}
+
+static void sound_wall(void *structure)
+{
+    pbmpm_domain_wall *wall = structure;
+    *wall = (pbmpm_domain_wall){.size = sizeof *wall, .friction = PBMPM_FRICTION_STICK, .friction_coefficient = 0.25f};
+}
+
+static pbmpm_result give_wall(const void *structure, void *outcome)
+{
+    const pbmpm_result result = pbmpm_domain_wall_set(world.world, 0, 1, structure);
+    if (result == PBMPM_OK) OK(pbmpm_domain_wall_get(world.world, 0, 1, outcome));
+    return result;
+}
+
 static pbmpm_result give_collider_shape(const void *structure, void *outcome)
 {
     const pbmpm_collider_def def = default_collider();
@@ -425,6 +452,9 @@ const sized_input sized_inputs[] = {
     READ_BACK(pbmpm_material_def, pbmpm_material_set, sound_material, give_material),
     READ_BACK(pbmpm_collider_def, pbmpm_collider_create, sound_collider, give_collider),
     READ_BACK(pbmpm_shape, pbmpm_collider_create, sound_shape, give_collider_shape),
+    READ_BACK(pbmpm_collider_def, pbmpm_collider_set, sound_collider, give_changed_collider),
+    READ_BACK(pbmpm_shape, pbmpm_collider_set, sound_shape, give_changed_collider_shape),
+    READ_BACK(pbmpm_domain_wall, pbmpm_domain_wall_set, sound_wall, give_wall),
     COUNTED(pbmpm_shape, pbmpm_particles_fill, sound_shape, give_fill_shape),
     COUNTED(pbmpm_shape, pbmpm_particles_remove_in, sound_shape, give_removed_shape),
     COUNTED(pbmpm_shape, pbmpm_query_shape, sound_shape, give_asked_shape),
@@ -479,6 +509,7 @@ TAKE(collider, pbmpm_collider_get(world.world, world.collider, structure, NULL))
 TAKE(collider_shape, pbmpm_collider_get(world.world, world.collider, NULL, structure))
 TAKE(collider_impulse, pbmpm_collider_impulse(world.world, world.collider, structure))
 TAKE(domain_impulse, pbmpm_domain_impulse(world.world, 1, 0, structure))
+TAKE(domain_wall, pbmpm_domain_wall_get(world.world, 1, 0, structure))
 TAKE(baked_info, pbmpm_baked_get(world.world, world.baked, structure))
 TAKE(view, pbmpm_particles_view(world.world, PBMPM_VELOCITY, structure))
 TAKE(emitter, pbmpm_emitter_get(world.world, world.emitter, structure, NULL))
@@ -504,6 +535,7 @@ const sized_output sized_outputs[] = {
     TAKEN(pbmpm_collider_def, pbmpm_collider_get, take_collider),
     TAKEN(pbmpm_shape, pbmpm_collider_get, take_collider_shape),
     TAKEN(pbmpm_impulse, pbmpm_collider_impulse, take_collider_impulse),
+    TAKEN(pbmpm_domain_wall, pbmpm_domain_wall_get, take_domain_wall),
     TAKEN(pbmpm_impulse, pbmpm_domain_impulse, take_domain_impulse),
     TAKEN(pbmpm_baked_info, pbmpm_baked_get, take_baked_info),
     TAKEN(pbmpm_baked_info, pbmpm_baked_inspect, take_inspected),

@@ -340,8 +340,9 @@ static void noting_finish(void *handle, void *user)
     note_mode();
 }
 
-static void noting_log(const char *message, void *user)
+static void noting_log(pbmpm_log_level level, const char *message, void *user)
 {
+    (void)level;
     (void)message;
     (void)user;
     note_mode();
@@ -451,8 +452,9 @@ static void test_other_calls_are_refused_while_a_step_runs(void)
 
 static atomic_int lines;
 
-static void count_line(const char *message, void *user)
+static void count_line(pbmpm_log_level level, const char *message, void *user)
 {
+    (void)level;
     (void)message;
     (void)user;
     atomic_fetch_add(&lines, 1);

@@ -95,9 +95,12 @@ static void test_last_error_belongs_to_the_thread(void)
     TEST_ASSERT_EQUAL_STRING(before, pbmpm_last_error());
 }
 
-static void remember_line(const char *line, void *user)
+static pbmpm_log_level seen_level;
+
+static void remember_line(pbmpm_log_level level, const char *line, void *user)
 {
     snprintf(seen_line, sizeof seen_line, "%s", line);
+    seen_level = level;
     seen_count += *(int *)user;
 }
 
@@ -107,11 +110,17 @@ static void test_log_callback_gets_refused_calls(void)
     OK(pbmpm_set_log_callback(remember_line, &step));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
     TEST_ASSERT_EQUAL_INT(1, seen_count);
+    TEST_ASSERT_EQUAL_INT(PBMPM_LOG_ERROR, seen_level);
     TEST_ASSERT_TRUE(strlen(seen_line) > 0);
     TEST_ASSERT_NULL(strchr(seen_line, '\n'));
+    const pbmpm_world_def def = default_world(2, 0.1f, 10);
+    create_world(&def);
+    TEST_ASSERT_EQUAL_INT(PBMPM_LOG_INFO, seen_level);
+    TEST_ASSERT_NOT_NULL(strstr(seen_line, "2D"));
     OK(pbmpm_set_log_callback(NULL, NULL));
+    seen_count = 0;
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
-    TEST_ASSERT_EQUAL_INT(1, seen_count);
+    TEST_ASSERT_EQUAL_INT(0, seen_count);
 }
 
 static void test_shutdown_destroys_worlds_and_allows_a_new_start(void)

@@ -211,8 +211,9 @@ static void noting_finish(void *handle, void *user)
     note_mode();
 }
 
-static void noting_log(const char *message, void *user)
+static void noting_log(pbmpm_log_level level, const char *message, void *user)
 {
+    (void)level;
     (void)message;
     (void)user;
     note_mode();

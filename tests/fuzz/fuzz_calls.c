@@ -179,9 +179,10 @@ static void hooks_pbmpm_task_hooks(Bytes *in, pbmpm_task_hooks *it)
 
 static size_t told;
 
-static void log_line(const char *message, void *user)
+static void log_line(pbmpm_log_level level, const char *message, void *user)
 {
     (void)user;
+    (void)level;
     told += strlen(message);
 }
 

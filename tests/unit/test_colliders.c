@@ -7,6 +7,7 @@
 #include "colliders.h"
 #include "field.h"
 #include "random.h"
+#include "world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

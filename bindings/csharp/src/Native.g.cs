@@ -88,6 +88,17 @@ namespace Pbmpm
         ErrorForeign = 12,
     }
 
+    /// <summary>How grave a line of the log is.</summary>
+    public enum LogLevel : int
+    {
+        /// <summary>a call was refused or failed</summary>
+        Error = 1,
+        /// <summary>a step went on, but not as asked: particles were deleted</summary>
+        Warning = 2,
+        /// <summary>a world was created: its grid, kernels and threads</summary>
+        Info = 3,
+    }
+
     /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
     /// it, lowers the choice (never raises it).</summary>
     public enum Isa : int
@@ -724,7 +735,7 @@ namespace Pbmpm
         /// blocks take theirs when they come.</summary>
         public uint ParticleCapacity;
         /// <summary>what positions are relative to [m]; default 0. Used by nothing but the caller's own
-        /// conversion, so a scene far from zero loses no precision.</summary>
+        /// conversion, so a scene far from zero loses no precision. pbmpm_world_shift_origin() moves it.</summary>
         public Double3 Origin;
         /// <summary>bytes that the world may hold at once; 0 (default): no limit</summary>
         public ulong MemoryBudget;
@@ -1780,6 +1791,14 @@ namespace Pbmpm.Native
         /// Any thread, one at a time per world; different worlds step at the same time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step(WorldId world, float dt);
+
+        /// <summary>Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
+        /// is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
+        /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
+        /// meets obstacles, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_shift_origin(WorldId world, Double3* wanted, Double3* moved);
 
         /// <summary>A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
         /// the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>

@@ -41,7 +41,8 @@ typedef struct pbmpm_world_id { uint32_t index; uint32_t generation; } pbmpm_wor
 typedef struct pbmpm_material_id { uint32_t index; uint32_t generation; } pbmpm_material_id;
 typedef struct pbmpm_collider_id { uint32_t index; uint32_t generation; } pbmpm_collider_id;
 typedef struct pbmpm_particle_id { uint32_t index; uint32_t generation; } pbmpm_particle_id;
-typedef void pbmpm_log_callback(const char *message, void *user);
+typedef enum pbmpm_log_level { PBMPM_LOG_ERROR = 1, PBMPM_LOG_WARNING = 2, PBMPM_LOG_INFO = 3, PBMPM_LOG_LEVEL_FORCE32 = 2147483647 } pbmpm_log_level;
+typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void *user);
 pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 typedef struct pbmpm_allocator { uint32_t size; void *(*allocate)(size_t size, size_t alignment, void *user); void (*release)(void *memory, size_t size, void *user); void *user; } pbmpm_allocator;
 typedef void pbmpm_task(int32_t index, void *context);
@@ -101,6 +102,7 @@ pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings);
 pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
 pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
+pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3]);
 pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation);
 pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash);
 typedef struct pbmpm_particles_def { uint32_t size; uint32_t count; pbmpm_material_id material; float volume; const float *positions; const float *velocities; const float *volumes; } pbmpm_particles_def;
