@@ -503,7 +503,7 @@ pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *de
     LET_GO(copy_particles(w, &own, buffer, capacity, count));
 }
 
-pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
+pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const void *values)
 {
     if (count) REQUIRE(values);
     HOLD(world);

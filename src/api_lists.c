@@ -1,6 +1,7 @@
-/* The exported functions that tell whether something exists and list what there is. */
+/* The exported functions that tell what there is: whether something exists, lists, lines to draw. */
 #include "api_call.h"
 #include "keyed.h"
+#include "lines.h"
 #include "registry.h"
 
 pbmpm_result pbmpm_world_is_valid(pbmpm_world_id world, int32_t *valid)
@@ -63,3 +64,13 @@ DEFINE_LISTS(collider, colliders, KEYED_COLLIDERS)
 DEFINE_LISTS(emitter, emitters, KEYED_EMITTERS)
 DEFINE_LISTS(drain, drains, KEYED_DRAINS)
 DEFINE_LISTS(force, forces, KEYED_FORCES)
+
+pbmpm_result pbmpm_world_debug_lines(pbmpm_world_id world, uint32_t parts, pbmpm_line *lines, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE(count);
+    if (capacity) REQUIRE(lines);
+    HOLD(world);
+    if (parts & ~(uint32_t)PBMPM_DEBUG_ALL) LET_GO(api_invalid("parts: a bit is not that of a pbmpm_debug_part"));
+    *count = lines_draw(w, parts, lines, capacity);
+    LET_GO(PBMPM_OK);
+}

@@ -76,6 +76,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
     if (def->count > p->capacity - p->count) return no_room(world, def->count); /* before the arrays are read */
     checked = check_values(world, def);
     if (checked == PBMPM_OK && def->count) checked = world_make_room_for(world, def->material.index);
+    if (checked == PBMPM_OK && def->count && def->user_values) checked = particles_enable_user_values(p, &world->memory);
     if (checked != PBMPM_OK) return checked;
     const int d = world->def.dimension;
     const double dx = (double)world->def.cell_size, cell = world_cell_volume(world);
@@ -84,6 +85,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
     for (uint32_t i = 0; i < def->count; i++) {
         const double volume = def->volumes ? def->volumes[i] / cell : usual;
         NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
+        if (def->user_values) particle.user_value = def->user_values[i];
         for (int a = 0; a < d; a++) {
             particle.position[a] = (double)def->positions[(size_t)i * d + a] / dx;
             if (def->velocities) particle.velocity[a] = def->velocities[(size_t)i * d + a];
@@ -234,7 +236,7 @@ static uint64_t count_points(const World *world, const Lattice *lattice, const p
 static void append_point(World *world, const pbmpm_fill_def *def, double volume, const double point[3], uint32_t generation)
 {
     const double density = (double)world->materials.def[def->material.index].density;
-    NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index};
+    NewParticle particle = {.mass = (float)(density * volume), .material = def->material.index, .user_value = def->user_value};
     for (int a = 0; a < world->def.dimension; a++) {
         particle.position[a] = point[a] / (double)world->def.cell_size;
         particle.velocity[a] = def->velocity[a];
@@ -289,6 +291,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shap
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);
     if (count == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: no point of its lattice is inside of it and of the domain, and outside of all obstacles");
     checked = world_make_room_for(world, def->material.index);
+    if (checked == PBMPM_OK && def->user_value) checked = particles_enable_user_values(&world->particles, &world->memory);
     if (checked != PBMPM_OK) return checked;
     append_points(world, &lattice, def, generation);
     world_touch(world);
@@ -362,6 +365,7 @@ static uint32_t settable_components(const World *world, pbmpm_field field)
     case PBMPM_AFFINE_VELOCITY:
     case PBMPM_DEFORMATION:
     case PBMPM_VOLUME_RATIO:
+    case PBMPM_USER_VALUE:
     case PBMPM_PRESSURE: return inspect_components(world, field);
     default: return 0;
     }
@@ -371,6 +375,7 @@ static uint32_t settable_components(const World *world, pbmpm_field field)
 static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t row, const float *values, uint32_t components)
 {
     switch (field) {
+    case PBMPM_USER_VALUE: return PBMPM_OK;
     case PBMPM_POSITION:
         if (position_is_valid(world, values)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a position is not finite or outside the domain");
@@ -396,6 +401,11 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
 {
     Particles *p = &world->particles;
     const int d = p->dimension;
+    if (field == PBMPM_USER_VALUE) { /* no matter of the matter's */
+        memcpy(&p->user_value[row], values, sizeof *p->user_value);
+        return;
+    }
+    sleep_wake_row(world, row);
     particles_forget(p, row);
     if (field == PBMPM_POSITION) {
         double position[3];
@@ -414,9 +424,10 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
     }
 }
 
-pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values)
+pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const void *given)
 {
     Particles *p = &world->particles;
+    const float *values = given; /* of 4 bytes each, whatever they are */
     if (!inspect_is_field(field)) return inspect_no_field(field);
     const uint32_t components = settable_components(world, field);
     if (components == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "this field cannot be set");
@@ -428,14 +439,13 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
         const pbmpm_result checked = check_value(world, field, row, values + (size_t)i * components, components);
         if (checked != PBMPM_OK) return checked;
     }
-    if (field == PBMPM_PRESSURE) {
-        const pbmpm_result room = particles_enable_pressure(p, &world->memory);
-        if (room != PBMPM_OK) return room;
-    }
+    pbmpm_result room = PBMPM_OK;
+    if (field == PBMPM_PRESSURE) room = particles_enable_pressure(p, &world->memory);
+    if (field == PBMPM_USER_VALUE) room = particles_enable_user_values(p, &world->memory);
+    if (room != PBMPM_OK) return room;
     for (uint32_t i = 0; i < count; i++) {
         row = i;
         if (ids) particles_row(p, ids[i], &row);
-        sleep_wake_row(world, row);
         write_value(world, field, row, values + (size_t)i * components);
     }
     world->strain_unchecked |= field == PBMPM_DEFORMATION;

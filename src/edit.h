@@ -12,6 +12,6 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
 pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t generation, uint32_t *added);
 pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t count);
 pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed);
-pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values);
+pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const void *given);
 
 #endif

@@ -58,6 +58,7 @@ const char *emitter_problem(const pbmpm_emitter_def *def, const pbmpm_shape *sha
     double length = 0.0;
     if (!in_enum(def->region, PBMPM_EMIT_VOLUME, PBMPM_EMIT_DISC)) return "emitter.region is unknown";
     if (def->enabled != 0 && def->enabled != 1) return "emitter.enabled must be 0 or 1";
+    if (def->reserved != 0) return "emitter.reserved must be 0";
     if (!in_range(def->rate, 0.0, 1e12)) return "emitter.rate must be in [0, 1e12]";
     if (!in_range(def->speed, 0.0, 1e6)) return "emitter.speed must be in [0, 1e6]";
     if (!in_range(def->spread, 0.0, M_PI)) return "emitter.spread must be in [0, pi]";
@@ -382,7 +383,7 @@ static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *bi
     const double limit = (double)emitter->def.fill_limit;
     if (crowd->held + particle_volume(&emitter->def, d) > limit * crowd->room) return false;
     if (crowd_density(crowd, d, &spot) > DENSEST * limit || crowd_filling(world, crowd, place, clear < FREE) > limit) return false;
-    NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index};
+    NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index, .user_value = emitter->def.user_value};
     for (int a = 0; a < d; a++) {
         particle.position[a] = place[a];
         particle.velocity[a] = (float)(birth->velocity[a] + (double)world->settings.gravity[a] * birth->since);
@@ -480,7 +481,8 @@ pbmpm_result emitters_prepare(World *world, int part, float dt)
     for (uint32_t slot = 0; slot < emitters->used; slot++) {
         Emitter *emitter = &emitters->slot[slot];
         if (!works(emitter) || count_due(world, emitter, dt) < 1.0) continue;
-        const pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
+        pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
+        if (room == PBMPM_OK && emitter->def.user_value) room = particles_enable_user_values(&world->particles, &world->memory);
         if (room != PBMPM_OK) return room;
         Crowd crowd = crowd_bounds(world, emitter, part, dt);
         if (emitter->moving && crowd_nodes(&crowd) > CELLS_MAX) jump_if_far(world, emitter, &crowd, part, dt);

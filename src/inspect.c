@@ -39,7 +39,13 @@ pbmpm_result inspect_no_field(pbmpm_field field) { return fail(PBMPM_ERROR_INVAL
 
 bool inspect_has(const World *world, pbmpm_field field)
 {
-    return (field != PBMPM_DEFORMATION || world->particles.deformation[0]) && (field != PBMPM_PRESSURE || world->particles.pressure);
+    const Particles *p = &world->particles;
+    switch (field) {
+    case PBMPM_DEFORMATION: return p->deformation[0];
+    case PBMPM_PRESSURE: return p->pressure;
+    case PBMPM_USER_VALUE: return p->user_value;
+    default: return true;
+    }
 }
 
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
@@ -63,6 +69,10 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
     case PBMPM_PRESSURE:
         if (!p->pressure) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has pressures only once the dual solver was used");
         found = packed(p->pressure, 1);
+        break;
+    case PBMPM_USER_VALUE:
+        if (!p->user_value) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has user values only once a particle was given one");
+        found = packed(p->user_value, 1);
         break;
     default: return inspect_no_field(field);
     }

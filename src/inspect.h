@@ -6,7 +6,7 @@
 
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view);
 
-enum { INSPECT_FIELDS = PBMPM_PRESSURE + 1 };
+enum { INSPECT_FIELDS = PBMPM_USER_VALUE + 1 };
 
 /* Whether there is such a field; and the refusal of one that there is not. */
 bool inspect_is_field(pbmpm_field field);

@@ -33,6 +33,7 @@ int particles_class(uint32_t tag)
     case FIELD_MATERIAL:
     case FIELD_STATUS:
     case FIELD_PAST_DT:
+    case FIELD_USER_VALUE:
     case FIELD_PRESSURE: return CLASS_SCALAR;
     case FIELD_ID: return CLASS_ID;
     default: return -1;
@@ -125,6 +126,15 @@ pbmpm_result particles_enable_pressure(Particles *p, Memory *memory)
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressure of %u particles", p->capacity);
 }
 
+pbmpm_result particles_enable_user_values(Particles *p, Memory *memory)
+{
+    if (p->user_value) return PBMPM_OK;
+    if (!add_field(p, memory, FIELD_USER_VALUE, (void **)&p->user_value))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the user values of %u particles", p->capacity);
+    memset(p->user_value, 0, p->count * sizeof *p->user_value);
+    return PBMPM_OK;
+}
+
 static pbmpm_result enable_past(Particles *p, Memory *memory, FieldTag tag, void **pointers)
 {
     if (*pointers || add_field(p, memory, tag, pointers)) return PBMPM_OK;
@@ -136,6 +146,7 @@ pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag)
     switch (tag) {
     case FIELD_DEFORMATION: return particles_enable_deformation(p, memory);
     case FIELD_PRESSURE: return particles_enable_pressure(p, memory);
+    case FIELD_USER_VALUE: return particles_enable_user_values(p, memory);
     case FIELD_PAST_VELOCITY: return enable_past(p, memory, tag, (void **)p->past_velocity);
     case FIELD_PAST_AFFINE: return enable_past(p, memory, tag, (void **)p->past_affine);
     case FIELD_PAST_WAY: return enable_past(p, memory, tag, (void **)p->past_way);
@@ -211,6 +222,7 @@ pbmpm_particle_id particles_append(Particles *p, const NewParticle *particle, ui
     }
     p->volume_ratio[row] = 1.0f;
     if (p->pressure) p->pressure[row] = 0.0f;
+    if (p->user_value) p->user_value[row] = particle->user_value;
     particles_forget(p, row);
     p->mass[row] = particle->mass;
     p->material[row] = particle->material;

@@ -29,6 +29,7 @@ typedef enum FieldTag {
     FIELD_PAST_WAY = 14,
     FIELD_PAST_TURN = 15,
     FIELD_PAST_DT = 16,
+    FIELD_USER_VALUE = 17,
 } FieldTag;
 
 /* A quantity of the particles: `components` arrays of equal length in one allocation. */
@@ -57,6 +58,7 @@ typedef struct Particles {
      * second; all hold for substeps of past_dt seconds, 0: there is no past. */
     float *past_velocity[3], *past_affine[9], *past_way[3], *past_turn[9], *past_dt;
     uint32_t *material; /* slot */
+    uint32_t *user_value; /* null until there is one */
     int32_t *status;
     pbmpm_particle_id *id;
 
@@ -82,6 +84,9 @@ pbmpm_result particles_enable_deformation(Particles *p, Memory *memory);
 /* Makes room for the dual solver's multiplier; does nothing the second time. */
 pbmpm_result particles_enable_pressure(Particles *p, Memory *memory);
 
+/* Makes room for numbers of the host's; does nothing the second time. */
+pbmpm_result particles_enable_user_values(Particles *p, Memory *memory);
+
 /* Makes room for any field that worlds get only when they need it; UNSUPPORTED for another tag. */
 pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag);
 
@@ -97,7 +102,7 @@ int particles_class(uint32_t tag);
 /* Whether a field holds real numbers. */
 static inline bool particles_is_real(FieldTag tag)
 {
-    return tag != FIELD_CELL && tag != FIELD_MATERIAL && tag != FIELD_STATUS && tag != FIELD_ID;
+    return tag != FIELD_CELL && tag != FIELD_MATERIAL && tag != FIELD_STATUS && tag != FIELD_ID && tag != FIELD_USER_VALUE;
 }
 
 /* Sets a field to what it is in new particles: 0, F to the identity. */
@@ -120,6 +125,7 @@ typedef struct NewParticle {
     float velocity[3];
     float mass;
     uint32_t material;
+    uint32_t user_value; /* there is room for it if it is not 0 */
 } NewParticle;
 
 /* There is room, the values are valid. Returns its identifier. */

@@ -59,6 +59,8 @@ typedef struct pbmpm_emitter_def {
     uint64_t key;       /**< what snapshots know it by: not 0, and no other emitter of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
+    uint32_t user_value; /**< of its particles, see PBMPM_USER_VALUE; default 0 */
+    uint32_t reserved;   /**< 0 */
 } pbmpm_emitter_def;
 
 /** What an emitter has done since it was created. due = emitted + refused_full + refused_budget + refused_capacity. */

@@ -19,6 +19,7 @@ typedef struct pbmpm_particles_def {
     const float *positions;     /**< count * d floats [m], relative to the origin; inside the domain box if there is one */
     const float *velocities;    /**< count * d floats [m/s], or null for rest */
     const float *volumes;       /**< count floats: rest volumes [m^d], > 0, or null for `volume` */
+    const uint32_t *user_values; /**< count numbers of the host's, see PBMPM_USER_VALUE; null (default): 0 */
 } pbmpm_particles_def;
 
 /** Particles that fill a shape on a jittered lattice. */
@@ -29,6 +30,7 @@ typedef struct pbmpm_fill_def {
     float particles_per_axis;   /**< lattice points per cell and axis, in [0.25, 16]; default 2 (4 per cell in 2D, 8 in 3D) */
     float jitter;               /**< random offset as a share of the lattice spacing, in [0, 1]; default 0.5 */
     float velocity[3];          /**< of every particle [m/s]; default 0 */
+    uint32_t user_value;        /**< of every particle, see PBMPM_USER_VALUE; default 0 */
 } pbmpm_fill_def;
 
 /** Writes the defaults. `size` is the caller's sizeof(*def).
@@ -39,7 +41,7 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 
 /** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
- *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F). */
+ *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value for these). */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
@@ -69,6 +71,8 @@ typedef enum pbmpm_field {
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
     PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
                                     over a few cells say something: what the pressures of neighbours differ by moves nothing. */
+    PBMPM_USER_VALUE = 9,      /**< 1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
+                                    that is not 0 was given, or any was set: before, it takes no memory. */
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
@@ -111,14 +115,14 @@ PBMPM_API pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
  *  buffer is too small; nothing is written, *count is set); BUSY (also: a field that is not published, while a step runs). */
 PBMPM_API pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count);
 
-/** Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
+/** Writes a field of some particles: count * components values, tightly packed: floats; USER_VALUE: uint32.
  *  Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in
  *  [0, 1e30]: where the dual solver starts from), DEFORMATION (elastic, any finite matrix
- *  with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
+ *  with entries up to 1e6), USER_VALUE (wakes nothing). With `ids` null the values are for all particles in storage order and `count` must be their number.
  *  All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
- *  UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE); BUSY. */
+ *  UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE or USER_VALUE); BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count,
-                                           const float *values);
+                                           const void *values);
 
 /** Where particles stand in the current storage order (the row in a view). Errors: INVALID_ID (no row is written), BUSY. */
 PBMPM_API pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);

@@ -14,6 +14,7 @@
 #include "async.h"
 #include "base.h"
 #include "collider.h"
+#include "debug.h"
 #include "drain.h"
 #include "emitter.h"
 #include "force.h"

@@ -199,7 +199,7 @@ static unsigned char *packed_copy(pbmpm_world_id world, pbmpm_field field)
 }
 
 static const pbmpm_field all_fields[] = {PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_AFFINE_VELOCITY, PBMPM_VOLUME_RATIO, PBMPM_DEFORMATION,
-                                         PBMPM_MATERIAL, PBMPM_PARTICLE, PBMPM_MASS,            PBMPM_PRESSURE};
+                                         PBMPM_MATERIAL, PBMPM_PARTICLE, PBMPM_MASS,            PBMPM_PRESSURE, PBMPM_USER_VALUE};
 enum { ALL_FIELDS = sizeof all_fields / sizeof *all_fields };
 
 static void test_views_show_the_state_before_the_step(void)
@@ -208,7 +208,11 @@ static void test_views_show_the_state_before_the_step(void)
     unsigned char *copy[ALL_FIELDS];
     OK(pbmpm_world_publish(made.world, all_fields, ALL_FIELDS));
     OK(pbmpm_world_step(made.world, 0.01f)); /* from here on there are pressures */
-    const uint32_t count = world_count(made.world);
+    const uint32_t count = world_count(made.world), seven = 7;
+    pbmpm_particle_id first;
+    const pbmpm_view ids = view_of(made.world, PBMPM_PARTICLE);
+    memcpy(&first, ids.data, sizeof first);
+    OK(pbmpm_particles_set(made.world, PBMPM_USER_VALUE, &first, 1, &seven));
     for (int f = 0; f < ALL_FIELDS; f++)
         copy[f] = packed_copy(made.world, all_fields[f]);
     OK(pbmpm_world_step_begin(made.world, 0.01f));

@@ -172,7 +172,7 @@ static void test_values_of_setters(void)
     REFUSED(pbmpm_particles_set(good.world, PBMPM_MATERIAL, &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, PBMPM_PARTICLE, &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, PBMPM_MASS, &good.particle, 1, wild));
-    REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)(PBMPM_PRESSURE + 1), &good.particle, 1, wild));
+    REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)(PBMPM_USER_VALUE + 1), &good.particle, 1, wild));
     REFUSED(pbmpm_particles_set(good.world, (pbmpm_field)-1, &good.particle, 1, wild));
     snapshot_expect_same(&before, good.world, "setters");
 }
@@ -245,7 +245,7 @@ static void test_volume_in_cells(void)
 
 static void test_unknown_fields(void)
 {
-    static const int wrong[] = {PBMPM_PRESSURE + 1, -1, 1000, INT_MAX, INT_MIN};
+    static const int wrong[] = {PBMPM_USER_VALUE + 1, -1, 1000, INT_MAX, INT_MIN};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
         pbmpm_view view = {.size = sizeof view};
         REFUSED(pbmpm_particles_view(good.world, (pbmpm_field)wrong[i], &view));

@@ -418,7 +418,7 @@ static void check_field(pbmpm_field field)
 
 static void test_fields_that_are_none(void)
 {
-    check_field((pbmpm_field)(PBMPM_PRESSURE + 1));
+    check_field((pbmpm_field)(PBMPM_USER_VALUE + 1));
     for (int i = 0; i < NO_VALUES; i++)
         check_field((pbmpm_field)no_value[i]);
     OK(pbmpm_world_step_begin(good.world, 0.001f)); /* the fields that are in view meanwhile are another list */

@@ -479,6 +479,92 @@ static void test_identifiers_survive_steps(void)
                                      view_float(&position, rows[i], a));
 }
 
+/* ---- user values ---- */
+
+static uint32_t user_value_of(pbmpm_world_id world, pbmpm_particle_id id)
+{
+    uint32_t row;
+    OK(pbmpm_particles_find(world, &id, 1, &row));
+    const pbmpm_view view = view_of(world, PBMPM_USER_VALUE);
+    return view_uint(&view, row, 0);
+}
+
+static void test_user_values_go_with_their_particles(void)
+{
+    enum { COUNT = 64 };
+    float positions[2 * COUNT];
+    uint32_t values[COUNT], seed = 3;
+    pbmpm_particle_id ids[COUNT];
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    for (int i = 0; i < COUNT; i++) {
+        positions[2 * i] = random_float(&seed, 0.1f, 0.9f);
+        positions[2 * i + 1] = random_float(&seed, 0.6f, 0.9f);
+        values[i] = random_next(&seed);
+    }
+    pbmpm_particles_def def = arrays(create_material(world, PBMPM_LIQUID), COUNT, positions);
+    def.user_values = values;
+    OK(pbmpm_particles_add(world, &def, ids));
+    const pbmpm_view view = view_of(world, PBMPM_USER_VALUE);
+    for (uint32_t row = 0; row < view.count - COUNT; row++) TEST_ASSERT_EQUAL_UINT32(0, view_uint(&view, row, 0)); /* those of before */
+    for (int i = 0; i < 60; i++) OK(pbmpm_world_step(world, 1.0f / 60));
+    OK(pbmpm_particles_remove(world, ids, 1));
+    for (int i = 1; i < COUNT; i++) TEST_ASSERT_EQUAL_UINT32(values[i], user_value_of(world, ids[i]));
+}
+
+static uint64_t held(pbmpm_world_id world) { return world_stats(world).memory_bytes; }
+
+static void test_user_values_cost_nothing_until_there_is_one(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    const uint64_t bytes = held(world), hash = world_hash(world);
+    pbmpm_view view = {.size = sizeof view};
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_particles_view(world, PBMPM_USER_VALUE, &view));
+    const pbmpm_view ids = view_of(world, PBMPM_PARTICLE);
+    const uint32_t nine = 9;
+    OK(pbmpm_particles_set(world, PBMPM_USER_VALUE, ids.data, 1, &nine));
+    TEST_ASSERT_TRUE(held(world) > bytes);
+    TEST_ASSERT_EQUAL_HEX64(hash, world_hash(world)); /* the simulation knows nothing of it */
+}
+
+static void test_fills_and_emitters_give_user_values(void)
+{
+    const pbmpm_world_id world = empty_world(2);
+    pbmpm_fill_def fill = default_fill(create_material(world, PBMPM_LIQUID));
+    const pbmpm_shape left = box_shape(-2, 0, 0, 0.5f, 0.5f, 0), right = box_shape(2, 0, 0, 0.5f, 0.5f, 0);
+    pbmpm_emitter_def tap;
+    pbmpm_emitter_id emitter;
+    fill.user_value = 0xC0FFEEu;
+    OK(pbmpm_particles_fill(world, &fill, &left, NULL));
+    OK(pbmpm_emitter_def_init(&tap, sizeof tap));
+    tap.material = fill.material;
+    tap.rate = 1.0f;
+    tap.user_value = 5;
+    OK(pbmpm_emitter_create(world, &tap, &right, &emitter));
+    for (int i = 0; i < 20; i++) OK(pbmpm_world_step(world, 0.01f));
+    const pbmpm_view position = view_of(world, PBMPM_POSITION), value = view_of(world, PBMPM_USER_VALUE);
+    uint32_t born = 0;
+    for (uint32_t row = 0; row < value.count; row++) {
+        const bool emitted = view_float(&position, row, 0) > 0.0f;
+        TEST_ASSERT_EQUAL_UINT32(emitted ? 5 : 0xC0FFEEu, view_uint(&value, row, 0));
+        born += emitted;
+    }
+    TEST_ASSERT_TRUE(born > 20);
+}
+
+static void test_user_values_are_saved(void)
+{
+    static char saved[1 << 18];
+    const pbmpm_world_id world = block_2d(NULL, NULL), other = block_2d(NULL, NULL);
+    uint32_t values[256];
+    uint64_t bytes;
+    for (uint32_t i = 0; i < 256; i++) values[i] = i * 0x01010101u; /* some are no finite floats */
+    OK(pbmpm_particles_set(world, PBMPM_USER_VALUE, NULL, 256, values));
+    OK(pbmpm_snapshot_save(world, saved, sizeof saved, &bytes));
+    OK(pbmpm_snapshot_restore(other, saved, bytes, 0));
+    const pbmpm_view view = view_of(other, PBMPM_USER_VALUE);
+    for (uint32_t i = 0; i < 256; i++) TEST_ASSERT_EQUAL_UINT32(values[i], view_uint(&view, i, 0));
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -502,5 +588,9 @@ int main(void)
     RUN_TEST(test_set_all_in_storage_order);
     RUN_TEST(test_query_reports_the_full_number);
     RUN_TEST(test_identifiers_survive_steps);
+    RUN_TEST(test_user_values_go_with_their_particles);
+    RUN_TEST(test_user_values_cost_nothing_until_there_is_one);
+    RUN_TEST(test_fills_and_emitters_give_user_values);
+    RUN_TEST(test_user_values_are_saved);
     return UNITY_END();
 }

@@ -35,7 +35,7 @@ static void scatter(Random *random, int dimension, uint32_t count, bool mixed)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, dimension, CAPACITY));
     for (uint32_t i = 0; i < count; i++) {
         const double along = mixed ? random_in(random, -40.0, 40.0) : -40.0 + 80.0 * i / count;
-        NewParticle particle = {{along, random_in(random, -5.0, 5.0), random_in(random, -5.0, 5.0)}, {0}, 1.0f, 0};
+        NewParticle particle = {{along, random_in(random, -5.0, 5.0), random_in(random, -5.0, 5.0)}, {0}, 1.0f, 0, 0};
         if (i % 997 == 996) particle.position[1] += 2000.0;
         particles_append(&particles, &particle, 1);
     }
@@ -159,7 +159,7 @@ static void test_lines_enter_no_later_than_cells(void)
 static void test_a_line_through_a_single_box(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 3, CAPACITY));
-    for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{10.0 + i, 0, 0}, {0}, 1.0f, 0}, 1);
+    for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{10.0 + i, 0, 0}, {0}, 1.0f, 0, 0}, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
     const double along[3] = {1, 0, 0}, back[3] = {-1, 0, 0}, start[3] = {0, 0, 0}, beside[3] = {0, 2.5, 0}, behind[3] = {30, 0, 0};
     TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 8.0);
@@ -174,7 +174,7 @@ static void test_a_line_through_a_single_box(void)
 static void test_a_line_through_an_empty_box(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 2, CAPACITY));
-    for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{20000.0 * i, 0, 0}, {0}, 1.0f, 0}, 1);
+    for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{20000.0 * i, 0, 0}, {0}, 1.0f, 0, 0}, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
     const double along[3] = {1, 0, 0}, start[3] = {0, 0, 0}, above[3] = {0, 2.5, 0};
     TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 0.0);
@@ -201,7 +201,7 @@ static void test_boxes_are_made_once_per_generation(void)
 static void test_without_memory_the_next_question_tries_again(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 2, CAPACITY));
-    particles_append(&particles, &(NewParticle){{0}, {0}, 1.0f, 0}, 1);
+    particles_append(&particles, &(NewParticle){{0}, {0}, 1.0f, 0, 0}, 1);
     books.fail_at = books.calls + 1;
     TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, lookup_build(&lookup, &memory, &particles, 3, pool));
     books.fail_at = 0;

@@ -51,7 +51,7 @@ static void add_matter(pbmpm_material_kind kind, double x, double y)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &def, 1, &id));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_make_room_for(world, id.index));
     for (int i = 0; i < EACH; i++) {
-        const NewParticle particle = {{x + 0.5 * (i % 8), y + 0.5 * (i / 8), 1.0}, {0, 0, 0}, 0.25f, id.index};
+        const NewParticle particle = {{x + 0.5 * (i % 8), y + 0.5 * (i / 8), 1.0}, {0, 0, 0}, 0.25f, id.index, 0};
         particles_append(&world->particles, &particle, (uint32_t)(i + 1));
     }
 }

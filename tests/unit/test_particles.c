@@ -37,7 +37,7 @@ static pbmpm_particle_id add_numbered(uint32_t number)
 {
     const float n = (float)number;
     const uint32_t row = particles.count;
-    const NewParticle particle = {{n, -n - 0.25, 2 * n}, {n, n + 1, n + 2}, n + 3, number % 7};
+    const NewParticle particle = {{n, -n - 0.25, 2 * n}, {n, n + 1, n + 2}, n + 3, number % 7, 0};
     const pbmpm_particle_id id = particles_append(&particles, &particle, number + 1);
     particles.volume_ratio[row] = n + 4;
     for (int r = 0; r < particles.dimension; r++)
@@ -106,7 +106,7 @@ static void test_new_particles_start_undeformed_at_rest(void)
             particles.status[i] = K_REMOVED;
         }
         particles_compact(&particles, 0);
-        const NewParticle particle = {{1.25, 2.5, 3}, {4, 5, 6}, 7, 1};
+        const NewParticle particle = {{1.25, 2.5, 3}, {4, 5, 6}, 7, 1, 0};
         const pbmpm_particle_id id = particles_append(&particles, &particle, 5000);
         TEST_ASSERT_EQUAL_UINT32(1, particles.count);
         TEST_ASSERT_EQUAL_UINT32(5000, id.generation);

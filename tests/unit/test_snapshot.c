@@ -61,7 +61,7 @@ static void open_world(int dimension)
     make_world(dimension);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&world->particles, &world->memory));
     for (int i = 0; i < 60; i++) {
-        const NewParticle particle = {{i % 5 + 0.25, i % 7 - 0.25, i % 3}, {1, 0, 0}, 125.0f, i % 2 ? water.index : water.index + 1};
+        const NewParticle particle = {{i % 5 + 0.25, i % 7 - 0.25, i % 3}, {1, 0, 0}, 125.0f, i % 2 ? water.index : water.index + 1, 0};
         particles_append(&world->particles, &particle, registry_next_generation());
     }
     world->particles.status[7] = world->particles.status[30] = K_REMOVED;
@@ -78,7 +78,7 @@ static void open_sleepers(void)
     world->settings.sleep_speed = 1e9f;
     world->settings.solver = PBMPM_SOLVER_DUAL;
     for (int i = 0; i < 900; i++) {
-        const NewParticle particle = {{i % 30 * 0.5, i / 30 * 0.5, 0}, {0}, 250.0f, water.index};
+        const NewParticle particle = {{i % 30 * 0.5, i / 30 * 0.5, 0}, {0}, 250.0f, water.index, 0};
         particles_append(&world->particles, &particle, registry_next_generation());
     }
     for (int step = 0; step < 6; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));

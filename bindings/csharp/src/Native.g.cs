@@ -238,6 +238,9 @@ namespace Pbmpm
         /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
         /// over a few cells say something: what the pressures of neighbours differ by moves nothing.</summary>
         Pressure = 8,
+        /// <summary>1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
+        /// that is not 0 was given, or any was set: before, it takes no memory.</summary>
+        UserValue = 9,
     }
 
     /// <summary>What an obstacle does to motion along its surface.</summary>
@@ -321,6 +324,25 @@ namespace Pbmpm
         Integrator = 9,
         /// <summary>the obstacle's thickness [m]</summary>
         Collider = 10,
+    }
+
+    /// <summary>What lines can show; sums of these choose.</summary>
+    public enum DebugPart : int
+    {
+        /// <summary>the walls that are closed; no end is drawn where one is open</summary>
+        Domain = 1,
+        /// <summary>where they stand now</summary>
+        Colliders = 2,
+        Emitters = 4,
+        Drains = 8,
+        /// <summary>those that are switched on</summary>
+        Forces = 16,
+        KillBounds = 32,
+        /// <summary>blocks of the grid that held particles in the last substep</summary>
+        Blocks = 64,
+        /// <summary>blocks that sleep</summary>
+        Asleep = 128,
+        All = 255,
     }
 
     /// <summary>Where an emitter's particles are born.</summary>
@@ -842,6 +864,8 @@ namespace Pbmpm
         public float Jitter;
         /// <summary>of every particle [m/s]; default 0</summary>
         public Float3 Velocity;
+        /// <summary>of every particle, see PBMPM_USER_VALUE; default 0</summary>
+        public uint UserValue;
 
         /// <summary>The library's defaults.</summary>
         public static FillDef Default
@@ -924,6 +948,18 @@ namespace Pbmpm
         public Friction Friction;
         /// <summary>Coulomb coefficient, in [0, 100]; default world_def.domain_friction</summary>
         public float FrictionCoefficient;
+    }
+
+    /// <summary>A line to draw. This structure never grows.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Line
+    {
+        /// <summary>[m], relative to the origin; 2D: z is 0</summary>
+        public Float3 From;
+        /// <summary>...</summary>
+        public Float3 To;
+        /// <summary>what it shows: one of the parts, to choose a colour by</summary>
+        public DebugPart Part;
     }
 
     /// <summary>A drain of one world.</summary>
@@ -1087,6 +1123,10 @@ namespace Pbmpm
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
+        /// <summary>of its particles, see PBMPM_USER_VALUE; default 0</summary>
+        public uint UserValue;
+        /// <summary>0</summary>
+        public uint Reserved;
 
         /// <summary>The library's defaults.</summary>
         public static EmitterDef Default
@@ -1508,6 +1548,8 @@ namespace Pbmpm.Native
         public float* Velocities;
         /// <summary>count floats: rest volumes [m^d], &gt; 0, or null for `volume`</summary>
         public float* Volumes;
+        /// <summary>count numbers of the host's, see PBMPM_USER_VALUE; null (default): 0</summary>
+        public uint* UserValues;
 
         /// <summary>The library's defaults.</summary>
         public static ParticlesDef Default
@@ -1822,7 +1864,7 @@ namespace Pbmpm.Native
 
         /// <summary>Adds particles. All of them or none. `ids`: null or room for def-&gt;count identifiers.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
-        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F).</summary>
+        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value for these).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
@@ -1863,14 +1905,14 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_copy(WorldId world, CopyDef* def, IntPtr buffer, ulong capacity, uint* count);
 
-        /// <summary>Writes a field of some particles: count * components values, tightly packed (float; MATERIAL: not settable).
+        /// <summary>Writes a field of some particles: count * components values, tightly packed: floats; USER_VALUE: uint32.
         /// Settable: POSITION (velocity stays), VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO (liquid, in [0.05, 1.2]), PRESSURE (liquid, in
         /// [0, 1e30]: where the dual solver starts from), DEFORMATION (elastic, any finite matrix
-        /// with entries up to 1e6). With `ids` null the values are for all particles in storage order and `count` must be their number.
+        /// with entries up to 1e6), USER_VALUE (wakes nothing). With `ids` null the values are for all particles in storage order and `count` must be their number.
         /// All or nothing; expires views. Errors: INVALID_ID; INVALID_ARGUMENT (a value out of range, a field that cannot be set);
-        /// UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE); BUSY.</summary>
+        /// UNSUPPORTED (a particle whose material has no such field); OUT_OF_MEMORY (room for PRESSURE or USER_VALUE); BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_particles_set(WorldId world, Field field, ParticleId* ids, uint count, float* values);
+        public static extern Result pbmpm_particles_set(WorldId world, Field field, ParticleId* ids, uint count, IntPtr values);
 
         /// <summary>Where particles stand in the current storage order (the row in a view). Errors: INVALID_ID (no row is written), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -1992,6 +2034,13 @@ namespace Pbmpm.Native
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null; no step is under way), BUSY, FORKED: *done is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_done(WorldId world, int* done);
+
+        /// <summary>Lines that show obstacles, regions and the grid. Balls and capsules are drawn as circles of 24 lines, planes as a square of 20 cells (2D: a line)
+        /// around their position, baked solids by contours of their surface. `parts`: a sum of pbmpm_debug_part. *count is how many lines there are; the
+        /// first `capacity` of them are written to `lines`, which may be null with a capacity of 0. Costs what it draws, and only when called.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null, unknown parts), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_debug_lines(WorldId world, uint parts, Line* lines, uint capacity, uint* count);
 
         /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2239,6 +2288,7 @@ namespace Pbmpm.Native
             Impulse(fields);
             DomainWall(fields);
             Advice(fields);
+            Line(fields);
             DrainId(fields);
             DrainDef(fields);
             DrainStatus(fields);
@@ -2474,6 +2524,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_particles_def", "positions", &it, &it.Positions, &it.Positions + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "velocities", &it, &it.Velocities, &it.Velocities + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "volumes", &it, &it.Volumes, &it.Volumes + 1, false));
+            fields.Add(new MirrorField("pbmpm_particles_def", "user_values", &it, &it.UserValues, &it.UserValues + 1, false));
             fields.Add(new MirrorField("pbmpm_particles_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2486,6 +2537,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_fill_def", "particles_per_axis", &it, &it.ParticlesPerAxis, &it.ParticlesPerAxis + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "jitter", &it, &it.Jitter, &it.Jitter + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_fill_def", "user_value", &it, &it.UserValue, &it.UserValue + 1, false));
             fields.Add(new MirrorField("pbmpm_fill_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2561,6 +2613,15 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_advice", "came_true", &it, &it.CameTrue, &it.CameTrue + 1, false));
             fields.Add(new MirrorField("pbmpm_advice", "text", &it, &it.Text, &it.Text + 1, false));
             fields.Add(new MirrorField("pbmpm_advice", "", &it, &it, &it + 1, true));
+        }
+
+        static void Line(List<MirrorField> fields)
+        {
+            var it = default(Line);
+            fields.Add(new MirrorField("pbmpm_line", "from", &it, &it.From, &it.From + 1, false));
+            fields.Add(new MirrorField("pbmpm_line", "to", &it, &it.To, &it.To + 1, false));
+            fields.Add(new MirrorField("pbmpm_line", "part", &it, &it.Part, &it.Part + 1, false));
+            fields.Add(new MirrorField("pbmpm_line", "", &it, &it, &it + 1, false));
         }
 
         static void DrainId(List<MirrorField> fields)
@@ -2642,6 +2703,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_emitter_def", "budget", &it, &it.Budget, &it.Budget + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "key", &it, &it.Key, &it.Key + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "user_value", &it, &it.UserValue, &it.UserValue + 1, false));
+            fields.Add(new MirrorField("pbmpm_emitter_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
             fields.Add(new MirrorField("pbmpm_emitter_def", "", &it, &it, &it + 1, true));
         }
 
