@@ -154,7 +154,7 @@ pbmpm_result origin_shift(World *world, const double wanted[3], double moved[3])
         const double blocks = round(wanted[a] / block);
         if (!in_range(blocks, -most, most)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a shift must be finite and at most 2^23 cells along each axis");
         shift.cells[a] = (int32_t)blocks * SHIFT_CELLS;
-        shift.by[a] = blocks * block;
+        shift.by[a] = blocks * block + 0.0; /* no -0 */
     }
     const char *problem = shift_problem(world, &shift);
     if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "after the shift: %s", problem);

@@ -57,7 +57,7 @@ static class ParticleTests
             world.Step(0.01f);
             foreach (Field field in Enum.GetValues(typeof(Field)))
             {
-                if (field == Field.Material || field == Field.Particle) continue;
+                if (field == Field.Material || field == Field.Particle || field == Field.UserValue) continue;
                 var view = world.View(field);
                 var values = new float[view.Count * view.Components];
                 view.CopyTo(values);

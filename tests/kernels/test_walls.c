@@ -265,7 +265,7 @@ static void test_marks_go_with_the_obstacle(void)
     predict_beside(&scene, false);
     TEST_ASSERT_GREATER_THAN_INT(0, count_marked(&scene));
     box->generation = 0;
-    scene.world->domain.enabled = false;
+    for (int place = 0; place < DOMAIN_WALLS; place++) scene.world->domain.wall[place].open = 1;
     predict(&scene);
     TEST_ASSERT_EQUAL_INT(0, count_marked(&scene));
     scene_close(&scene);

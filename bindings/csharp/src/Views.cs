@@ -143,12 +143,12 @@ namespace Pbmpm
 #endif
     }
 
-    /// <summary>For each particle the index of its material's identifier.</summary>
-    public readonly struct MaterialView
+    /// <summary>A number of each particle: the index of its material's identifier, or the host's own.</summary>
+    public readonly struct NumberView
     {
         readonly Window window;
 
-        internal MaterialView(Window window)
+        internal NumberView(Window window)
         {
             this.window = window;
         }

@@ -97,11 +97,11 @@ namespace Pbmpm
         // Reading and changing
 
         /// <summary>A window on a field of all particles; it expires with the next change.</summary>
-        /// <param name="field">Any but Material and Particle, which have properties of their own.</param>
+        /// <param name="field">Any but Material, Particle and UserValue, which have properties of their own.</param>
         public FloatView View(Field field)
         {
-            if (field == Field.Material || field == Field.Particle)
-                throw new ArgumentException("this field does not hold floats; use Materials or Particles", nameof(field));
+            if (field == Field.Material || field == Field.Particle || field == Field.UserValue)
+                throw new ArgumentException("this field does not hold floats; use Materials, Particles or UserValues", nameof(field));
             return new FloatView(TakeWindow(field));
         }
 
@@ -112,7 +112,7 @@ namespace Pbmpm
         public FloatView Velocities => View(Field.Velocity);
 
         /// <summary>For each particle the index of its material's identifier.</summary>
-        public MaterialView Materials => new MaterialView(TakeWindow(Field.Material));
+        public NumberView Materials => new NumberView(TakeWindow(Field.Material));
 
         /// <summary>The identifiers of all particles.</summary>
         public ParticleView Particles => new ParticleView(TakeWindow(Field.Particle));
@@ -123,7 +123,7 @@ namespace Pbmpm
             if (values == null) throw new ArgumentNullException(nameof(values));
             var count = ParticleCount;
             RequireLength(values, nameof(values), count * ComponentsOf(field));
-            fixed (float* first = values) Changed(Methods.pbmpm_particles_set(Id, field, null, (uint)count, first));
+            fixed (float* first = values) Changed(Methods.pbmpm_particles_set(Id, field, null, (uint)count, (IntPtr)first));
         }
 
         /// <summary>Writes a field of some particles: all or nothing.</summary>
@@ -134,7 +134,29 @@ namespace Pbmpm
             RequireLength(values, nameof(values), count * ComponentsOf(field));
             fixed (ParticleId* chosen = ids)
             fixed (float* first = values)
-                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, field, chosen, (uint)count, first));
+                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, field, chosen, (uint)count, (IntPtr)first));
+        }
+
+        /// <summary>For each particle the host's own number; only once a particle was given one.</summary>
+        public NumberView UserValues => new NumberView(TakeWindow(Field.UserValue));
+
+        /// <summary>Gives all particles numbers of the host's, in the order of the views.</summary>
+        public void SetUserValues(uint[] values)
+        {
+            if (values == null) throw new ArgumentNullException(nameof(values));
+            RequireLength(values, nameof(values), ParticleCount);
+            fixed (uint* first = values) Changed(Methods.pbmpm_particles_set(Id, Field.UserValue, null, (uint)values.Length, (IntPtr)first));
+        }
+
+        /// <summary>Gives some particles numbers of the host's: all or nothing.</summary>
+        public void SetUserValues(ParticleId[] ids, uint[] values)
+        {
+            var count = Rows(ids, nameof(ids), 1);
+            if (values == null) throw new ArgumentNullException(nameof(values));
+            RequireLength(values, nameof(values), count);
+            fixed (ParticleId* chosen = ids)
+            fixed (uint* first = values)
+                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, Field.UserValue, chosen, (uint)count, (IntPtr)first));
         }
 
         /// <summary>Where particles stand in the views of now.</summary>

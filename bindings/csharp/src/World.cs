@@ -205,6 +205,18 @@ namespace Pbmpm
             return found;
         }
 
+        /// <summary>Changes an obstacle, which keeps its place and its identifier.</summary>
+        public void SetCollider(ColliderId collider, ColliderDef definition)
+        {
+            Done(Methods.pbmpm_collider_set(Id, collider, &definition, null));
+        }
+
+        /// <summary>Gives it another shape, or place, at once and without velocity; the rest stays.</summary>
+        public void SetCollider(ColliderId collider, Shape shape)
+        {
+            Done(Methods.pbmpm_collider_set(Id, collider, null, &shape));
+        }
+
         public void RemoveCollider(ColliderId collider)
         {
             Done(Methods.pbmpm_collider_destroy(Id, collider));

@@ -14,6 +14,8 @@ from ._library import lib as _lib
 from ._library import library_path, version_text
 from .advice import Advice, AdviceCode, Change
 from .colliders import Collider, Friction
+from .debug import DebugPart
+from .domain import Wall
 from .errors import (
     BusyError,
     CapacityError,
@@ -70,6 +72,7 @@ __all__ = [
     "ClosedError",
     "Collider",
     "DamagedError",
+    "DebugPart",
     "Drain",
     "DrainStatus",
     "Effective",
@@ -118,6 +121,7 @@ __all__ = [
     "UnsupportedError",
     "View",
     "Visco",
+    "Wall",
     "World",
     "bake_heights",
     "bake_hull",

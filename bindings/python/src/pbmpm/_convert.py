@@ -108,6 +108,16 @@ def floats(name: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDAr
     return array
 
 
+def integers(name: str, values: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.uint32]:
+    """A packed array of 32-bit unsigned integers with the given shape."""
+    array = np.asarray(values)
+    if array.shape != shape:
+        raise InvalidArgumentError(f"{name}: an array of shape {shape} is needed, not {array.shape}")
+    if array.size and (array.dtype.kind not in "iu" or array.min() < 0 or array.max() > 0xFFFFFFFF):
+        raise InvalidArgumentError(f"{name}: 32-bit unsigned integers are needed")
+    return np.ascontiguousarray(array, dtype=np.uint32)
+
+
 def identifiers(ids: npt.ArrayLike) -> npt.NDArray[np.uint32]:
     """Particle identifiers as the packed array (n, 2) that the library reads."""
     array = np.asarray(ids)

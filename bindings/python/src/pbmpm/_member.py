@@ -63,6 +63,13 @@ class Member:
         """What snapshots know it by, as given when it was added; 0: its place in the world."""
         return int(self._definition().key)
 
+    @property
+    def valid(self) -> bool:
+        """Whether it is still in its world. False, too, when the world has been closed."""
+        if self._world.closed:
+            return False
+        return bool(self._world._number(getattr(lib, f"pbmpm_{self._name}_is_valid"), "int32_t", self._id))
+
     def destroy(self) -> None:
         """Removes it from the world; particles stay."""
         self._apply("destroy")

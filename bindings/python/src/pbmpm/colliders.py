@@ -12,7 +12,7 @@ from ._convert import Rotation, Vector, assign, initialised, plain, shortest, si
 from ._ffi import ffi
 from ._library import lib
 from ._member import Member
-from .shapes import Baked, Shape, from_c
+from .shapes import Baked, Shape, from_c, to_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
 
 
@@ -86,6 +86,27 @@ class Collider(Member):
         out = sized("pbmpm_impulse")
         self._apply("impulse", out)
         return impulse_from_c(out, self._world.dimension)
+
+    def change(
+        self,
+        *,
+        shape: Shape | None = None,
+        friction: Friction | None = None,
+        friction_coefficient: float | None = None,
+        kinematic: bool | None = None,
+        measures_impulse: bool | None = None,
+    ) -> None:
+        """Changes what is named, as when it was added; the rest stays. A new shape is there at once, without velocity."""
+        out = self._definition()
+        if friction is not None:
+            out.friction = Friction(friction).value
+        if friction_coefficient is not None:
+            assign(out, "friction_coefficient", friction_coefficient)
+        if kinematic is not None:
+            out.kinematic = bool(kinematic)
+        if measures_impulse is not None:
+            out.measures_impulse = bool(measures_impulse)
+        self._apply("set", out, ffi.NULL if shape is None else to_c(shape, self._world.dimension))
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Sets the pose that a kinematic obstacle shall have at the end of the next step; its velocity follows.

@@ -88,7 +88,7 @@ class Emitter(Switchable):
         "enabled": set_enabled,
         **{
             name: number(name)
-            for name in ("rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget", "seed")
+            for name in ("rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget", "seed", "user_value")
         },
     }
 
@@ -145,6 +145,7 @@ class WorldFlow(WorldPart):
         budget: int | None = None,
         seed: int | None = None,
         enabled: bool | None = None,
+        user_value: int | None = None,
         key: int = 0,
     ) -> Emitter:
         """Adds a source of particles.
@@ -162,6 +163,7 @@ class WorldFlow(WorldPart):
             budget: particles that it may emit in its life; 0 (default): no limit.
             seed: of places and directions.
             enabled: whether it begins with the next step (default) or when `Emitter.enabled` is set.
+            user_value: of its particles, see `Field.USER_VALUE`; default 0.
             key: what snapshots know it by, a number that no other emitter of the world has; 0: its place.
         """
         values = {
@@ -177,6 +179,7 @@ class WorldFlow(WorldPart):
             "budget": budget,
             "seed": seed,
             "enabled": enabled,
+            "user_value": user_value,
             "key": key,
         }
         return Emitter(self, Emitter._add(self, values))  # type: ignore[arg-type]

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from ._convert import assign, initialised, shortest, sized
 from ._ffi import ffi
 from ._library import lib
+from ._member import Member
 
 if TYPE_CHECKING:
     from .world import World
@@ -194,14 +195,11 @@ def _value(definition: Any, field: str) -> Any:
     return _DECODED.get(field, shortest)(getattr(definition, field))
 
 
-class Material:
+class Material(Member):
     """A material in a world. Made by `World.add_material()`."""
 
-    __slots__ = ("_world", "_id")
-
-    def __init__(self, world: World, identifier: Any) -> None:
-        self._world = world
-        self._id = identifier
+    __slots__ = ()
+    _name = "material"
 
     @property
     def index(self) -> int:
@@ -215,27 +213,14 @@ class Material:
 
     @parameters.setter
     def parameters(self, value: Parameters) -> None:
-        self._world._call(lib.pbmpm_material_set, self._id, to_c(value, self._definition()))
-
-    def _definition(self) -> Any:
-        definition = sized("pbmpm_material_def")
-        self._world._call(lib.pbmpm_material_get, self._id, definition)
-        return definition
-
-    @property
-    def key(self) -> int:
-        """What snapshots know it by, as given when it was added; 0: its place in the world."""
-        return int(self._definition().key)
+        self._apply("set", to_c(value, self._definition()))
 
     def effective(self, dt: float) -> Effective:
         """How stiff the material is when the world is stepped by `dt` [s] with its present settings."""
         out = sized("pbmpm_effective")
-        self._world._call(lib.pbmpm_material_effective, self._id, dt, out)
+        self._apply("effective", dt, out)
         return Effective(**{item.name: shortest(getattr(out, item.name)) for item in fields(Effective)})
 
     def destroy(self) -> None:
         """Removes the material; InUseError while particles refer to it."""
-        self._world._call(lib.pbmpm_material_destroy, self._id)
-
-    def __repr__(self) -> str:
-        return f"<pbmpm.Material {self._id.index}:{self._id.generation}>"
+        self._apply("destroy")

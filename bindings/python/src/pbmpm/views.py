@@ -30,11 +30,12 @@ class Field(enum.Enum):
     PARTICLE = ffi.integer_const("PBMPM_PARTICLE")  #: (n, 2) identifiers: index, generation
     MASS = ffi.integer_const("PBMPM_MASS")  #: (n,) [kg] (2D: per metre of depth)
     PRESSURE = ffi.integer_const("PBMPM_PRESSURE")  #: (n,) [Pa] of liquid, as the dual solver last solved for it
+    USER_VALUE = ffi.integer_const("PBMPM_USER_VALUE")  #: (n,) the caller's own number; once a particle was given one
 
 
 MATRICES = (Field.AFFINE_VELOCITY, Field.DEFORMATION)
-_INTEGERS = (Field.MATERIAL, Field.PARTICLE)
-_SCALARS = (Field.VOLUME_RATIO, Field.MATERIAL, Field.MASS, Field.PRESSURE)
+INTEGERS = (Field.MATERIAL, Field.PARTICLE, Field.USER_VALUE)
+_SCALARS = (Field.VOLUME_RATIO, Field.MATERIAL, Field.MASS, Field.PRESSURE, Field.USER_VALUE)
 
 
 class _Memory:
@@ -138,7 +139,7 @@ def _wrap(handle: WorldHandle, field: Field, dimension: int, view: Any) -> npt.N
         shape, strides = (view.count,), (view.stride,)
     else:
         shape, strides = (view.count, view.components), (view.stride, step)
-    dtype = np.dtype(np.uint32 if field in _INTEGERS else np.float32)
+    dtype = np.dtype(np.uint32 if field in INTEGERS else np.float32)
     if view.count == 0:
         empty = np.empty(shape, dtype)
         empty.flags.writeable = False

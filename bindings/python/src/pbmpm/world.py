@@ -3,22 +3,25 @@
 from __future__ import annotations
 
 from types import TracebackType
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from . import colliders, materials, shapes
-from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, plain, pointer, shortest, sized, sized_array
+from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, integers, plain, pointer, shortest, sized, sized_array
 from ._ffi import ffi
 from ._handle import WorldHandle
 from ._library import lib
+from ._member import Member
 from .advice import WorldAdvice
 from .background import WorldBackground
 from .colliders import Collider, Friction
+from .debug import WorldDebug
+from .domain import WorldDomain
 from .errors import ClosedError, InvalidArgumentError, check
-from .flow import WorldFlow
-from .forces import WorldForces
+from .flow import Drain, Emitter, WorldFlow
+from .forces import Force, WorldForces
 from .materials import Material, Parameters
 from .queries import WorldQueries
 from .settings import Integrator, Pressure, Solver, WorldSettings
@@ -26,13 +29,26 @@ from .shapes import Shape
 from .snapshots import WorldSnapshots
 from .solids import WorldSolids
 from .stats import Event, Stats, event_from_c, stats_from_c
-from .views import MATRICES, Field, View
+from .views import INTEGERS, MATRICES, Field, View
+
+Found = TypeVar("Found", bound=Member)
 
 #: Identifiers of particles: shape (n, 2), index and generation. A generation alone is unique in a process.
 Ids = npt.NDArray[np.uint32]
 
 
-class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots, WorldBackground, WorldSolids, WorldAdvice):
+class World(
+    WorldSettings,
+    WorldFlow,
+    WorldForces,
+    WorldQueries,
+    WorldSnapshots,
+    WorldBackground,
+    WorldSolids,
+    WorldDomain,
+    WorldDebug,
+    WorldAdvice,
+):
     """A world of liquid and elastic matter.
 
     Lengths are in metres, times in seconds, masses in kilograms; in 2D masses are per metre of depth. Vectors have one
@@ -241,6 +257,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         positions: npt.ArrayLike,
         velocities: npt.ArrayLike | None = None,
         volumes: npt.ArrayLike | None = None,
+        user_values: npt.ArrayLike | None = None,
     ) -> Ids:
         """Adds particles from arrays: all of them or none.
 
@@ -249,6 +266,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             positions: shape (n, d) [m], relative to the origin, inside the domain.
             velocities: shape (n, d) [m/s]; None: at rest.
             volumes: rest volumes, one number or shape (n,) [m^d]; None: (cell_size / 2)^d.
+            user_values: 32-bit numbers of the caller's own, shape (n,), see `Field.USER_VALUE`; None: 0.
 
         Returns:
             Their identifiers, shape (n, 2).
@@ -264,7 +282,9 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             assign(definition, "volume", volumes)
         elif volumes is not None:
             sizes = floats("volumes", volumes, (count,))
+        numbers = None if user_values is None else integers("user_values", user_values, (count,))
         pointers = [pointer("float", array) for array in (place, speed, sizes)]
+        definition.user_values = pointer("uint32_t", numbers)
         definition.count, definition.material = count, self._id_of(material)
         definition.positions, definition.velocities, definition.volumes = pointers
         ids = np.empty((count, 2), np.uint32)
@@ -280,6 +300,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         jitter: float | None = None,
         seed: int | None = None,
         velocity: Vector | None = None,
+        user_value: int | None = None,
     ) -> int:
         """Fills a shape (not a plane) with particles on a jittered lattice.
 
@@ -290,6 +311,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
             jitter: random offset as a share of the lattice spacing, in [0, 1]; default 0.5.
             seed: of the jitter; equal seeds give equal particles.
             velocity: of every particle [m/s]; default at rest.
+            user_value: of every particle, see `Field.USER_VALUE`; default 0.
 
         Returns:
             How many particles were added.
@@ -300,7 +322,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         """
         definition = initialised("pbmpm_fill_def")
         definition.material = self._id_of(material)
-        numbers = {"particles_per_axis": particles_per_axis, "jitter": jitter, "seed": seed}
+        numbers = {"particles_per_axis": particles_per_axis, "jitter": jitter, "seed": seed, "user_value": user_value}
         for name, value in numbers.items():
             if value is not None:
                 assign(definition, name, value)
@@ -356,7 +378,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         """Writes a field of some particles, or of all of them in storage order.
 
         Args:
-            field: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO or PRESSURE (liquid) or DEFORMATION (elastic).
+            field: POSITION, VELOCITY, AFFINE_VELOCITY, VOLUME_RATIO or PRESSURE (liquid), DEFORMATION (elastic) or USER_VALUE.
             values: one row per particle, shaped as in the view.
             ids: shape (n, 2); None: all particles.
         """
@@ -366,8 +388,9 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         columns: tuple[int, ...] = (self._dimension,) if field in (Field.POSITION, Field.VELOCITY) else ()
         if field in MATRICES:
             columns = (self._dimension, self._dimension)
-        array = floats(field.name.lower(), values, (count, *columns))
-        pointers = pointer("pbmpm_particle_id", chosen), count, pointer("float", array)
+        read = integers if field in INTEGERS else floats
+        array = read(field.name.lower(), values, (count, *columns))
+        pointers = pointer("pbmpm_particle_id", chosen), count, pointer("char", array)
         self._call(lib.pbmpm_particles_set, field.value, *pointers)
 
     @property
@@ -438,6 +461,49 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
     def pressures(self) -> View:
         """Pressures of liquid particles as the dual solver last solved for them, shape (n,) [Pa] (2D: N/m)."""
         return self.view(Field.PRESSURE)
+
+    @property
+    def user_values(self) -> View:
+        """The caller's own 32-bit numbers, shape (n,); only once a particle was given one. Assigning writes those of all particles."""
+        return self.view(Field.USER_VALUE)
+
+    @user_values.setter
+    def user_values(self, values: npt.ArrayLike) -> None:
+        self.set(Field.USER_VALUE, values)
+
+    # What there is
+
+    def _members(self, kind: type[Found], many: str) -> list[Found]:
+        function, count = getattr(lib, f"pbmpm_world_get_{many}"), ffi.new("uint32_t *")
+        self._call(function, ffi.NULL, 0, count)
+        found = ffi.new(f"pbmpm_{kind._name}_id[]", max(1, count[0]))
+        self._call(function, found, count[0], count)
+        return [kind(self, ffi.new(f"pbmpm_{kind._name}_id *", found[i])[0]) for i in range(count[0])]
+
+    @property
+    def materials(self) -> list[Material]:
+        """All materials of the world."""
+        return self._members(Material, "materials")
+
+    @property
+    def colliders(self) -> list[Collider]:
+        """All obstacles of the world."""
+        return self._members(Collider, "colliders")
+
+    @property
+    def emitters(self) -> list[Emitter]:
+        """All emitters of the world."""
+        return self._members(Emitter, "emitters")
+
+    @property
+    def drains(self) -> list[Drain]:
+        """All drains of the world."""
+        return self._members(Drain, "drains")
+
+    @property
+    def forces(self) -> list[Force]:
+        """All forces of the world."""
+        return self._members(Force, "forces")
 
     # Obstacles
 

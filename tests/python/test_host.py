@@ -1,0 +1,126 @@
+"""What engines ask of a world: lists of what there is, changing obstacles and walls, user values, the origin, lines to draw."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import pbmpm
+
+
+def tank(**named) -> pbmpm.World:
+    """A box of 1 m, half full of water."""
+    world = pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (1, 1)), capacity=4000, **named)
+    world.fill(pbmpm.Box((0.5, 0.25), (0.5, 0.25)), world.add_material(pbmpm.Liquid()))
+    return world
+
+
+def run(world: pbmpm.World, steps: int) -> None:
+    for _ in range(steps):
+        world.step(1 / 60)
+
+
+def test_lists_hold_what_is_there() -> None:
+    world = tank()
+    water = world.materials[0]
+    ball = pbmpm.Sphere((0.5, 0.5), 0.1)
+    first, second = world.add_collider(ball), world.add_collider(ball, key=7)
+    emitter = world.add_emitter(ball, water, 0.0)
+    drain = world.add_drain(ball, enabled=False)
+    force = world.add_force(pbmpm.ForceKind.UNIFORM, 1.0, shape=ball)
+    assert [item.identity for item in world.colliders] == [first.identity, second.identity]
+    assert world.materials[0].index == water.index
+    assert [item.key for item in world.colliders] == [0, 7]
+    assert len(world.materials) == len(world.emitters) == len(world.drains) == len(world.forces) == 1
+    first.destroy()
+    assert [item.key for item in world.colliders] == [7]
+    assert not first.valid
+    assert all(item.valid for item in (water, second, emitter, drain, force))
+    world.close()
+    assert not second.valid
+
+
+def test_a_collider_changes_in_place() -> None:
+    world = tank()
+    gate = world.add_collider(pbmpm.Box((0.5, 0.5), (0.05, 0.6)))
+    world.remove_in(pbmpm.Box((0.76, 0.3), (0.26, 0.4)))
+    run(world, 30)
+    assert np.asarray(world.positions)[:, 0].max() < 0.52
+    gate.change(shape=pbmpm.Box((0.5, 5.0), (0.05, 0.6)), friction=pbmpm.Friction.SLIP, measures_impulse=True)
+    run(world, 30)
+    assert np.asarray(world.positions)[:, 0].max() > 0.9
+    assert gate.friction is pbmpm.Friction.SLIP
+    assert tuple(gate.shape.position) == (0.5, 5.0)
+    assert gate.impulse.linear == (0.0, 0.0)
+    with pytest.raises(pbmpm.InvalidArgumentError):
+        gate.change(friction_coefficient=-1.0)
+
+
+def test_walls_open_and_have_friction() -> None:
+    world = tank()
+    assert world.wall(0, upper=True) == pbmpm.Wall(False, pbmpm.Friction.COULOMB, 0.0)
+    world.set_wall(0, upper=True, open=True)
+    world.set_wall(1, friction=pbmpm.Friction.STICK, friction_coefficient=0.5)
+    assert world.wall(0, upper=True).open
+    assert world.wall(1) == pbmpm.Wall(False, pbmpm.Friction.STICK, 0.5)
+    run(world, 30)
+    assert np.asarray(world.positions)[:, 0].max() > 1.2
+    with pytest.raises(pbmpm.InvalidArgumentError, match="no such wall"):
+        world.set_wall(2, open=True)
+
+
+def test_the_origin_moves_under_the_matter() -> None:
+    world = tank()
+    before = np.array(world.positions)
+    moved = world.shift_origin((100.0, -0.05))
+    assert moved == pytest.approx((100.0, 0.0))  # cells of 0.05 m are not exact
+    assert world.origin == moved
+    assert np.abs(np.asarray(world.positions) - (before - (100.0, 0.0))).max() < 1e-5
+    assert world.domain == ((-100.0, 0.0), (-99.0, 1.0))
+
+
+def test_user_values_go_with_the_particles() -> None:
+    world = tank()
+    with pytest.raises(pbmpm.UnsupportedError):
+        _ = world.user_values
+    ids = world.add_particles(world.materials[0], [(0.3, 0.8), (0.7, 0.8)], user_values=[3, 0xFFFFFFFF])
+    count = world.fill(pbmpm.Box((0.5, 0.8), (0.05, 0.05)), world.materials[0], user_value=11)
+    run(world, 30)
+    values = np.asarray(world.user_values)
+    assert values.dtype == np.uint32
+    assert list(values[world.find(ids)]) == [3, 0xFFFFFFFF]
+    assert np.count_nonzero(values == 11) == count
+    world.set(pbmpm.Field.USER_VALUE, [8], ids[:1])
+    assert np.asarray(world.user_values)[world.find(ids)[0]] == 8
+    world.user_values = np.arange(len(world))
+    assert list(np.asarray(world.user_values)) == list(range(len(world)))
+    for wrong in ([1.5, 2.0], [-1, 2], [1]):
+        with pytest.raises(pbmpm.InvalidArgumentError, match="user_value"):
+            world.set(pbmpm.Field.USER_VALUE, wrong, ids)
+
+
+def test_emitters_give_user_values() -> None:
+    world = pbmpm.World(2, 0.05, capacity=1000)
+    water = world.add_material(pbmpm.Liquid())
+    emitter = world.add_emitter(pbmpm.Box((0, 0), (0.2, 0.2)), water, 0.5, user_value=21)
+    run(world, 10)
+    assert len(world) > 0
+    assert set(np.asarray(world.user_values)) == {21}
+    emitter.change(user_value=22)
+    run(world, 10)
+    assert set(np.asarray(world.user_values)) == {21, 22}
+
+
+def test_lines_show_what_is_there() -> None:
+    world = tank()
+    world.add_collider(pbmpm.Sphere((0.5, 0.7), 0.1))
+    run(world, 1)
+    ends, parts = world.debug_lines()
+    assert ends.shape == (len(parts), 2, 2)
+    ball = ends[parts == pbmpm.DebugPart.COLLIDERS]
+    assert np.abs(np.linalg.norm(ball - (0.5, 0.7), axis=2) - 0.1).max() < 1e-6
+    walls, _ = world.debug_lines(pbmpm.DebugPart.DOMAIN)
+    assert len(walls) == 4
+    assert len(world.debug_lines(pbmpm.DebugPart.BLOCKS)[0]) >= 4
+    empty, none = pbmpm.World(3, 0.1).debug_lines()
+    assert empty.shape == (0, 2, 3) and none.shape == (0,)
