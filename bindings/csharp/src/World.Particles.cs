@@ -35,20 +35,28 @@ namespace Pbmpm
         public void AddParticles(MaterialId material, float[] positions, float[] velocities = null, float[] volumes = null,
                                  ParticleId[] ids = null)
         {
-            var count = Rows(positions, nameof(positions), Dimension);
-            RequireLength(velocities, nameof(velocities), positions.Length);
-            RequireLength(volumes, nameof(volumes), count);
-            RequireLength(ids, nameof(ids), count);
+            fixed (float* place = positions, speed = velocities, volume = volumes)
+            fixed (ParticleId* made = ids)
+                AddParticles(material, Numbers.Plain(place, LengthOf(positions)), Numbers.Plain(speed, LengthOf(velocities)),
+                             Numbers.Plain(volume, LengthOf(volumes)), made, LengthOf(ids));
+        }
+
+        void AddParticles(MaterialId material, Numbers positions, Numbers velocities, Numbers volumes, ParticleId* ids, int room)
+        {
+            var count = positions.Rows(nameof(positions), Dimension);
+            velocities.RequireRows(nameof(velocities), Dimension, count);
+            volumes.RequireRows(nameof(volumes), 1, count);
+            if (room != Numbers.Missing && room != count)
+                throw new ArgumentException("the length is " + room + " instead of " + count, nameof(ids));
             var definition = ParticlesDef.Default;
             definition.Material = material;
             definition.Count = (uint)count;
-            fixed (float* place = positions, speed = velocities, volume = volumes)
-            fixed (ParticleId* made = ids)
+            definition.Volumes = volumes.First;
+            fixed (float* place = positions.Narrowed(Dimension), speed = velocities.Narrowed(Dimension))
             {
-                definition.Positions = place;
-                definition.Velocities = speed;
-                definition.Volumes = volume;
-                Changed(Methods.pbmpm_particles_add(Id, &definition, made));
+                definition.Positions = place != null ? place : positions.First;
+                definition.Velocities = speed != null ? speed : velocities.First;
+                Changed(Methods.pbmpm_particles_add(Id, &definition, ids));
             }
         }
 
@@ -120,21 +128,34 @@ namespace Pbmpm
         /// <summary>Writes a field of all particles, in the order of the views.</summary>
         public void Set(Field field, float[] values)
         {
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            var count = ParticleCount;
-            RequireLength(values, nameof(values), count * ComponentsOf(field));
-            fixed (float* first = values) Changed(Methods.pbmpm_particles_set(Id, field, null, (uint)count, first));
+            fixed (float* first = values) Set(field, Numbers.Plain(first, LengthOf(values)));
         }
 
         /// <summary>Writes a field of some particles: all or nothing.</summary>
         public void Set(Field field, ParticleId[] ids, float[] values)
         {
-            var count = Rows(ids, nameof(ids), 1);
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            RequireLength(values, nameof(values), count * ComponentsOf(field));
             fixed (ParticleId* chosen = ids)
             fixed (float* first = values)
-                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, field, chosen, (uint)count, first));
+                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.Plain(first, LengthOf(values)));
+        }
+
+        void Set(Field field, Numbers values)
+        {
+            Set(field, null, ParticleCount, values);
+        }
+
+        /// <param name="field">Which.</param>
+        /// <param name="ids">Of whom; null: of all.</param>
+        /// <param name="count">How many these are.</param>
+        /// <param name="values">One row for each.</param>
+        void Set(Field field, ParticleId* ids, int count, Numbers values)
+        {
+            var columns = ComponentsOf(field);
+            if (!values.IsGiven) throw new ArgumentNullException(nameof(values));
+            values.RequireRows(nameof(values), columns, count);
+            if (count == 0) return; // the address of nothing is null, which stands for all
+            fixed (float* narrow = values.Narrowed(columns))
+                Changed(Methods.pbmpm_particles_set(Id, field, ids, (uint)count, narrow != null ? narrow : values.First));
         }
 
         /// <summary>Where particles stand in the views of now.</summary>
@@ -194,10 +215,9 @@ namespace Pbmpm
             return array.Length / columns;
         }
 
-        static void RequireLength(Array array, string name, int length)
+        internal static int LengthOf(Array array)
         {
-            if (array != null && array.Length != length)
-                throw new ArgumentException("the length is " + array.Length + " instead of " + length, name);
+            return array == null ? Numbers.Missing : array.Length;
         }
 
         static void RequireRoom(Array array, string name, int count)
