@@ -1,4 +1,9 @@
 using System;
+#if UNITY_5_3_OR_NEWER
+using Vector3 = UnityEngine.Vector3;
+#else
+using Vector3 = System.Numerics.Vector3;
+#endif
 
 namespace Pbmpm
 {
@@ -19,24 +24,48 @@ namespace Pbmpm
             this.wide = wide;
         }
 
+        /// <summary>The length of an array that is not there.</summary>
+        public const int Missing = -1;
+
+        public static int LengthOf(Array array)
+        {
+            return array == null ? Missing : array.Length;
+        }
+
         /// <param name="first">May be null when there are none.</param>
-        /// <param name="count">How many; <see cref="Missing"/>: there is no array.</param>
+        /// <param name="count">How many; or <see cref="Missing"/>.</param>
         public static Numbers Plain(float* first, int count)
         {
             return new Numbers(first, count, false);
         }
 
-        /// <summary>As <see cref="Plain"/>, of vectors.</summary>
+        /// <summary>Those of an array that is held fast at its first one.</summary>
+        public static Numbers Plain(float* first, float[] array)
+        {
+            return Plain(first, LengthOf(array));
+        }
+
+        /// <param name="first">May be null when there are none.</param>
+        /// <param name="count">How many vectors; or <see cref="Missing"/>.</param>
         public static Numbers OfVectors(void* first, int count)
         {
             return new Numbers((float*)first, count == Missing ? Missing : checked(count * 3), true);
         }
 
-        public const int Missing = -1;
+        /// <summary>Those of an array that is held fast at its first one.</summary>
+        public static Numbers OfVectors(Vector3* first, Vector3[] array)
+        {
+            return OfVectors(first, LengthOf(array));
+        }
 
         public bool IsGiven => length != Missing;
 
-        public float* First => first;
+        /// <summary>Where the library finds them.</summary>
+        /// <param name="narrow">What <see cref="Narrowed"/> gave, held fast.</param>
+        public float* Address(float* narrow = null)
+        {
+            return narrow != null ? narrow : first;
+        }
 
         /// <summary>How many rows of so many columns there are.</summary>
         public int Rows(string name, int columns)

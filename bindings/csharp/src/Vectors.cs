@@ -26,7 +26,7 @@ namespace Pbmpm
         /// <summary>Copies the vectors of all particles to the begin of an array.</summary>
         public void CopyTo(Vector3[] target)
         {
-            fixed (Vector3* first = target) window.CopyTo(Numbers.OfVectors(first, World.LengthOf(target)));
+            fixed (Vector3* first = target) window.CopyTo(Numbers.OfVectors(first, target));
         }
     }
 
@@ -44,14 +44,14 @@ namespace Pbmpm
             fixed (Vector3* place = positions, speed = velocities)
             fixed (float* volume = volumes)
             fixed (ParticleId* made = ids)
-                AddParticles(material, Numbers.OfVectors(place, LengthOf(positions)), Numbers.OfVectors(speed, LengthOf(velocities)),
-                             Numbers.Plain(volume, LengthOf(volumes)), made, LengthOf(ids));
+                AddParticles(material, Numbers.OfVectors(place, positions), Numbers.OfVectors(speed, velocities),
+                             Numbers.Plain(volume, volumes), made, Numbers.LengthOf(ids));
         }
 
         /// <summary>Writes a field of vectors of all particles, in the order of the views.</summary>
         public void Set(Field field, Vector3[] values)
         {
-            fixed (Vector3* first = values) Set(field, Numbers.OfVectors(first, LengthOf(values)));
+            fixed (Vector3* first = values) Set(field, Numbers.OfVectors(first, values));
         }
 
         /// <summary>Writes a field of vectors of some particles: all or nothing.</summary>
@@ -59,7 +59,7 @@ namespace Pbmpm
         {
             fixed (ParticleId* chosen = ids)
             fixed (Vector3* first = values)
-                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.OfVectors(first, LengthOf(values)));
+                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.OfVectors(first, values));
         }
 
         /// <summary>Fields at points [m]; arrays that are not wanted may be null.</summary>
@@ -71,8 +71,8 @@ namespace Pbmpm
         {
             fixed (Vector3* place = points, speed = velocity)
             fixed (float* full = filling, mass = density)
-                QueryPoints(Numbers.OfVectors(place, LengthOf(points)), Numbers.Plain(full, LengthOf(filling)),
-                            Numbers.Plain(mass, LengthOf(density)), Numbers.OfVectors(speed, LengthOf(velocity)));
+                QueryPoints(Numbers.OfVectors(place, points), Numbers.Plain(full, filling),
+                            Numbers.Plain(mass, density), Numbers.OfVectors(speed, velocity));
         }
 
         /// <summary>The height of the surface above points, against gravity; negative infinity where there is no matter.</summary>
@@ -83,7 +83,7 @@ namespace Pbmpm
         {
             fixed (Vector3* place = points)
             fixed (float* height = heights)
-                QueryHeights(Numbers.OfVectors(place, LengthOf(points)), Numbers.Plain(height, LengthOf(heights)), level, null);
+                QueryHeights(Numbers.OfVectors(place, points), Numbers.Plain(height, heights), level, null);
         }
     }
 }

@@ -48,7 +48,7 @@ namespace Pbmpm
         {
             RequireCurrent();
             target.RequireRoom(nameof(target), Components, Count);
-            var next = target.First;
+            var next = target.Address();
             for (var particle = 0; particle < Count; particle++)
             {
                 var first = (byte*)view.Data + particle * Stride;
@@ -104,7 +104,7 @@ namespace Pbmpm
         /// <summary>Copies all values, those of one particle side by side, to the begin of an array.</summary>
         public void CopyTo(float[] target)
         {
-            fixed (float* first = target) window.CopyTo(Numbers.Plain(first, World.LengthOf(target)));
+            fixed (float* first = target) window.CopyTo(Numbers.Plain(first, target));
         }
 
         /// <summary>Address of the first value, for engines that alias native memory. Element (i, c) is at

@@ -37,8 +37,8 @@ namespace Pbmpm
         {
             fixed (float* place = positions, speed = velocities, volume = volumes)
             fixed (ParticleId* made = ids)
-                AddParticles(material, Numbers.Plain(place, LengthOf(positions)), Numbers.Plain(speed, LengthOf(velocities)),
-                             Numbers.Plain(volume, LengthOf(volumes)), made, LengthOf(ids));
+                AddParticles(material, Numbers.Plain(place, positions), Numbers.Plain(speed, velocities),
+                             Numbers.Plain(volume, volumes), made, Numbers.LengthOf(ids));
         }
 
         void AddParticles(MaterialId material, Numbers positions, Numbers velocities, Numbers volumes, ParticleId* ids, int room)
@@ -51,11 +51,11 @@ namespace Pbmpm
             var definition = ParticlesDef.Default;
             definition.Material = material;
             definition.Count = (uint)count;
-            definition.Volumes = volumes.First;
+            definition.Volumes = volumes.Address();
             fixed (float* place = positions.Narrowed(Dimension), speed = velocities.Narrowed(Dimension))
             {
-                definition.Positions = place != null ? place : positions.First;
-                definition.Velocities = speed != null ? speed : velocities.First;
+                definition.Positions = positions.Address(place);
+                definition.Velocities = velocities.Address(speed);
                 Changed(Methods.pbmpm_particles_add(Id, &definition, ids));
             }
         }
@@ -128,7 +128,7 @@ namespace Pbmpm
         /// <summary>Writes a field of all particles, in the order of the views.</summary>
         public void Set(Field field, float[] values)
         {
-            fixed (float* first = values) Set(field, Numbers.Plain(first, LengthOf(values)));
+            fixed (float* first = values) Set(field, Numbers.Plain(first, values));
         }
 
         /// <summary>Writes a field of some particles: all or nothing.</summary>
@@ -136,7 +136,7 @@ namespace Pbmpm
         {
             fixed (ParticleId* chosen = ids)
             fixed (float* first = values)
-                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.Plain(first, LengthOf(values)));
+                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.Plain(first, values));
         }
 
         void Set(Field field, Numbers values)
@@ -155,7 +155,7 @@ namespace Pbmpm
             values.RequireRows(nameof(values), columns, count);
             if (count == 0) return; // the address of nothing is null, which stands for all
             fixed (float* narrow = values.Narrowed(columns))
-                Changed(Methods.pbmpm_particles_set(Id, field, ids, (uint)count, narrow != null ? narrow : values.First));
+                Changed(Methods.pbmpm_particles_set(Id, field, ids, (uint)count, values.Address(narrow)));
         }
 
         /// <summary>Where particles stand in the views of now.</summary>
@@ -213,11 +213,6 @@ namespace Pbmpm
             if (array == null) throw new ArgumentNullException(name);
             if (array.Length % columns != 0) throw new ArgumentException("the length is no multiple of " + columns, name);
             return array.Length / columns;
-        }
-
-        internal static int LengthOf(Array array)
-        {
-            return array == null ? Numbers.Missing : array.Length;
         }
 
         static void RequireRoom(Array array, string name, int count)

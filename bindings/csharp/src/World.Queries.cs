@@ -32,8 +32,8 @@ namespace Pbmpm
         public void QueryPoints(float[] points, float[] filling = null, float[] density = null, float[] velocity = null)
         {
             fixed (float* place = points, full = filling, mass = density, speed = velocity)
-                QueryPoints(Numbers.Plain(place, LengthOf(points)), Numbers.Plain(full, LengthOf(filling)),
-                            Numbers.Plain(mass, LengthOf(density)), Numbers.Plain(speed, LengthOf(velocity)));
+                QueryPoints(Numbers.Plain(place, points), Numbers.Plain(full, filling),
+                            Numbers.Plain(mass, density), Numbers.Plain(speed, velocity));
         }
 
         void QueryPoints(Numbers points, Numbers filling, Numbers density, Numbers velocity)
@@ -45,9 +45,9 @@ namespace Pbmpm
             if (count == 0) return; // the address of nothing is null
             fixed (float* narrow = points.Narrowed(Dimension), pairs = velocity.Narrowed(Dimension))
             {
-                var place = narrow != null ? narrow : points.First;
-                var speed = pairs != null ? pairs : velocity.First;
-                Done(Methods.pbmpm_query_points(Id, place, (uint)count, filling.First, density.First, speed));
+                var place = points.Address(narrow);
+                var speed = velocity.Address(pairs);
+                Done(Methods.pbmpm_query_points(Id, place, (uint)count, filling.Address(), density.Address(), speed));
                 if (pairs != null) velocity.Widen(pairs);
             }
         }
@@ -70,7 +70,7 @@ namespace Pbmpm
         void QueryHeights(float[] points, float[] heights, float level, float* up)
         {
             fixed (float* place = points, height = heights)
-                QueryHeights(Numbers.Plain(place, LengthOf(points)), Numbers.Plain(height, LengthOf(heights)), level, up);
+                QueryHeights(Numbers.Plain(place, points), Numbers.Plain(height, heights), level, up);
         }
 
         void QueryHeights(Numbers points, Numbers heights, float level, float* up)
@@ -80,8 +80,8 @@ namespace Pbmpm
             if (count == 0) return;
             fixed (float* narrow = points.Narrowed(Dimension))
             {
-                var place = narrow != null ? narrow : points.First;
-                Done(Methods.pbmpm_query_heights(Id, place, (uint)count, up, level, heights.First));
+                var place = points.Address(narrow);
+                Done(Methods.pbmpm_query_heights(Id, place, (uint)count, up, level, heights.Address()));
             }
         }
     }

@@ -6,7 +6,8 @@ namespace Pbmpm
     /// <summary>A world of liquid and elastic matter.
     /// Units are SI, angles radians; in 2D the third component of every vector is ignored.
     /// Worlds are independent: different ones may step at the same time on different threads. A second thread in the same
-    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw.
+    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw, that make an array
+    /// or, in 2D, that take vectors.
     /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected, or with its
     /// domain or process at the latest.</summary>
     public sealed unsafe partial class World : IDisposable
