@@ -1,14 +1,14 @@
 using System;
 using System.Collections.Generic;
-using System.Reflection;
 using Pbmpm;
 
 /// <summary>A domain that is unloaded takes its worlds with it, as in Unity's editor with each compilation.</summary>
 static class DomainTests
 {
-    const string Left = "blocks that were left", Live = "live";
+    const string Left = "blocks that were left";
 
     static World Kept { get; set; }
+    static readonly List<string> Lines = new List<string>();
     static readonly Blocks Lent = new Blocks();
 
     [Test]
@@ -31,6 +31,21 @@ static class DomainTests
         Expect.Equal("", string.Join("; ", refusals), "refused calls");
         foreach (var after in Report.After) Expect.Equal(0, after, "blocks of its worlds at the end of a domain");
         Expect.Equal(5, Report.After.Count, "domains that ended");
+    }
+
+    [Test]
+    static void AnUnloadedDomainTakesItsLogWithIt()
+    {
+        var domain = AppDomain.CreateDomain("with a log", null, AppDomain.CurrentDomain.SetupInformation);
+        domain.DoCallBack(KeepALog);
+        AppDomain.Unload(domain);
+        using (var world = Scenes.Box(2))
+            Expect.Refused(Result.ErrorInvalidArgument, () => world.Step(-1), "what the log would tell of");
+    }
+
+    static void KeepALog()
+    {
+        Library.Log = line => Lines.Add(line);
     }
 
     /// <summary>Runs in the other domain: worlds that nobody disposes of, one of them with memory of that domain. Together they are

@@ -11,6 +11,11 @@ namespace Pbmpm
         static readonly LogCallback LogEntry = OnLog;
         static volatile Action<string> log;
 
+        static Library()
+        {
+            DomainEnd.Calls(TakeOffLog);
+        }
+
         /// <summary>Receives one line per notable happening: a refused call, an event. Null, the default: nobody does. There is one
         /// in a process: that of the last domain that set it. Not to be set while another thread is inside the library.
         /// It may be called by any thread that calls the library and by a step in the background. It must not call the library,
@@ -27,6 +32,11 @@ namespace Pbmpm
             }
         }
 
+        static void TakeOffLog(object sender, EventArgs nothing)
+        {
+            if (log != null) Log = null;
+        }
+
         [MonoPInvokeCallback(typeof(LogCallback))]
         static void OnLog(IntPtr message, IntPtr user)
         {
@@ -36,7 +46,7 @@ namespace Pbmpm
             }
             catch (Exception problem)
             {
-                Lent.End(problem);
+                Fatal.End(problem);
             }
         }
     }

@@ -12,8 +12,7 @@ namespace Pbmpm
 
         static LiveWorlds()
         {
-            AppDomain.CurrentDomain.DomainUnload += End;
-            AppDomain.CurrentDomain.ProcessExit += End;
+            DomainEnd.Calls(DestroyAll);
         }
 
         public static WorldId Create(WorldDef definition, HostTasks tasks, HostMemory memory)
@@ -48,7 +47,7 @@ namespace Pbmpm
             return result;
         }
 
-        static void End(object sender, EventArgs nothing)
+        static void DestroyAll(object sender, EventArgs nothing)
         {
             ulong[] keys;
             lock (Lendings)
@@ -57,7 +56,6 @@ namespace Pbmpm
                 Lendings.Keys.CopyTo(keys, 0);
             }
             foreach (var key in keys) Destroy(new WorldId { Index = (uint)(key >> 32), Generation = (uint)key });
-            if (Library.Log != null) Library.Log = null; // its function ends with the domain
         }
 
         static ulong KeyOf(WorldId world)
