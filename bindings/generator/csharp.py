@@ -2,8 +2,8 @@
 
 Structures and enumerations become blittable types of the namespace ``Pbmpm``, those that hold pointers and the
 functions go to ``Pbmpm.Native``. Functions keep their C names. What C calls by a pointer to a function is an address in
-structures and parameters, so that they stay blittable, and has a delegate of its type beside them. Beside the declarations stands a list of where every
-field really lies, which the binding compares with the library's own list when it loads.
+structures and parameters, so that they stay blittable, and has a delegate of its type beside them. At the end stands a
+list of where every field really lies, which the binding compares with the library's own list when it loads.
 """
 
 from __future__ import annotations

@@ -1,6 +1,8 @@
 using System;
 using System.Collections.Generic;
+using System.Reflection;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 using System.Threading;
 using System.Threading.Tasks;
 using Pbmpm;
@@ -194,5 +196,21 @@ static class HostTests
         }
         Expect.Equal(1, lines.Count, "lines");
         Expect.True(lines[0].Contains("dt"), "it says what was wrong: " + lines[0]);
+    }
+
+    /// <summary>Compilers ahead of time make an entry only for static functions that are marked.</summary>
+    [Test]
+    static void WhatTheLibraryCallsIsMarked()
+    {
+        var entries = new HashSet<MethodInfo>(); // compilers keep delegates of their own
+        foreach (var type in typeof(World).Assembly.GetTypes())
+        foreach (var field in type.GetFields(BindingFlags.Static | BindingFlags.NonPublic))
+        {
+            if (!field.FieldType.IsDefined(typeof(UnmanagedFunctionPointerAttribute), false)) continue;
+            var entry = ((Delegate)field.GetValue(null)).Method;
+            entries.Add(entry);
+            Expect.True(entry.IsStatic && entry.IsDefined(typeof(AOT.MonoPInvokeCallbackAttribute), false), entry.Name);
+        }
+        Expect.Equal(5, entries.Count, "functions that the library calls");
     }
 }
