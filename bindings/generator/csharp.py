@@ -1,8 +1,9 @@
 """Writes the P/Invoke declarations for C#.
 
 Structures and enumerations become blittable types of the namespace ``Pbmpm``, those that hold pointers and the
-functions go to ``Pbmpm.Native``. Functions keep their C names. Beside the declarations stands a list of where every
-field really lies, which the binding compares with the library's own list when it loads.
+functions go to ``Pbmpm.Native``. Functions keep their C names. What C calls by a pointer to a function is an address in
+structures and parameters, so that they stay blittable, and has a delegate of its type beside them. At the end stands a
+list of where every field really lies, which the binding compares with the library's own list when it loads.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from xml.sax.saxutils import escape
 
-from .model import Api, Constant, Enumeration, Field, Function, Kind, Structure, Type
+from .model import Api, Constant, Enumeration, Field, Function, Kind, Signature, Structure, Type
 
 _HEADER = "// Generated from the public headers by bindings/generator; a test compares it with them. Do not edit."
 _NAMESPACES = ("System", "System.Collections.Generic", "System.Runtime.InteropServices", "Pbmpm.Native")
@@ -18,6 +19,14 @@ _PREFIX = "pbmpm_"
 _FORCE_WIDTH = "_FORCE32"
 _INDENT = "    "
 _AXES = ("X", "Y", "Z", "W")
+
+#: Where the run time looks for the functions: in the program itself where the library is linked into it. Unity's editor
+#: loads the library of its own machine whatever it builds for.
+_LIBRARY_NAME = """#if PBMPM_STATIC || (!UNITY_EDITOR && (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL))
+public const string LibraryName = "__Internal";
+#else
+public const string LibraryName = "pbmpm";
+#endif"""
 
 _SCALARS = {
     "float": "float",
@@ -59,6 +68,8 @@ def emit(api: Api) -> str:
     filled = {item.name for item in api.functions}
     public += [_structure(item, f"{item.name}_init" in filled) for item in plain]
     native = [_structure(item, f"{item.name}_init" in filled) for item in raw]
+    native += [_delegate(_type_name(item.name), item.signature, item.doc) for item in api.callbacks]
+    native += [delegate for item in api.structures for delegate in _field_delegates(item)]
     native += [_functions(api.functions), _mirror(api.structures)]
     used = [f"using {name};" for name in _NAMESPACES]
     return "\n".join([_HEADER, *used, "", _namespace("Pbmpm", public), "", _namespace("Pbmpm.Native", native), ""])
@@ -230,18 +241,36 @@ def _field(field: Field) -> str:
 
 
 def _functions(functions: tuple[Function, ...]) -> str:
-    library = f'{_doc("The name that the run time looks for; it adds what the platform wants around it.")}'
-    library += 'public const string LibraryName = "pbmpm";'
+    doc = "The name that the run time looks for; it adds what the platform wants around it. With PBMPM_STATIC: the program."
+    library = f"{_doc(doc)}{_LIBRARY_NAME}"
     body = "\n\n".join([library, *map(_function, functions)])
     return _block("public static unsafe class Methods", body, "The functions of the C library, as they are.")
 
 
 def _function(item: Function) -> str:
-    parameters = ", ".join(f"{_parameter_type(it.type)} {_parameter_name(it.name)}" for it in item.signature.parameters)
-    result = item.signature.result
-    returned = "void" if result.kind is Kind.VOID and not result.pointers else _pointer(result)
     attribute = "[DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]"
-    return f"{_doc(item.doc)}{attribute}\npublic static extern {returned} {item.name}({parameters});"
+    return f"{_doc(item.doc)}{attribute}\npublic static extern {_call(item.name, item.signature)};"
+
+
+def _call(name: str, signature: Signature) -> str:
+    """Result, name and parameters of something that can be called."""
+    parameters = ", ".join(f"{_parameter_type(it.type)} {_parameter_name(it.name)}" for it in signature.parameters)
+    result = signature.result
+    returned = "void" if result.kind is Kind.VOID and not result.pointers else _pointer(result)
+    return f"{returned} {name}({parameters})"
+
+
+def _delegate(name: str, signature: Signature, doc: str) -> str:
+    attribute = "[UnmanagedFunctionPointer(CallingConvention.Cdecl)]"
+    return f"{_doc(doc)}{attribute}\npublic unsafe delegate {_call(name, signature)};"
+
+
+def _field_delegates(structure: Structure) -> Iterator[str]:
+    """The types of the functions that a structure points to."""
+    for field in structure.fields:
+        if field.type.kind is Kind.FUNCTION and field.type.signature is not None:
+            name = _type_name(structure.name) + _type_name(field.name)
+            yield _delegate(name, field.type.signature, f"What {structure.name}.{field.name} points to.")
 
 
 # The list of fields as the C# compiler laid them out

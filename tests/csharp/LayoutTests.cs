@@ -12,7 +12,7 @@ static class LayoutTests
     static Type TypeOf(string structure)
     {
         var name = string.Concat(structure.Split('_').Skip(1).Select(word => char.ToUpperInvariant(word[0]) + word.Substring(1)));
-        return Assembly.GetExecutingAssembly().GetTypes().Single(type => type.IsValueType && type.IsPublic && type.Name == name);
+        return Assembly.GetExecutingAssembly().GetTypes().Single(type => type.IsValueType && !type.IsEnum && type.IsPublic && type.Name == name);
     }
 
     [Test]

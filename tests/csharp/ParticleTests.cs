@@ -170,7 +170,7 @@ static class ParticleTests
         using (var world = Pair(ids))
         {
             var material = world.AddMaterial(MaterialDef.Default);
-            Expect.Throws<ArgumentNullException>(() => world.AddParticles(material, null), "no positions");
+            Expect.Throws<ArgumentNullException>(() => world.AddParticles(material, (float[])null), "no positions");
             Expect.Throws<ArgumentException>(() => world.AddParticles(material, new float[3]), "half a position");
             Expect.Throws<ArgumentException>(() => world.AddParticles(material, TwoPlaces, new float[3]), "too few velocities");
             var one = new float[1];

@@ -180,6 +180,7 @@ static class WorldTests
         var positions = world.Positions;
         world.Dispose();
         world.Dispose();
+        world.Close();
         Expect.True(world.IsDisposed, "it is disposed of");
         Expect.Throws<ObjectDisposedException>(() => world.Step(Scenes.Frame), "a step");
         Expect.Throws<ObjectDisposedException>(() => world.Positions.ToString(), "a view");

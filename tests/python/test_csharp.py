@@ -54,7 +54,7 @@ def test_types_become_blittable(tmp_path: Path) -> None:
         typedef void pbmpm_hook(int32_t index, void *user);
         typedef struct pbmpm_plain { uint32_t size; pbmpm_kind kind; double at[3]; size_t room; } pbmpm_plain;
         typedef struct pbmpm_raw {
-            const char *text; void *user; float *values; void (*call)(int32_t); pbmpm_hook *hook; pbmpm_plain inner;
+            const char *text; void *user; float *values; void (*call)(int32_t index); pbmpm_hook *hook; pbmpm_plain inner;
         } pbmpm_raw;
         pbmpm_kind pbmpm_try(pbmpm_plain by_value, const pbmpm_plain **list, const float place[2], void **out,
                              uint64_t *event);
@@ -77,12 +77,20 @@ def test_types_become_blittable(tmp_path: Path) -> None:
         "public IntPtr Hook;",
         "public Plain Inner;",
         "Kind pbmpm_try(Plain byValue, Plain** list, Float2* place, IntPtr* @out, ulong* @event);",
+        "public unsafe delegate void Hook(int index, IntPtr user);",
+        "public unsafe delegate void RawCall(int index);",
         "IntPtr pbmpm_text();",
         "void pbmpm_nothing();",
     ):
         assert expected in text
     before, native = text.split("namespace Pbmpm.Native")
     assert "struct Plain" in before and "struct Raw" in native
+
+
+def test_one_symbol_says_that_the_library_is_linked_in(api: model.Api) -> None:
+    static, shared = re.findall(r'^ *#(if|else)\b.*\n *public const string LibraryName = "(\w+)";$', csharp.emit(api), re.MULTILINE)
+    assert (static, shared) == (("if", "__Internal"), ("else", "pbmpm"))
+    assert csharp.emit(api).count("[DllImport(LibraryName, ") == len(api.functions)
 
 
 def test_comments_are_carried_over(tmp_path: Path) -> None:
@@ -110,7 +118,7 @@ def run_csharp(root: Path, folder: Path, program: Path) -> str:
     """What a program prints that is compiled together with the binding and uses the library of the Python package."""
     assembly = folder / "program.exe"
     sources = sorted((root / "bindings" / "csharp" / "src").glob("*.cs"))
-    subprocess.run([COMPILER, "-langversion:7.2", "-unsafe", f"-out:{assembly}", *sources, program], check=True)
+    subprocess.run([COMPILER, "-langversion:7.2", "-unsafe", "-r:System.Numerics", f"-out:{assembly}", *sources, program], check=True)
     environment = {**os.environ, "LD_LIBRARY_PATH": str(pbmpm.library_path().parent)}
     done = subprocess.run([RUNTIME, assembly], env=environment, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr

@@ -29,4 +29,15 @@ namespace Pbmpm
         {
         }
     }
+
+    /// <summary>What happens to an exception of the host in a function that the library called.</summary>
+    internal static class Fatal
+    {
+        /// <summary>Ends the process with a message instead of letting the exception run into native code.</summary>
+        public static IntPtr End(Exception problem)
+        {
+            Environment.FailFast("pbmpm: a function of the host threw, and no exception can pass the library: " + problem);
+            return IntPtr.Zero;
+        }
+    }
 }

@@ -6,7 +6,7 @@ using Pbmpm.Native;
 namespace Pbmpm
 {
     /// <summary>The native library as a whole.</summary>
-    public static unsafe class Library
+    public static unsafe partial class Library
     {
         static volatile bool fits;
 

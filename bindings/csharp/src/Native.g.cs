@@ -1644,11 +1644,40 @@ namespace Pbmpm.Native
         public IntPtr Text;
     }
 
+    /// <summary>Receives one line per notable happening. May come from any thread that calls the
+    /// library and from a step in the background, never from a worker; must not call the library.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void LogCallback(LogLevel level, IntPtr message, IntPtr user);
+
+    /// <summary>One share of parallel work; `index` counts from 0.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void Task(int index, IntPtr context);
+
+    /// <summary>What pbmpm_allocator.allocate points to.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate IntPtr AllocatorAllocate(UIntPtr size, UIntPtr alignment, IntPtr user);
+
+    /// <summary>What pbmpm_allocator.release points to.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void AllocatorRelease(IntPtr memory, UIntPtr size, IntPtr user);
+
+    /// <summary>What pbmpm_task_hooks.enqueue points to.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate IntPtr TaskHooksEnqueue(IntPtr task, int count, IntPtr context, IntPtr user);
+
+    /// <summary>What pbmpm_task_hooks.finish points to.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate void TaskHooksFinish(IntPtr handle, IntPtr user);
+
     /// <summary>The functions of the C library, as they are.</summary>
     public static unsafe class Methods
     {
-        /// <summary>The name that the run time looks for; it adds what the platform wants around it.</summary>
+        /// <summary>The name that the run time looks for; it adds what the platform wants around it. With PBMPM_STATIC: the program.</summary>
+        #if PBMPM_STATIC || (!UNITY_EDITOR && (UNITY_IOS || UNITY_TVOS || UNITY_VISIONOS || UNITY_WEBGL))
+        public const string LibraryName = "__Internal";
+        #else
         public const string LibraryName = "pbmpm";
+        #endif
 
         /// <summary>A short constant name of a result ("PBMPM_ERROR_CAPACITY"); never null, never to be freed. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -44,18 +44,17 @@ namespace Pbmpm
             return value;
         }
 
-        public void CopyTo(float[] target)
+        public void CopyTo(Numbers target)
         {
             RequireCurrent();
-            if (target == null) throw new ArgumentNullException(nameof(target));
-            if (target.Length < (long)Count * Components)
-                throw new ArgumentException("the array is too short for all values", nameof(target));
-            var next = 0;
+            target.RequireRoom(nameof(target), Components, Count);
+            var next = target.Address();
             for (var particle = 0; particle < Count; particle++)
             {
                 var first = (byte*)view.Data + particle * Stride;
                 for (var component = 0; component < Components; component++)
-                    target[next++] = *(float*)(first + component * ComponentStride);
+                    *next++ = *(float*)(first + component * ComponentStride);
+                if (target.IsWiderThan(Components)) *next++ = 0;
             }
             GC.KeepAlive(world);
         }
@@ -67,7 +66,7 @@ namespace Pbmpm
     }
 
     /// <summary>Numbers of all particles: vectors, matrices (row-major) or single ones.</summary>
-    public readonly unsafe struct FloatView
+    public readonly unsafe partial struct FloatView
     {
         readonly Window window;
 
@@ -105,7 +104,7 @@ namespace Pbmpm
         /// <summary>Copies all values, those of one particle side by side, to the begin of an array.</summary>
         public void CopyTo(float[] target)
         {
-            window.CopyTo(target);
+            fixed (float* first = target) window.CopyTo(Numbers.Plain(first, target));
         }
 
         /// <summary>Address of the first value, for engines that alias native memory. Element (i, c) is at
@@ -117,30 +116,6 @@ namespace Pbmpm
 
         /// <summary>Bytes from one component to the next.</summary>
         public long ComponentStride => window.ComponentStride;
-
-#if NETSTANDARD2_1 || NETSTANDARD2_1_OR_GREATER || NETCOREAPP || UNITY_2021_2_OR_NEWER || PBMPM_SPANS
-        /// <summary>All values where those of one particle lie side by side. Not checked after it was taken: it ends with the
-        /// next change of the world.</summary>
-        /// <exception cref="InvalidOperationException">They do not lie side by side; see <see cref="Component"/>.</exception>
-        public ReadOnlySpan<float> Packed
-        {
-            get
-            {
-                if (!window.IsPacked) throw new InvalidOperationException("the components of this field lie apart");
-                return new ReadOnlySpan<float>((void*)Data, checked(Count * Components));
-            }
-        }
-
-        /// <summary>One component of all particles where those lie side by side. Not checked after it was taken: it ends with
-        /// the next change of the world.</summary>
-        /// <exception cref="InvalidOperationException">They do not lie side by side; see <see cref="Packed"/>.</exception>
-        public ReadOnlySpan<float> Component(int component)
-        {
-            if ((uint)component >= (uint)Components) throw new ArgumentOutOfRangeException(nameof(component));
-            if (Stride != sizeof(float)) throw new InvalidOperationException("the particles of this field lie apart");
-            return new ReadOnlySpan<float>((byte*)Data + component * ComponentStride, Count);
-        }
-#endif
     }
 
     /// <summary>A number of each particle: the index of its material's identifier, or the host's own.</summary>

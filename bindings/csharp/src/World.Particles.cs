@@ -35,20 +35,28 @@ namespace Pbmpm
         public void AddParticles(MaterialId material, float[] positions, float[] velocities = null, float[] volumes = null,
                                  ParticleId[] ids = null)
         {
-            var count = Rows(positions, nameof(positions), Dimension);
-            RequireLength(velocities, nameof(velocities), positions.Length);
-            RequireLength(volumes, nameof(volumes), count);
-            RequireLength(ids, nameof(ids), count);
+            fixed (float* place = positions, speed = velocities, volume = volumes)
+            fixed (ParticleId* made = ids)
+                AddParticles(material, Numbers.Plain(place, positions), Numbers.Plain(speed, velocities),
+                             Numbers.Plain(volume, volumes), made, Numbers.LengthOf(ids));
+        }
+
+        void AddParticles(MaterialId material, Numbers positions, Numbers velocities, Numbers volumes, ParticleId* ids, int room)
+        {
+            var count = positions.Rows(nameof(positions), Dimension);
+            velocities.RequireRows(nameof(velocities), Dimension, count);
+            volumes.RequireRows(nameof(volumes), 1, count);
+            if (room != Numbers.Missing && room != count)
+                throw new ArgumentException("the length is " + room + " instead of " + count, nameof(ids));
             var definition = ParticlesDef.Default;
             definition.Material = material;
             definition.Count = (uint)count;
-            fixed (float* place = positions, speed = velocities, volume = volumes)
-            fixed (ParticleId* made = ids)
+            definition.Volumes = volumes.Address();
+            fixed (float* place = positions.Narrowed(Dimension), speed = velocities.Narrowed(Dimension))
             {
-                definition.Positions = place;
-                definition.Velocities = speed;
-                definition.Volumes = volume;
-                Changed(Methods.pbmpm_particles_add(Id, &definition, made));
+                definition.Positions = positions.Address(place);
+                definition.Velocities = velocities.Address(speed);
+                Changed(Methods.pbmpm_particles_add(Id, &definition, ids));
             }
         }
 
@@ -120,21 +128,34 @@ namespace Pbmpm
         /// <summary>Writes a field of all particles, in the order of the views.</summary>
         public void Set(Field field, float[] values)
         {
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            var count = ParticleCount;
-            RequireLength(values, nameof(values), count * ComponentsOf(field));
-            fixed (float* first = values) Changed(Methods.pbmpm_particles_set(Id, field, null, (uint)count, (IntPtr)first));
+            fixed (float* first = values) Set(field, Numbers.Plain(first, values));
         }
 
         /// <summary>Writes a field of some particles: all or nothing.</summary>
         public void Set(Field field, ParticleId[] ids, float[] values)
         {
-            var count = Rows(ids, nameof(ids), 1);
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            RequireLength(values, nameof(values), count * ComponentsOf(field));
             fixed (ParticleId* chosen = ids)
             fixed (float* first = values)
-                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, field, chosen, (uint)count, (IntPtr)first));
+                Set(field, chosen, Rows(ids, nameof(ids), 1), Numbers.Plain(first, values));
+        }
+
+        void Set(Field field, Numbers values)
+        {
+            Set(field, null, ParticleCount, values);
+        }
+
+        /// <param name="field">Which.</param>
+        /// <param name="ids">Of whom; null: of all.</param>
+        /// <param name="count">How many these are.</param>
+        /// <param name="values">One row for each.</param>
+        void Set(Field field, ParticleId* ids, int count, Numbers values)
+        {
+            var columns = ComponentsOf(field);
+            if (!values.IsGiven) throw new ArgumentNullException(nameof(values));
+            values.RequireRows(nameof(values), columns, count);
+            if (count == 0) return; // the address of nothing is null, which stands for all
+            fixed (float* narrow = values.Narrowed(columns))
+                Changed(Methods.pbmpm_particles_set(Id, field, ids, (uint)count, (IntPtr)values.Address(narrow)));
         }
 
         /// <summary>For each particle the host's own number; only once a particle was given one.</summary>
@@ -214,12 +235,6 @@ namespace Pbmpm
             if (array == null) throw new ArgumentNullException(name);
             if (array.Length % columns != 0) throw new ArgumentException("the length is no multiple of " + columns, name);
             return array.Length / columns;
-        }
-
-        static void RequireLength(Array array, string name, int length)
-        {
-            if (array != null && array.Length != length)
-                throw new ArgumentException("the length is " + array.Length + " instead of " + length, name);
         }
 
         static void RequireRoom(Array array, string name, int count)

@@ -31,13 +31,25 @@ namespace Pbmpm
         /// <param name="velocity">Receives Dimension numbers for each [m/s].</param>
         public void QueryPoints(float[] points, float[] filling = null, float[] density = null, float[] velocity = null)
         {
-            var count = Rows(points, nameof(points), Dimension);
-            RequireLength(filling, nameof(filling), count);
-            RequireLength(density, nameof(density), count);
-            RequireLength(velocity, nameof(velocity), points.Length);
-            if (count == 0) return; // the address of nothing is null
             fixed (float* place = points, full = filling, mass = density, speed = velocity)
-                Done(Methods.pbmpm_query_points(Id, place, (uint)count, full, mass, speed));
+                QueryPoints(Numbers.Plain(place, points), Numbers.Plain(full, filling),
+                            Numbers.Plain(mass, density), Numbers.Plain(speed, velocity));
+        }
+
+        void QueryPoints(Numbers points, Numbers filling, Numbers density, Numbers velocity)
+        {
+            var count = points.Rows(nameof(points), Dimension);
+            filling.RequireRows(nameof(filling), 1, count);
+            density.RequireRows(nameof(density), 1, count);
+            velocity.RequireRows(nameof(velocity), Dimension, count);
+            if (count == 0) return; // the address of nothing is null
+            fixed (float* narrow = points.Narrowed(Dimension), pairs = velocity.Narrowed(Dimension))
+            {
+                var place = points.Address(narrow);
+                var speed = velocity.Address(pairs);
+                Done(Methods.pbmpm_query_points(Id, place, (uint)count, filling.Address(), density.Address(), speed));
+                if (pairs != null) velocity.Widen(pairs);
+            }
         }
 
         /// <summary>The height of the surface above points, against gravity; negative infinity where there is no matter.</summary>
@@ -57,11 +69,20 @@ namespace Pbmpm
 
         void QueryHeights(float[] points, float[] heights, float level, float* up)
         {
-            var count = Rows(points, nameof(points), Dimension);
-            RequireRoom(heights, nameof(heights), count);
-            if (count == 0) return;
             fixed (float* place = points, height = heights)
-                Done(Methods.pbmpm_query_heights(Id, place, (uint)count, up, level, height));
+                QueryHeights(Numbers.Plain(place, points), Numbers.Plain(height, heights), level, up);
+        }
+
+        void QueryHeights(Numbers points, Numbers heights, float level, float* up)
+        {
+            var count = points.Rows(nameof(points), Dimension);
+            heights.RequireRoom(nameof(heights), 1, count);
+            if (count == 0) return;
+            fixed (float* narrow = points.Narrowed(Dimension))
+            {
+                var place = points.Address(narrow);
+                Done(Methods.pbmpm_query_heights(Id, place, (uint)count, up, level, heights.Address()));
+            }
         }
     }
 }

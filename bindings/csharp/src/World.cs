@@ -6,8 +6,10 @@ namespace Pbmpm
     /// <summary>A world of liquid and elastic matter.
     /// Units are SI, angles radians; in 2D the third component of every vector is ignored.
     /// Worlds are independent: different ones may step at the same time on different threads. A second thread in the same
-    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw.
-    /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected.</summary>
+    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw, that make an array
+    /// or, in 2D, that take vectors.
+    /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected, or with its
+    /// domain or process at the latest.</summary>
     public sealed unsafe partial class World : IDisposable
     {
         /// <summary>No view has it: they start low and count up.</summary>
@@ -21,20 +23,12 @@ namespace Pbmpm
         /// <exception cref="LibraryException">The native library is missing or does not fit.</exception>
         /// <exception cref="PbmpmException">The definition is refused, or there is no memory.</exception>
         /// <param name="definition">What it is made of.</param>
-        /// <param name="tasks">The host's job system; null: threads of the world's own. Its functions must live as long as the world.</param>
-        /// <param name="allocator">The host's memory; null: the C library's. Its functions must live as long as the world.</param>
-        public World(WorldDef definition, TaskHooks? tasks = null, Allocator? allocator = null)
+        /// <param name="tasks">The host's job system; null: threads of the world's own. Kept as long as the world.</param>
+        /// <param name="memory">The host's memory; null: the C library's. Kept as long as the world.</param>
+        public World(WorldDef definition, HostTasks tasks = null, HostMemory memory = null)
         {
             Library.Check();
-            WorldId made;
-            var hooks = tasks.GetValueOrDefault();
-            var memory = allocator.GetValueOrDefault();
-            hooks.Size = (uint)sizeof(TaskHooks);
-            memory.Size = (uint)sizeof(Allocator);
-            if (tasks.HasValue) definition.Tasks = (IntPtr)(&hooks);
-            if (allocator.HasValue) definition.Allocator = (IntPtr)(&memory);
-            Library.Require(Methods.pbmpm_world_create(&definition, &made));
-            id = made;
+            id = LiveWorlds.Create(definition, tasks, memory);
             Dimension = definition.Dimension;
             NoteGeneration();
         }
@@ -42,19 +36,34 @@ namespace Pbmpm
         /// <summary>A world that nobody refers to any more. No call of it can be under way: see <see cref="Done"/>.</summary>
         ~World()
         {
-            if (id.Generation != 0) Methods.pbmpm_world_destroy(id);
+            if (!IsDisposed) LiveWorlds.Destroy(id);
         }
 
         /// <summary>Destroys the world; views of it expire. A second call does nothing.</summary>
         /// <exception cref="PbmpmException">Another thread is inside a call; the world is still there.</exception>
+        public void Close()
+        {
+            Library.Require(Destroy());
+        }
+
+        /// <summary>As <see cref="Close"/>, but never throws, so that it hides no exception on whose way it is called. A world that
+        /// another thread is inside of stays, see <see cref="IsDisposed"/>: dispose of it again, or it goes when it is
+        /// collected.</summary>
         public void Dispose()
         {
-            if (IsDisposed) return;
-            var result = Methods.pbmpm_world_destroy(id);
-            if (result != Result.ErrorInvalidId) Done(result); // an unknown one is gone: Library.Shutdown() was called
+            Destroy();
+        }
+
+        Result Destroy()
+        {
+            if (IsDisposed) return Result.Ok;
+            var result = LiveWorlds.Destroy(id);
+            GC.KeepAlive(this);
+            if (result != Result.Ok) return result;
             id = default(WorldId);
             generation = NoGeneration;
             GC.SuppressFinalize(this);
+            return result;
         }
 
         public bool IsDisposed => id.Generation == 0;

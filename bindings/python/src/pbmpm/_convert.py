@@ -3,7 +3,6 @@ infinity are the C library's to judge."""
 
 from __future__ import annotations
 
-import enum
 import math
 from collections.abc import Sequence
 from typing import Any
@@ -58,13 +57,21 @@ def shortest(value: float) -> float:
 
 
 def assign(structure: Any, field: str, value: Any) -> None:
-    """Sets a number, or the number of a member of an enumeration, in a C structure."""
+    """Sets a number in a C structure."""
     try:
-        setattr(structure, field, value.value if isinstance(value, enum.Enum) else value)
-    except OverflowError:
-        raise InvalidArgumentError(f"{field}: {value} is out of range") from None
-    except TypeError as problem:
-        raise TypeError(f"{field}: {problem}") from None
+        setattr(structure, field, value)
+    except (OverflowError, TypeError) as problem:
+        kind = InvalidArgumentError if isinstance(problem, OverflowError) else TypeError
+        raise kind(f"{field}: {_numbers(structure, field)} is needed, not {value!r}") from None
+
+
+def _numbers(structure: Any, field: str) -> str:
+    """Which numbers a field of a C structure holds, in words."""
+    ctype = dict(ffi.typeof(structure).item.fields)[field].type
+    if ctype.cname in ("float", "double"):
+        return "a number"
+    lowest = -(1 << 8 * ffi.sizeof(ctype) - 1) if int(ffi.cast(ctype, -1)) < 0 else 0
+    return f"a whole number in [{lowest}, {lowest + (1 << 8 * ffi.sizeof(ctype)) - 1}]"
 
 
 def vector(name: str, value: Vector, dimension: int) -> list[float]:

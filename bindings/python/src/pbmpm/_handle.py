@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 from ._ffi import ffi
+from ._fixed import Bound
 from ._library import lib
 from .errors import check
 
 
-class WorldHandle:
+class WorldHandle(Bound):
     """Owns one world of the C library and destroys it when nothing refers to the handle any more.
 
     The `World` holds it, and so does every array over the world's memory (as its base): the memory outlives the last
@@ -17,6 +18,7 @@ class WorldHandle:
     """
 
     __slots__ = ("id", "_destroy", "__weakref__")
+    _instead = "World.snapshot() keeps the state of its world"
 
     def __init__(self, definition: Any) -> None:
         # Kept here because module globals may be gone when the interpreter ends.

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 from ._convert import Rotation, Vector, quaternion, sized, vector
 from ._ffi import ffi
+from ._fixed import Bound
 from ._library import lib
 
 if TYPE_CHECKING:
     from .world import World
 
 
-class WorldPart:
+class WorldPart(Bound):
     """A share of the methods of a `World`."""
 
     __slots__ = ()
@@ -23,10 +24,11 @@ class WorldPart:
         raise NotImplementedError
 
 
-class Member:
+class Member(Bound):
     """A thing in a world that the C library knows by an identifier: ``pbmpm_<name>_get()`` reads its definition."""
 
     __slots__ = ("_world", "_id")
+    _instead = "it names a thing of one world; World.snapshot() keeps the state of all of them"
     _name: ClassVar[str]
     _has_shape: ClassVar[bool] = False
 

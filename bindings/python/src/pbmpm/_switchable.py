@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from ._convert import assign, assign_vector, initialised
+from ._convert import assign, initialised
 from ._ffi import ffi
+from ._fixed import nearest
 from ._library import lib
 from ._member import Member
+from ._setters import Setter
 from .shapes import Shape, from_c, to_c
-
-#: Writes one value into a C structure of a world with so many axes.
-Setter = Callable[[Any, Any, int], None]
 
 
 class Switchable(Member):
@@ -36,7 +35,7 @@ class Switchable(Member):
                 assign(definition, "key", value)
                 continue
             if name not in cls._setters:
-                raise TypeError(f"this {cls._name} has no '{name}' to set")
+                raise TypeError(f"this {cls._name} has no '{name}' to set{nearest(name, ['shape', *cls._setters])}")
             if value is not None:
                 cls._setters[name](definition, value, dimension)
         return shape
@@ -77,18 +76,3 @@ class Switchable(Member):
     @enabled.setter
     def enabled(self, value: bool) -> None:
         self.change(enabled=value)
-
-
-def set_enabled(out: Any, value: Any, dimension: int) -> None:
-    """Writes whether a member acts."""
-    out.enabled = bool(value)
-
-
-def number(name: str) -> Setter:
-    """Writes a number."""
-    return lambda out, value, dimension: assign(out, name, value)
-
-
-def axes(name: str) -> Setter:
-    """Writes a vector."""
-    return lambda out, value, dimension: assign_vector(out, name, value, dimension)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
+from ._choice import Choice
 from ._convert import shortest
 from ._ffi import ffi
 from ._library import lib
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from .world import World
 
 
-class AdviceCode(enum.Enum):
+class AdviceCode(Choice):
     """What an advice is about; `Advice.figure` and `Advice.bound` are of this."""
 
     NO_GRAVITY = ffi.integer_const("PBMPM_ADVICE_NO_GRAVITY")  #: nothing pulls
@@ -39,7 +39,7 @@ class AdviceCode(enum.Enum):
     NOT_SOLVED = ffi.integer_const("PBMPM_ADVICE_NOT_SOLVED")  #: came true: predicted error of the last substep [cells]
 
 
-class Change(enum.Enum):
+class Change(Choice):
     """What would help; `Advice.value` is to what."""
 
     NONE = ffi.integer_const("PBMPM_CHANGE_NONE")  #: nothing that a number says

@@ -21,7 +21,7 @@ class WorldBackground(WorldPart):
 
     __slots__ = ()
 
-    def publish(self, fields: Iterable[Field]) -> None:
+    def publish(self, fields: Iterable[Field | str]) -> None:
         """Sets which fields can be viewed while a step runs; until then POSITION, VELOCITY, MATERIAL and PARTICLE. Their copies
         take memory for `capacity` particles with the next `step_begin()`."""
         values = [Field(field).value for field in fields]

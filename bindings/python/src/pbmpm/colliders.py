@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import enum
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ._choice import Choice
 from ._convert import Rotation, Vector, assign, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
@@ -16,7 +16,7 @@ from .shapes import Baked, Shape, from_c, to_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
 
 
-class Friction(enum.Enum):
+class Friction(Choice):
     """How matter moves along a surface."""
 
     COULOMB = ffi.integer_const("PBMPM_FRICTION_COULOMB")  #: up to the coefficient times the normal impulse
@@ -25,7 +25,7 @@ class Friction(enum.Enum):
 
 
 def definition(
-    friction: Friction,
+    friction: Friction | str,
     friction_coefficient: float | None,
     kinematic: bool,
     measures_impulse: bool = False,

@@ -2,22 +2,23 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
+from ._choice import Choice
 from ._convert import Rotation, Vector, assign_vector, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
 from ._member import WorldPart
-from ._switchable import Switchable, axes, number, set_enabled
+from ._setters import axes, choice, flag, number
+from ._switchable import Switchable
 from .materials import Material
 from .shapes import Shape
 
 Record = TypeVar("Record")
 
 
-class Region(enum.Enum):
+class Region(Choice):
     """Where an emitter's particles are born."""
 
     VOLUME = ffi.integer_const("PBMPM_EMIT_VOLUME")  #: anywhere inside the shape
@@ -72,10 +73,6 @@ def _set_material(out: Any, value: Material, dimension: int) -> None:
     out.material = value._id
 
 
-def _set_region(out: Any, value: Region, dimension: int) -> None:
-    out.region = Region(value).value
-
-
 class Emitter(Switchable):
     """A source of particles in a world. Made by `World.add_emitter()`."""
 
@@ -83,9 +80,9 @@ class Emitter(Switchable):
     _name = "emitter"
     _setters = {
         "material": _set_material,
-        "region": _set_region,
+        "region": choice("region", Region),
         "direction": axes("direction"),
-        "enabled": set_enabled,
+        "enabled": flag("enabled"),
         **{
             name: number(name)
             for name in ("rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget", "seed", "user_value")
@@ -117,7 +114,7 @@ class Drain(Switchable):
 
     __slots__ = ()
     _name = "drain"
-    _setters = {"material": _set_material, "enabled": set_enabled}
+    _setters = {"material": _set_material, "enabled": flag("enabled")}
 
     @property
     def status(self) -> DrainStatus:
@@ -136,7 +133,7 @@ class WorldFlow(WorldPart):
         material: Material,
         rate: float,
         *,
-        region: Region | None = None,
+        region: Region | str | None = None,
         speed: float | None = None,
         direction: Vector | None = None,
         spread: float | None = None,

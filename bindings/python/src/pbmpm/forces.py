@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-import enum
 from typing import Any
 
+from ._choice import Choice
 from ._convert import Vector, plain, shortest
 from ._ffi import ffi
 from ._member import WorldPart
-from ._switchable import Switchable, axes, number, set_enabled
+from ._setters import axes, choice, flag, number
+from ._switchable import Switchable
 from .shapes import Shape
 
 
-class ForceKind(enum.Enum):
+class ForceKind(Choice):
     """What a force does; `include/pbmpm/force.h` has the formulas."""
 
     UNIFORM = ffi.integer_const("PBMPM_FORCE_UNIFORM")  #: accelerates along `direction`
@@ -22,7 +23,7 @@ class ForceKind(enum.Enum):
     GRAB = ffi.integer_const("PBMPM_FORCE_GRAB")  #: matter takes on `velocity` and `spin`
 
 
-class Falloff(enum.Enum):
+class Falloff(Choice):
     """The share of a force at the distance d outside of its shape."""
 
     NONE = ffi.integer_const("PBMPM_FALLOFF_NONE")  #: all up to the range
@@ -31,30 +32,18 @@ class Falloff(enum.Enum):
     INVERSE_SQUARE = ffi.integer_const("PBMPM_FALLOFF_INVERSE_SQUARE")  #: (1 + d / range)^-2, at any distance
 
 
-def _set_everywhere(out: Any, value: Any, dimension: int) -> None:
-    out.everywhere = bool(value)
-
-
-def _set_kind(out: Any, value: ForceKind, dimension: int) -> None:
-    out.kind = ForceKind(value).value
-
-
-def _set_falloff(out: Any, value: Falloff, dimension: int) -> None:
-    out.falloff = Falloff(value).value
-
-
 class Force(Switchable):
     """A force in a world. Made by `World.add_force()`."""
 
     __slots__ = ()
     _name = "force"
     _setters = {
-        "everywhere": _set_everywhere,
-        "kind": _set_kind,
-        "falloff": _set_falloff,
+        "everywhere": flag("everywhere"),
+        "kind": choice("kind", ForceKind),
+        "falloff": choice("falloff", Falloff),
         "direction": axes("direction"),
         "velocity": axes("velocity"),
-        "enabled": set_enabled,
+        "enabled": flag("enabled"),
         **{name: number(name) for name in ("range", "strength", "spin")},
     }
 
@@ -90,12 +79,12 @@ class WorldForces(WorldPart):
 
     def add_force(
         self,
-        kind: ForceKind,
+        kind: ForceKind | str,
         strength: float | None = None,
         *,
         shape: Shape | None = None,
         everywhere: bool | None = None,
-        falloff: Falloff | None = None,
+        falloff: Falloff | str | None = None,
         range: float | None = None,
         direction: Vector | None = None,
         velocity: Vector | None = None,

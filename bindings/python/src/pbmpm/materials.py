@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass, fields
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from ._choice import Choice
 from ._convert import assign, initialised, shortest, sized
 from ._ffi import ffi
 from ._library import lib
 from ._member import Member
-
-if TYPE_CHECKING:
-    from .world import World
 
 _DEFAULTS = initialised("pbmpm_material_def")
 
@@ -21,18 +18,22 @@ def _default(field: str) -> float:
     return shortest(getattr(_DEFAULTS, field))
 
 
-class StrainPolicy(enum.Enum):
+class StrainPolicy(Choice):
     """What happens to an elastic particle that is strained beyond all measure."""
 
     CLAMP = ffi.integer_const("PBMPM_STRAIN_CLAMP")  #: singular values of F stay in [strain_min, strain_max]
     DELETE = ffi.integer_const("PBMPM_STRAIN_DELETE")  #: deleted, with an event, beyond condition_max
 
 
-class ElasticModel(enum.Enum):
+class ElasticModel(Choice):
     """How the stress of an elastic body follows from F; not used by the paper's solver."""
 
     FIXED_COROTATED = ffi.integer_const("PBMPM_FIXED_COROTATED")  #: mu |F - R|^2 + lambda/2 (J - 1)^2
     NEO_HOOKEAN = ffi.integer_const("PBMPM_NEO_HOOKEAN")  #: mu/2 (|F|^2 - d) - mu ln J + lambda/2 (ln J)^2
+
+
+_CHOICES: dict[str, type[Choice]] = {"strain_policy": StrainPolicy, "elastic_model": ElasticModel}
+_DECODED = {**_CHOICES, "volume_correction": bool}
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,11 @@ class Solid:
     rebound_max: float = _default("rebound_max")
     young_modulus: float = _default("young_modulus")
     poisson_ratio: float = _default("poisson_ratio")
+
+    def __post_init__(self) -> None:
+        for item in fields(self):
+            if item.name in _CHOICES:
+                object.__setattr__(self, item.name, _CHOICES[item.name](getattr(self, item.name)))
 
 
 @dataclass(frozen=True)
@@ -178,7 +184,8 @@ def to_c(parameters: Parameters, definition: Any = None) -> Any:
     out = definition or initialised("pbmpm_material_def")
     out.kind = _KINDS[type(parameters)]
     for item in fields(parameters):
-        assign(out, item.name, getattr(parameters, item.name))
+        value = getattr(parameters, item.name)
+        assign(out, item.name, value.value if item.name in _CHOICES else value)
     return out
 
 
@@ -186,9 +193,6 @@ def from_c(definition: Any) -> Parameters:
     """The parameters in a C structure."""
     kind = next(kind for kind, number in _KINDS.items() if number == definition.kind)
     return kind(**{item.name: _value(definition, item.name) for item in fields(kind)})
-
-
-_DECODED = {"strain_policy": StrainPolicy, "elastic_model": ElasticModel, "volume_correction": bool}
 
 
 def _value(definition: Any, field: str) -> Any:
@@ -199,6 +203,7 @@ class Material(Member):
     """A material in a world. Made by `World.add_material()`."""
 
     __slots__ = ()
+    _instead = "it names a thing of one world; give its `parameters` to add_material() of another"
     _name = "material"
 
     @property

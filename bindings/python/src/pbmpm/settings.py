@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass, fields
 from typing import Any
 
-from ._convert import Vector, assign, assign_vector, initialised, plain, shortest, sized
+from ._choice import Choice
+from ._convert import Vector, initialised, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
-from .shapes import Shape, to_c
 from ._member import WorldPart
+from ._setters import axes, choice, flag, number
+from .shapes import Shape, to_c
 
 
-class Solver(enum.Enum):
+class Solver(Choice):
     """How the equations of a substep are solved."""
 
     #: the paper's; its stiffness follows from iterations and dt
@@ -28,21 +29,21 @@ class Solver(enum.Enum):
     CONVERGENT = ffi.integer_const("PBMPM_SOLVER_CONVERGENT")
 
 
-class Pressure(enum.Enum):
+class Pressure(Choice):
     """Where the dual solver keeps the pressure of a liquid."""
 
     PARTICLES = ffi.integer_const("PBMPM_PRESSURE_PARTICLES")  #: calm
     CELLS = ffi.integer_const("PBMPM_PRESSURE_CELLS")  #: lively; costs more, and pools stay restless
 
 
-class Integrator(enum.Enum):
+class Integrator(Choice):
     """How a substep follows from those before it."""
 
     EULER = ffi.integer_const("PBMPM_INTEGRATOR_EULER")  #: backward Euler: damps rotation and oscillation
     BDF2 = ffi.integer_const("PBMPM_INTEGRATOR_BDF2")  #: second order, primal solver only: hardly damps them
 
 
-class Stop(enum.Enum):
+class Stop(Choice):
     """What ended the iterations of a substep."""
 
     ITERATIONS = ffi.integer_const("PBMPM_STOP_ITERATIONS")  #: all were done
@@ -81,6 +82,21 @@ def _defaults() -> SettingsDefaults:
 DEFAULTS = _defaults()
 
 
+_SETTERS = {
+    "gravity": axes("gravity"),
+    "solver": choice("solver", Solver),
+    "pressure": choice("pressure", Pressure),
+    "integrator": choice("integrator", Integrator),
+    "sleeping": flag("sleeping"),
+    **{
+        name: number(name)
+        for name in (
+            "substeps", "iterations", "max_displacement", "flip", "target_error", "time_budget_ms", "sleep_speed", "sleep_time"
+        )
+    },
+}
+
+
 class WorldSettings(WorldPart):
     """The settings of a `World` as properties. They take effect with the next step."""
 
@@ -91,13 +107,10 @@ class WorldSettings(WorldPart):
         self._call(lib.pbmpm_world_get_settings, settings)
         return settings
 
-    def _change_settings(self, gravity: Vector | None = None, **values: float | enum.Enum | None) -> None:
+    def _change_settings(self, **values: Any) -> None:
         settings = self._settings()
-        if gravity is not None:
-            assign_vector(settings, "gravity", gravity, self._dimension)
         for name, value in values.items():
-            if value is not None:
-                assign(settings, name, value)
+            _SETTERS[name](settings, value, self._dimension)
         self._call(lib.pbmpm_world_set_settings, settings)
 
     @property
@@ -142,8 +155,8 @@ class WorldSettings(WorldPart):
         return Solver(self._settings().solver)
 
     @solver.setter
-    def solver(self, value: Solver) -> None:
-        self._change_settings(solver=Solver(value))
+    def solver(self, value: Solver | str) -> None:
+        self._change_settings(solver=value)
 
     @property
     def pressure(self) -> Pressure:
@@ -151,8 +164,8 @@ class WorldSettings(WorldPart):
         return Pressure(self._settings().pressure)
 
     @pressure.setter
-    def pressure(self, value: Pressure) -> None:
-        self._change_settings(pressure=Pressure(value))
+    def pressure(self, value: Pressure | str) -> None:
+        self._change_settings(pressure=value)
 
     @property
     def integrator(self) -> Integrator:
@@ -160,8 +173,8 @@ class WorldSettings(WorldPart):
         return Integrator(self._settings().integrator)
 
     @integrator.setter
-    def integrator(self, value: Integrator) -> None:
-        self._change_settings(integrator=Integrator(value))
+    def integrator(self, value: Integrator | str) -> None:
+        self._change_settings(integrator=value)
 
     @property
     def flip(self) -> float:
@@ -200,7 +213,7 @@ class WorldSettings(WorldPart):
 
     @sleeping.setter
     def sleeping(self, value: bool) -> None:
-        self._change_settings(sleeping=bool(value))
+        self._change_settings(sleeping=value)
 
     @property
     def sleep_speed(self) -> float:

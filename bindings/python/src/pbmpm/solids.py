@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from ._convert import assign, floats, initialised, plain, pointer, shortest, sized
 from ._ffi import ffi
+from ._fixed import Fixed
 from ._library import lib
 from ._member import Member, WorldPart
 from .errors import DamagedError, InvalidArgumentError, check
@@ -42,8 +43,8 @@ def _info(out: Any) -> SolidInfo:
     return SolidInfo(d, plain(out.count)[:d], shortest(out.spacing), plain(out.minimum)[:d], plain(out.maximum)[:d])
 
 
-class BakedSolid:
-    """The bytes of a baked solid. Needs no world; may be kept in a file.
+class BakedSolid(Fixed):
+    """The bytes of a baked solid. Needs no world; may be kept in a file, copied and pickled.
 
     Args:
         data: bytes that `bake_mesh()`, `bake_hull()` or `bake_heights()` made.
@@ -59,6 +60,9 @@ class BakedSolid:
         out = sized("pbmpm_baked_info")
         check(lib.pbmpm_baked_inspect(ffi.from_buffer("char[]", data), len(data), out))
         self._data, self._info = bytes(data), _info(out)
+
+    def __reduce__(self) -> tuple[type[BakedSolid], tuple[bytes]]:
+        return type(self), (self._data,)  # so that what comes out of a pickle is looked at
 
     @classmethod
     def load(cls, path: str | Path) -> BakedSolid:
@@ -99,6 +103,7 @@ class LoadedSolid(Member):
 
     __slots__ = ()
     _name = "baked"
+    _instead = "it names a thing of one world; give its BakedSolid to load_solid() of another"
 
     @property
     def info(self) -> SolidInfo:

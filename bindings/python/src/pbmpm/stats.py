@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass, fields
 from typing import Any
 
+from ._choice import Choice
 from ._convert import plain
 from ._ffi import ffi
 from .settings import Solver, Stop
@@ -58,7 +58,7 @@ class Stats:
     blocks_woken: int  #: blocks that woke in the last step, and by calls before it
 
 
-class EventKind(enum.Enum):
+class EventKind(Choice):
     """What happened."""
 
     DELETED_NOT_FINITE = ffi.integer_const("PBMPM_EVENT_DELETED_NOT_FINITE")  #: its state was NaN or infinite

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import enum
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ._choice import Choice
 from ._convert import sized
 from ._ffi import ffi
+from ._fixed import Bound
 from ._library import lib
 from .errors import ExpiredViewError
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from .world import World
 
 
-class Field(enum.Enum):
+class Field(Choice):
     """A field of the particles; n particles, d dimensions."""
 
     POSITION = ffi.integer_const("PBMPM_POSITION")  #: (n, d) [m], relative to the origin
@@ -48,7 +49,7 @@ class _Memory:
         self.__array_interface__ = interface
 
 
-class View:
+class View(Bound):
     """A read-only window on one field of the particles in the world's own memory.
 
     It expires with everything that moves, adds or removes particles: a step, a fill, a removal, a setter. An expired
@@ -61,6 +62,7 @@ class View:
     """
 
     __slots__ = ("_world", "_field", "_generation", "_array")
+    _instead = "it is a window on the memory of a world; copy() gives an array that stays"
 
     def __init__(self, world: World, field: Field) -> None:
         view = sized("pbmpm_view")

@@ -75,6 +75,9 @@ class World(
     Arguments left at None take the C library's defaults.
     """
 
+    __slots__ = ("_handle", "_dimension", "__weakref__")
+    _instead = "snapshot() keeps its state, and restore() brings it into a world that was made by the same calls"
+
     def __init__(
         self,
         dimension: int | None = None,
@@ -91,9 +94,9 @@ class World(
         substeps: int | None = None,
         iterations: int | None = None,
         max_displacement: float | None = None,
-        solver: Solver | None = None,
-        pressure: Pressure | None = None,
-        integrator: Integrator | None = None,
+        solver: Solver | str | None = None,
+        pressure: Pressure | str | None = None,
+        integrator: Integrator | str | None = None,
         flip: float | None = None,
         target_error: float | None = None,
         time_budget_ms: float | None = None,
@@ -124,15 +127,15 @@ class World(
             assign_vector(definition, "domain_min", lower, axes)
             assign_vector(definition, "domain_max", upper, axes)
         self._handle = WorldHandle(definition)
-        self._dimension: int = definition.dimension
-        self._change_settings(
+        self._dimension = int(definition.dimension)
+        settings = dict(
             gravity=gravity,
             substeps=substeps,
             iterations=iterations,
             max_displacement=max_displacement,
-            solver=None if solver is None else Solver(solver),
-            pressure=None if pressure is None else Pressure(pressure),
-            integrator=None if integrator is None else Integrator(integrator),
+            solver=solver,
+            pressure=pressure,
+            integrator=integrator,
             flip=flip,
             target_error=target_error,
             time_budget_ms=time_budget_ms,
@@ -140,6 +143,7 @@ class World(
             sleep_speed=sleep_speed,
             sleep_time=sleep_time,
         )
+        self._change_settings(**{name: value for name, value in settings.items() if value is not None})
 
     # Life
 
@@ -370,11 +374,11 @@ class World(
 
     # Fields of the particles
 
-    def view(self, field: Field) -> View:
+    def view(self, field: Field | str) -> View:
         """A view of a field; it expires with the next change."""
         return View(self, Field(field))
 
-    def set(self, field: Field, values: npt.ArrayLike, ids: npt.ArrayLike | None = None) -> None:
+    def set(self, field: Field | str, values: npt.ArrayLike, ids: npt.ArrayLike | None = None) -> None:
         """Writes a field of some particles, or of all of them in storage order.
 
         Args:
@@ -511,7 +515,7 @@ class World(
         self,
         shape: Shape,
         *,
-        friction: Friction = Friction.COULOMB,
+        friction: Friction | str = Friction.COULOMB,
         friction_coefficient: float | None = None,
         kinematic: bool = False,
         measures_impulse: bool = False,

@@ -84,7 +84,7 @@ def _add_emitter(
         shape_of(part.shape),
         materials[part.material],
         part.rate,
-        region=pbmpm.Region[part.region.upper()],
+        region=part.region,
         speed=part.speed,
         direction=part.direction,
         spread=part.spread,
@@ -101,10 +101,10 @@ def _add_emitter(
 
 def _add_force(world: pbmpm.World, part: Any) -> pbmpm.Force:
     return world.add_force(
-        pbmpm.ForceKind[part.kind.upper()],
+        part.kind,
         part.strength,
         shape=None if part.shape is None else shape_of(part.shape),
-        falloff=pbmpm.Falloff[part.falloff.upper()],
+        falloff=part.falloff,
         range=part.range,
         direction=part.direction,
         velocity=part.velocity,

@@ -81,9 +81,9 @@ class RunSettings:
             "threads": self.threads,
             "substeps": self.substeps,
             "iterations": self.iterations,
-            "solver": pbmpm.Solver[self.solver.upper()],
-            "pressure": pbmpm.Pressure[self.pressure.upper()],
-            "integrator": pbmpm.Integrator[self.integrator.upper()],
+            "solver": self.solver,
+            "pressure": self.pressure,
+            "integrator": self.integrator,
             "flip": self.flip,
             "target_error": self.target_error,
             "time_budget_ms": self.time_budget_ms,
@@ -176,7 +176,7 @@ class Simulation:
         for index, part in enumerate(self.scene.colliders):
             collider = self.world.add_collider(
                 self._obstacle_shape(part.shape),
-                friction=pbmpm.Friction[part.friction.upper()],
+                friction=part.friction,
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None or part.body is not None,
                 measures_impulse=measured or part.body is not None,
@@ -390,11 +390,7 @@ def _capacity(scene: Scene) -> int:
 
 
 _CLASSES = {"liquid": pbmpm.Liquid, "elastic": pbmpm.Elastic, "sand": pbmpm.Sand, "visco": pbmpm.Visco}
-_ENUMERATIONS = {"strain_policy": pbmpm.StrainPolicy, "elastic_model": pbmpm.ElasticModel}
 
 
 def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco:
-    values = part.model_dump(exclude={"kind"})
-    for name in _ENUMERATIONS.keys() & values.keys():
-        values[name] = _ENUMERATIONS[name][values[name].upper()]
-    return _CLASSES[part.kind](**values)
+    return _CLASSES[part.kind](**part.model_dump(exclude={"kind"}))

@@ -90,9 +90,9 @@ def choose_variant(world: pbmpm.World, variant: str, iterations: int) -> None:
     """Sets the solver; what the variant does not name is the library's default."""
     options = parse_variant(variant)
     world.iterations = iterations
-    world.solver = pbmpm.Solver[options["solver"].upper()]
-    world.pressure = pbmpm.Pressure[options.get("pressure", "particles").upper()]
-    world.integrator = pbmpm.Integrator[options.get("integrator", "euler").upper()]
+    world.solver = options["solver"]
+    world.pressure = options.get("pressure", "particles")
+    world.integrator = options.get("integrator", "euler")
     world.flip = options.get("flip", 0.0)
 
 

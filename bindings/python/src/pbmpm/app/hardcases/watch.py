@@ -53,7 +53,7 @@ def make_world(
         gravity=downwards(dimension) if gravity else None,
         domain=None if size is None else ([0.0] * dimension, size[:dimension]),
         iterations=setting.iterations,
-        solver=pbmpm.Solver[setting.solver.upper()],
+        solver=setting.solver,
         max_displacement=max_displacement,
         threads=setting.threads,
     )

@@ -1,0 +1,37 @@
+"""Bases of what the package hands out: objects that take no attributes but their own, and those that cannot be copied."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from typing import Any, ClassVar, NoReturn
+
+
+def nearest(name: str, names: Iterable[str]) -> str:
+    """The end of a message about a name that does not exist: which of some others it may stand for, if any is like it."""
+    alike = difflib.get_close_matches(name, names, 1)
+    return f"; did you mean '{alike[0]}'?" if alike else ""
+
+
+class Fixed:
+    """Has only the attributes that its class declares: assigning to another one is an AttributeError, not a new attribute.
+    A subclass that keeps something of its own declares it: ``score = 0``."""
+
+    __slots__ = ()
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        kind = type(self)
+        if not hasattr(kind, name):
+            known = [item for item in dir(kind) if not item.startswith("_") and not callable(getattr(kind, item))]
+            raise AttributeError(f"{kind.__name__} has no attribute '{name}'{nearest(name, known)}")
+        super().__setattr__(name, value)
+
+
+class Bound(Fixed):
+    """Stands for something that a world owns. A copy would be a second name of the same thing, so there are none."""
+
+    __slots__ = ()
+    _instead: ClassVar[str]  #: what to do in place of a copy
+
+    def __reduce_ex__(self, protocol: Any) -> NoReturn:
+        raise TypeError(f"{type(self).__name__} objects cannot be copied or pickled: {self._instead}")
