@@ -29,6 +29,7 @@ def test_shapes_and_types_of_all_fields(filled: pbmpm.World) -> None:
     n, d = len(filled), filled.dimension
     filled.solver = pbmpm.Solver.DUAL
     filled.step(1e-4)  # makes the field of pressures
+    filled.user_values = np.arange(n)
     expected = {
         Field.POSITION: ((n, d), np.float32),
         Field.VELOCITY: ((n, d), np.float32),
@@ -39,6 +40,7 @@ def test_shapes_and_types_of_all_fields(filled: pbmpm.World) -> None:
         Field.PARTICLE: ((n, 2), np.uint32),
         Field.MASS: ((n,), np.float32),
         Field.PRESSURE: ((n,), np.float32),
+        Field.USER_VALUE: ((n,), np.uint32),
     }
     assert set(expected) == set(Field)
     for field, (shape, dtype) in expected.items():

@@ -117,10 +117,11 @@ def test_lines_show_what_is_there() -> None:
     run(world, 1)
     ends, parts = world.debug_lines()
     assert ends.shape == (len(parts), 2, 2)
-    ball = ends[parts == pbmpm.DebugPart.COLLIDERS]
+    ball = ends[parts == pbmpm.DebugPart.COLLIDERS.value]
     assert np.abs(np.linalg.norm(ball - (0.5, 0.7), axis=2) - 0.1).max() < 1e-6
     walls, _ = world.debug_lines(pbmpm.DebugPart.DOMAIN)
     assert len(walls) == 4
+    assert len(world.debug_lines("domain", "colliders")[0]) == 4 + len(ball)
     assert len(world.debug_lines(pbmpm.DebugPart.BLOCKS)[0]) >= 4
     empty, none = pbmpm.World(3, 0.1).debug_lines()
     assert empty.shape == (0, 2, 3) and none.shape == (0,)

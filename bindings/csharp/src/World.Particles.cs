@@ -164,20 +164,21 @@ namespace Pbmpm
         /// <summary>Gives all particles numbers of the host's, in the order of the views.</summary>
         public void SetUserValues(uint[] values)
         {
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            RequireLength(values, nameof(values), ParticleCount);
-            fixed (uint* first = values) Changed(Methods.pbmpm_particles_set(Id, Field.UserValue, null, (uint)values.Length, (IntPtr)first));
+            SetUserValues(null, ParticleCount, values);
         }
 
         /// <summary>Gives some particles numbers of the host's: all or nothing.</summary>
         public void SetUserValues(ParticleId[] ids, uint[] values)
         {
-            var count = Rows(ids, nameof(ids), 1);
-            if (values == null) throw new ArgumentNullException(nameof(values));
-            RequireLength(values, nameof(values), count);
-            fixed (ParticleId* chosen = ids)
-            fixed (uint* first = values)
-                if (count > 0) Changed(Methods.pbmpm_particles_set(Id, Field.UserValue, chosen, (uint)count, (IntPtr)first));
+            fixed (ParticleId* chosen = ids) SetUserValues(chosen, Rows(ids, nameof(ids), 1), values);
+        }
+
+        void SetUserValues(ParticleId* ids, int count, uint[] values)
+        {
+            RequireRoom(values, nameof(values), count);
+            if (values.Length != count) throw new ArgumentException("the length is " + values.Length + " instead of " + count, nameof(values));
+            if (count == 0) return; // the address of nothing is null, which stands for all
+            fixed (uint* first = values) Changed(Methods.pbmpm_particles_set(Id, Field.UserValue, ids, (uint)count, (IntPtr)first));
         }
 
         /// <summary>Where particles stand in the views of now.</summary>
