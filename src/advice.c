@@ -136,7 +136,7 @@ static bool lands(const World *world, const double from[3])
         double nearest = INFINITY, at[3] = {0};
         for (int a = 0; a < world->def.dimension; a++) at[a] = from[a] + way * (double)world->settings.gravity[a] / strength;
         for (uint32_t c = 0; c < world->colliders.used; c++) {
-            if (world->colliders.slot[c].generation == 0) continue;
+            if (!collider_acts(&world->colliders.slot[c])) continue;
             const Solid solid = solid_among(&world->colliders.slot[c].shape, world->def.dimension, &world->baked);
             nearest = fmin(nearest, solid_least(&solid, at));
         }
@@ -159,7 +159,7 @@ static bool wall_below(const World *world)
 static bool any_sticks(const World *world)
 {
     for (uint32_t c = 0; c < world->colliders.used; c++)
-        if (world->colliders.slot[c].generation != 0 && world->colliders.slot[c].def.friction == PBMPM_FRICTION_STICK) return true;
+        if (collider_acts(&world->colliders.slot[c]) && world->colliders.slot[c].def.friction == PBMPM_FRICTION_STICK) return true;
     return false;
 }
 
@@ -261,7 +261,7 @@ static void ignored_of_walls(Adviser *adviser)
         ignored(adviser, none, (pbmpm_collider_id){0, 0}, world->def.domain_friction, 0.0f, "domain_friction does nothing: domain_enabled is 0");
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (collider->generation == 0 || collider->def.friction == PBMPM_FRICTION_COULOMB) continue;
+        if (!collider_acts(collider) || collider->def.friction == PBMPM_FRICTION_COULOMB) continue;
         ignored(adviser, none, (pbmpm_collider_id){c, collider->generation}, collider->def.friction_coefficient, plain,
                 "friction_coefficient does nothing but with PBMPM_FRICTION_COULOMB");
     }
@@ -343,7 +343,7 @@ static bool some_wall_leans(const World *world)
     const int dimension = world->def.dimension;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (collider->generation == 0) continue;
+        if (!collider_acts(collider)) continue;
         const Solid solid = collider_obstacle(collider, dimension, 0, 1).start;
         if (solid_leans(world, &solid)) return true;
     }
@@ -507,7 +507,7 @@ static bool any_rubs(const World *world)
     }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        rubs = rubs || (collider->generation != 0 && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
+        rubs = rubs || (collider_acts(collider) && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
     }
     return rubs;
 }
@@ -560,7 +560,7 @@ static void collider_too_fast(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (collider->generation == 0 || !collider_moves(collider)) continue;
+        if (!collider_acts(collider) || !collider_moves(collider)) continue;
         const double cells = way_of(collider, world->def.dimension) / ((double)world->def.cell_size * world->settings.substeps);
         if (cells <= 1.0) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_FAST, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
@@ -586,7 +586,7 @@ static void collider_too_thin(Adviser *adviser)
     const double cell = (double)world->def.cell_size;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (collider->generation == 0) continue;
+        if (!collider_acts(collider)) continue;
         const double cells = thickness_of(collider, world->def.dimension) / cell;
         if (cells >= 1.0 - 1e-5) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,

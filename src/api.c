@@ -19,6 +19,7 @@
 #include "query.h"
 #include "registry.h"
 #include "step.h"
+#include "touches.h"
 
 pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held)
 {
@@ -305,6 +306,7 @@ pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size)
 
 static void wake_near_collider(World *w, const Collider *collider)
 {
+    if (collider->def.sensor) return;
     const Solid solid = solid_among(&collider->shape, w->def.dimension, &w->baked);
     sleep_wake_near(w, &solid, SLEEP_FELT);
 }
@@ -403,6 +405,14 @@ pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id col
     REQUIRE(position);
     HOLD(world);
     LET_GO(place_collider(w, collider, position, rotation, true));
+}
+
+pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count)
+{
+    REQUIRE(count);
+    if (capacity) REQUIRE_SIZE(pbmpm_touch, touches);
+    HOLD(world);
+    LET_GO(touches_find(w, touches, capacity, count));
 }
 
 pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)

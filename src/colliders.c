@@ -71,6 +71,9 @@ const char *collider_problem(const pbmpm_collider_def *def)
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
     if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
     if (def->reserved != 0) return "collider.reserved must be 0";
+    if (def->sensor != 0 && def->sensor != 1) return "collider.sensor must be 0 or 1";
+    if (def->reports_touches != 0 && def->reports_touches != 1) return "collider.reports_touches must be 0 or 1";
+    if (def->sensor && def->measures_impulse) return "a collider that is a sensor gets no impulse to measure";
     return NULL;
 }
 
@@ -191,7 +194,7 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
     int count = 0;
     colliders->measures = domain && domain->measures;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
-        if (colliders->slot[slot].generation == 0) continue;
+        if (!collider_acts(&colliders->slot[slot])) continue;
         Obstacle *o = &colliders->obstacle[count++];
         *o = collider_obstacle(&colliders->slot[slot], dimension, part, parts);
         o->place = (uint16_t)slot;

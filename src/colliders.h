@@ -5,6 +5,7 @@
 #include "grid.h"
 #include "impulses.h"
 #include "pbmpm/collider.h"
+#include "pbmpm/material.h"
 #include "shapes.h"
 
 typedef struct Collider {
@@ -15,6 +16,8 @@ typedef struct Collider {
     float target_rotation[4];
     bool moving;
     const DistanceGrid *grid; /* of a baked shape; else null */
+    /* Bit n: material n touches it, as touches_find() finds now, and as it told last. */
+    uint64_t touching[PBMPM_MAX_MATERIALS / 64], touched[PBMPM_MAX_MATERIALS / 64];
 } Collider;
 
 /* An obstacle during one substep: a collider, or a wall of the domain. */
@@ -78,6 +81,9 @@ pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *colli
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
+
+/* Whether it is there and an obstacle. */
+static inline bool collider_acts(const Collider *collider) { return collider->generation != 0 && !collider->def.sensor; }
 
 /* Whether the next step takes it to another pose. */
 bool collider_moves(const Collider *collider);

@@ -19,6 +19,9 @@ bool query_direction(const World *world, const float *direction, double unit[3])
 /* Rows of particles nearer than `margin` [m] to the inside of the solid, in storage order. */
 pbmpm_result query_inside(World *world, const Solid *solid, double margin, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
 
+/* How many of those rows there are of each material. */
+pbmpm_result query_materials(World *world, const Solid *solid, double margin, uint32_t counts[PBMPM_MAX_MATERIALS]);
+
 pbmpm_result query_region(World *world, const Solid *solid, pbmpm_region_share *shares, uint32_t capacity, uint32_t *count);
 pbmpm_result query_points(World *world, const float *points, uint32_t count, float *filling, float *density, float *velocity);
 pbmpm_result query_heights(World *world, const float *points, uint32_t count, const double up[3], float level, float *heights);

@@ -1,5 +1,6 @@
 /* What is inside a shape. */
 #include <math.h>
+#include <string.h>
 
 #include "lookup.h"
 #include "query.h"
@@ -74,6 +75,15 @@ pbmpm_result query_inside(World *world, const Solid *solid, double margin, pbmpm
     const pbmpm_result result = visit_region(world, &region);
     if (result == PBMPM_OK) *count = found.count;
     return result;
+}
+
+static void count_material(const World *world, uint32_t row, void *result) { ((uint32_t *)result)[world->particles.material[row]]++; }
+
+pbmpm_result query_materials(World *world, const Solid *solid, double margin, uint32_t counts[PBMPM_MAX_MATERIALS])
+{
+    Region region = {.world = world, .solid = solid, .margin = margin, .result = counts, .add = count_material};
+    memset(counts, 0, PBMPM_MAX_MATERIALS * sizeof *counts);
+    return visit_region(world, &region);
 }
 
 /* ---- Shares of materials ---- */

@@ -99,7 +99,7 @@ void sleep_begin_substep(World *world, int part)
     const Colliders *colliders = &world->colliders;
     if (world->sleep.asleep.count + world->sleep.active.count == 0) return;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
-        if (!collider_moves(&colliders->slot[slot])) continue;
+        if (!collider_acts(&colliders->slot[slot]) || !collider_moves(&colliders->slot[slot])) continue;
         const Obstacle o = collider_obstacle(&colliders->slot[slot], world->def.dimension, part, world->settings.substeps);
         wake_where(world, is_on_way, &o);
     }

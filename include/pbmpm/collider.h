@@ -33,6 +33,8 @@ typedef struct pbmpm_collider_def {
     uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
+    int32_t sensor;          /**< 1: acts on nothing, for triggers; matter passes through it. 0 (default): an obstacle */
+    int32_t reports_touches; /**< 1: pbmpm_world_touches() tells what touches it; 0 (default): costs nothing */
 } pbmpm_collider_def;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
@@ -112,6 +114,32 @@ PBMPM_API pbmpm_result pbmpm_domain_wall_get(pbmpm_world_id world, int32_t axis,
 /** Changes a wall; the next step knows it. Matter that is behind a wall when it closes is put back to it at once: remove it before, see
  *  pbmpm_particles_remove_in(). Wakes all matter. Errors as pbmpm_domain_wall_get(). */
 PBMPM_API pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t upper, const pbmpm_domain_wall *wall);
+
+/** What became of a touch since the call before. */
+typedef enum pbmpm_touch_state {
+    PBMPM_TOUCH_BEGAN = 1, /**< it is new */
+    PBMPM_TOUCH_STAYS = 2, /**< it was there before */
+    PBMPM_TOUCH_ENDED = 3, /**< it is no more */
+    PBMPM_TOUCH_FORCE32 = 0x7fffffff
+} pbmpm_touch_state;
+
+/** Matter of a material at a collider. */
+typedef struct pbmpm_touch {
+    uint32_t size;               /**< sizeof(pbmpm_touch); set by the caller in the first element of an array */
+    pbmpm_touch_state state;     /**< compared with the call before */
+    pbmpm_collider_id collider;  /**< that is touched */
+    pbmpm_material_id material;  /**< of what touches it; null when it was destroyed since */
+    uint32_t particles;          /**< how many touch it now; 0 when it ended */
+    uint32_t reserved;           /**< 0 */
+    double impulse[3];           /**< what all matter gave to the collider in the last step [N s], see pbmpm_collider_impulse(); 0 unless it measures that */
+} pbmpm_touch;
+
+/** Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
+ *  that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen.
+ *  *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
+ *  `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY. */
+PBMPM_API pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count);
 
 /** Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape(). */
 PBMPM_API pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity,

@@ -158,6 +158,13 @@ static pbmpm_result call_domain_wall_set(const target *ids)
     return result == PBMPM_OK ? pbmpm_domain_wall_set(ids->world, 1, 0, &wall) : result;
 }
 
+static pbmpm_result call_touches(const target *ids)
+{
+    pbmpm_touch touches[8] = {{.size = sizeof touches[0]}};
+    uint32_t count;
+    return pbmpm_world_touches(ids->world, touches, 8, &count);
+}
+
 static pbmpm_result call_debug_lines(const target *ids)
 {
     uint32_t count;
@@ -552,6 +559,7 @@ const world_call world_calls[] = {
     {"pbmpm_domain_wall_get", call_domain_wall_get, 0},
     {"pbmpm_domain_wall_set", call_domain_wall_set, 0},
     {"pbmpm_world_shift_origin", call_shift_origin, 0},
+    {"pbmpm_world_touches", call_touches, 0},
     {"pbmpm_world_debug_lines", call_debug_lines, 0},
     {"pbmpm_world_get_materials", call_get_materials, 0},
     {"pbmpm_world_get_colliders", call_get_colliders, 0},

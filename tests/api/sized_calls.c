@@ -563,6 +563,11 @@ static pbmpm_result list_events(void *array, uint32_t capacity, uint32_t *count)
     return pbmpm_world_events(world.world, array, capacity, count, NULL);
 }
 
+static pbmpm_result list_touches(void *array, uint32_t capacity, uint32_t *count)
+{
+    return pbmpm_world_touches(world.world, array, capacity, count);
+}
+
 static pbmpm_result list_advice(void *array, uint32_t capacity, uint32_t *count)
 {
     return pbmpm_world_advice(world.world, 0.01f, array, capacity, count);
@@ -578,6 +583,7 @@ static pbmpm_result list_region(void *array, uint32_t capacity, uint32_t *count)
 
 const sized_array sized_arrays[] = {
     LISTS(pbmpm_event, pbmpm_world_events, list_events),
+    LISTS(pbmpm_touch, pbmpm_world_touches, list_touches),
     LISTS(pbmpm_advice, pbmpm_world_advice, list_advice),
     LISTS(pbmpm_region_share, pbmpm_query_region, list_region),
 };
@@ -597,4 +603,12 @@ void make_arrays_busy(void)
         def.count = 4000 + i; /* more than there is room for */
         EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world.world, &def, NULL));
     }
+    pbmpm_collider_def everywhere = default_collider();
+    pbmpm_collider_id sensor;
+    pbmpm_touch touches[8] = {{.size = sizeof touches[0]}};
+    const pbmpm_shape ball = sphere_shape(1, 1, 0, 10);
+    uint32_t count;
+    everywhere.sensor = everywhere.reports_touches = 1;
+    OK(pbmpm_collider_create(world.world, &everywhere, &ball, &sensor));
+    OK(pbmpm_world_touches(world.world, touches, 8, &count)); /* from here on they stay */
 }

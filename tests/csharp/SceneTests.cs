@@ -97,6 +97,24 @@ static class SceneTests
     }
 
     [Test]
+    static void ASensorSeesWater()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            var definition = ColliderDef.Default;
+            definition.Sensor = definition.ReportsTouches = 1;
+            var sensor = world.AddCollider(definition, Shape.Sphere(new Float3(1, 1, 0), 0.1f));
+            var touches = new Touch[4];
+            Expect.Equal(1, world.Touches(touches), "touches");
+            Expect.Equal(TouchState.Began, touches[0].State, "it is new");
+            Expect.Equal(sensor.Generation, touches[0].Collider.Generation, "whose");
+            Expect.True(touches[0].Particles > 4, "particles");
+            world.Touches(touches);
+            Expect.Equal(TouchState.Stays, touches[0].State, "it was there before");
+        }
+    }
+
+    [Test]
     static void LinesShowWhatIsThere()
     {
         using (var world = Scenes.Pool(2))

@@ -111,6 +111,26 @@ def test_emitters_give_user_values() -> None:
     assert set(np.asarray(world.user_values)) == {21, 22}
 
 
+def test_a_sensor_tells_who_comes_and_goes() -> None:
+    world = pbmpm.World(2, 0.1, capacity=1000)
+    jelly = world.add_material(pbmpm.Elastic())
+    world.fill(pbmpm.Box((0, 0), (0.2, 0.2)), jelly, velocity=(1, 0))
+    gate = world.add_collider(pbmpm.Box((1, 0), (0.1, 1)), sensor=True, reports_touches=True)
+    states = []
+    for _ in range(90):
+        world.step(1 / 60)
+        for touch in world.touches():
+            assert touch.collider.identity == gate.identity
+            assert touch.material is not None and touch.material.index == jelly.index
+            assert touch.impulse == (0.0, 0.0)
+            states.append(touch.state)
+    assert states[0] is pbmpm.TouchState.BEGAN
+    assert states[-1] is pbmpm.TouchState.ENDED
+    assert set(states[1:-1]) == {pbmpm.TouchState.STAYS}
+    with pytest.raises(pbmpm.InvalidArgumentError, match="sensor"):
+        gate.change(measures_impulse=True)
+
+
 def test_lines_show_what_is_there() -> None:
     world = tank()
     world.add_collider(pbmpm.Sphere((0.5, 0.7), 0.1))

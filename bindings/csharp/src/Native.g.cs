@@ -255,6 +255,17 @@ namespace Pbmpm
         Slip = 2,
     }
 
+    /// <summary>What became of a touch since the call before.</summary>
+    public enum TouchState : int
+    {
+        /// <summary>it is new</summary>
+        Began = 1,
+        /// <summary>it was there before</summary>
+        Stays = 2,
+        /// <summary>it is no more</summary>
+        Ended = 3,
+    }
+
     /// <summary>What an advice is about. Cells are counted in cell sizes, and a substep lasts dt / settings.substeps.</summary>
     public enum AdviceCode : int
     {
@@ -901,6 +912,10 @@ namespace Pbmpm
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
+        /// <summary>1: acts on nothing, for triggers; matter passes through it. 0 (default): an obstacle</summary>
+        public int Sensor;
+        /// <summary>1: pbmpm_world_touches() tells what touches it; 0 (default): costs nothing</summary>
+        public int ReportsTouches;
 
         /// <summary>The library's defaults.</summary>
         public static ColliderDef Default
@@ -948,6 +963,26 @@ namespace Pbmpm
         public Friction Friction;
         /// <summary>Coulomb coefficient, in [0, 100]; default world_def.domain_friction</summary>
         public float FrictionCoefficient;
+    }
+
+    /// <summary>Matter of a material at a collider.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Touch
+    {
+        /// <summary>sizeof(pbmpm_touch); set by the caller in the first element of an array</summary>
+        public uint Size;
+        /// <summary>compared with the call before</summary>
+        public TouchState State;
+        /// <summary>that is touched</summary>
+        public ColliderId Collider;
+        /// <summary>of what touches it; null when it was destroyed since</summary>
+        public MaterialId Material;
+        /// <summary>how many touch it now; 0 when it ended</summary>
+        public uint Particles;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>what all matter gave to the collider in the last step [N s], see pbmpm_collider_impulse(); 0 unless it measures that</summary>
+        public Double3 Impulse;
     }
 
     /// <summary>A line to draw. This structure never grows.</summary>
@@ -2016,6 +2051,14 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_domain_wall_set(WorldId world, int axis, int upper, DomainWall* wall);
 
+        /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
+        /// that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen.
+        /// *count is how many touches there are. With less room than that: CAPACITY, and the next call compares with the same.
+        /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), CAPACITY (less room than *count), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_touches(WorldId world, Touch* touches, uint capacity, uint* count);
+
         /// <summary>Particles inside an obstacle (deeper than 1/100 cell); arguments as in pbmpm_query_shape().</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
@@ -2316,6 +2359,7 @@ namespace Pbmpm.Native
             ColliderDef(fields);
             Impulse(fields);
             DomainWall(fields);
+            Touch(fields);
             Advice(fields);
             Line(fields);
             DrainId(fields);
@@ -2605,6 +2649,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "key", &it, &it.Key, &it.Key + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "sensor", &it, &it.Sensor, &it.Sensor + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "reports_touches", &it, &it.ReportsTouches, &it.ReportsTouches + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2625,6 +2671,19 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_domain_wall", "friction", &it, &it.Friction, &it.Friction + 1, false));
             fields.Add(new MirrorField("pbmpm_domain_wall", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
             fields.Add(new MirrorField("pbmpm_domain_wall", "", &it, &it, &it + 1, true));
+        }
+
+        static void Touch(List<MirrorField> fields)
+        {
+            var it = default(Touch);
+            fields.Add(new MirrorField("pbmpm_touch", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "state", &it, &it.State, &it.State + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "collider", &it, &it.Collider, &it.Collider + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "material", &it, &it.Material, &it.Material + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "particles", &it, &it.Particles, &it.Particles + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "impulse", &it, &it.Impulse, &it.Impulse + 1, false));
+            fields.Add(new MirrorField("pbmpm_touch", "", &it, &it, &it + 1, true));
         }
 
         static void Advice(List<MirrorField> fields)

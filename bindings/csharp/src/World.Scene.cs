@@ -31,6 +31,20 @@ namespace Pbmpm
             return moved;
         }
 
+        // Touches
+
+        /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call
+        /// before. Writes as many as there is room for and returns the full number; with less room the next call compares with
+        /// the same.</summary>
+        public int Touches(Touch[] touches)
+        {
+            if (touches == null) throw new ArgumentNullException(nameof(touches));
+            uint count;
+            if (touches.Length > 0) touches[0].Size = (uint)sizeof(Touch);
+            fixed (Touch* first = touches) Done(Methods.pbmpm_world_touches(Id, first, (uint)touches.Length, &count));
+            return (int)count;
+        }
+
         // Lines
 
         /// <summary>How many lines show these parts.</summary>

@@ -13,7 +13,7 @@ from ._ffi import ffi as _ffi
 from ._library import lib as _lib
 from ._library import library_path, version_text
 from .advice import Advice, AdviceCode, Change
-from .colliders import Collider, Friction
+from .colliders import Collider, Friction, Touch, TouchState
 from .debug import DebugPart
 from .domain import Wall
 from .errors import (
@@ -117,6 +117,8 @@ __all__ = [
     "Stop",
     "StrainPolicy",
     "ThreadError",
+    "Touch",
+    "TouchState",
     "UnsupportedCpuError",
     "UnsupportedError",
     "View",

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
 
 from ._choice import Choice
-from ._convert import Rotation, Vector, assign, initialised, plain, shortest, sized
+from ._convert import Rotation, Vector, plain, shortest, sized
 from ._ffi import ffi
 from ._library import lib
 from ._member import Member
+from ._setters import choice, flag, number
+from .materials import Material
 from .shapes import Baked, Shape, from_c, to_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
+
+if TYPE_CHECKING:
+    from .world import World
 
 
 class Friction(Choice):
@@ -24,20 +31,47 @@ class Friction(Choice):
     SLIP = ffi.integer_const("PBMPM_FRICTION_SLIP")  #: freely
 
 
-def definition(
-    friction: Friction | str,
-    friction_coefficient: float | None,
-    kinematic: bool,
-    measures_impulse: bool = False,
-) -> Any:
-    """The C structure of a collider."""
-    out = initialised("pbmpm_collider_def")
-    out.friction = Friction(friction).value
-    if friction_coefficient is not None:
-        assign(out, "friction_coefficient", friction_coefficient)
-    out.kinematic = bool(kinematic)
-    out.measures_impulse = bool(measures_impulse)
-    return out
+class TouchState(Choice):
+    """What became of a touch since they were asked for before."""
+
+    BEGAN = ffi.integer_const("PBMPM_TOUCH_BEGAN")  #: it is new
+    STAYS = ffi.integer_const("PBMPM_TOUCH_STAYS")  #: it was there before
+    ENDED = ffi.integer_const("PBMPM_TOUCH_ENDED")  #: it is no more
+
+
+@dataclass(frozen=True)
+class Touch:
+    """Matter of a material at a collider."""
+
+    state: TouchState  #: compared with the call before
+    collider: Collider  #: that is touched
+    material: Material | None  #: of what touches it; None when it was destroyed since
+    particles: int  #: how many touch it now
+    impulse: tuple[float, ...]  #: of all matter on the collider in the last step [N s], if it measures that
+
+
+#: How what can be changed goes into the C structure.
+_SETTERS = {
+    "friction": choice("friction", Friction),
+    "friction_coefficient": number("friction_coefficient"),
+    **{name: flag(name) for name in ("kinematic", "measures_impulse", "sensor", "reports_touches")},
+}
+
+
+def fill(definition: Any, values: Mapping[str, Any]) -> Any:
+    """Writes the values that are not None into the C structure of a collider, and returns it."""
+    for name, value in values.items():
+        if value is not None:
+            _SETTERS[name](definition, value, 0)
+    return definition
+
+
+def touch_from_c(world: World, touch: Any) -> Touch:
+    """A C structure as a Touch."""
+    collider = Collider(world, ffi.new("pbmpm_collider_id *", touch.collider)[0])
+    material = Material(world, ffi.new("pbmpm_material_id *", touch.material)[0]) if touch.material.generation else None
+    impulse = tuple(plain(touch.impulse)[: world.dimension])
+    return Touch(TouchState(touch.state), collider, material, int(touch.particles), impulse)
 
 
 class Collider(Member):
@@ -81,6 +115,16 @@ class Collider(Member):
         return bool(self._definition().measures_impulse)
 
     @property
+    def sensor(self) -> bool:
+        """Whether it acts on nothing."""
+        return bool(self._definition().sensor)
+
+    @property
+    def reports_touches(self) -> bool:
+        """Whether `World.touches()` tells what touches it."""
+        return bool(self._definition().reports_touches)
+
+    @property
     def impulse(self) -> Impulse:
         """What matter gave to the obstacle in the last step."""
         out = sized("pbmpm_impulse")
@@ -91,22 +135,24 @@ class Collider(Member):
         self,
         *,
         shape: Shape | None = None,
-        friction: Friction | None = None,
+        friction: Friction | str | None = None,
         friction_coefficient: float | None = None,
         kinematic: bool | None = None,
         measures_impulse: bool | None = None,
+        sensor: bool | None = None,
+        reports_touches: bool | None = None,
     ) -> None:
         """Changes what is named, as when it was added; the rest stays. A new shape is there at once, without velocity."""
-        out = self._definition()
-        if friction is not None:
-            out.friction = Friction(friction).value
-        if friction_coefficient is not None:
-            assign(out, "friction_coefficient", friction_coefficient)
-        if kinematic is not None:
-            out.kinematic = bool(kinematic)
-        if measures_impulse is not None:
-            out.measures_impulse = bool(measures_impulse)
-        self._apply("set", out, ffi.NULL if shape is None else to_c(shape, self._world.dimension))
+        values = {
+            "friction": friction,
+            "friction_coefficient": friction_coefficient,
+            "kinematic": kinematic,
+            "measures_impulse": measures_impulse,
+            "sensor": sensor,
+            "reports_touches": reports_touches,
+        }
+        definition = fill(self._definition(), values)
+        self._apply("set", definition, ffi.NULL if shape is None else to_c(shape, self._world.dimension))
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Sets the pose that a kinematic obstacle shall have at the end of the next step; its velocity follows.

@@ -16,7 +16,7 @@ from ._library import lib
 from ._member import Member
 from .advice import WorldAdvice
 from .background import WorldBackground
-from .colliders import Collider, Friction
+from .colliders import Collider, Friction, Touch
 from .debug import WorldDebug
 from .domain import WorldDomain
 from .errors import ClosedError, InvalidArgumentError, check
@@ -519,6 +519,8 @@ class World(
         friction_coefficient: float | None = None,
         kinematic: bool = False,
         measures_impulse: bool = False,
+        sensor: bool = False,
+        reports_touches: bool = False,
         key: int = 0,
     ) -> Collider:
         """Adds an obstacle.
@@ -529,13 +531,32 @@ class World(
             friction_coefficient: Coulomb coefficient, in [0, 100].
             kinematic: whether `Collider.move()` may move it.
             measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
+            sensor: whether it acts on nothing, for triggers: matter passes through it.
+            reports_touches: whether `touches()` tells what touches it.
             key: what snapshots know it by, a number that no other collider of the world has; 0: its place.
         """
-        definition = colliders.definition(friction, friction_coefficient, kinematic, measures_impulse)
+        values = {
+            "friction": friction,
+            "friction_coefficient": friction_coefficient,
+            "kinematic": kinematic,
+            "measures_impulse": measures_impulse,
+            "sensor": sensor,
+            "reports_touches": reports_touches,
+        }
+        definition = colliders.fill(initialised("pbmpm_collider_def"), values)
         assign(definition, "key", key)
         out = ffi.new("pbmpm_collider_id *")
         self._call(lib.pbmpm_collider_create, definition, shapes.to_c(shape, self._dimension), out)
         return Collider(self, out[0])
+
+    def touches(self) -> list[Touch]:
+        """Which materials touch the colliders that report touches, and where that has begun or ended since it was asked before. To be asked
+        once per step. A particle touches an obstacle that it is within half a cell of, and a sensor that it is in."""
+        count = ffi.new("uint32_t *")
+        self._call(lib.pbmpm_world_touches, ffi.NULL, 0, count)
+        found = sized_array("pbmpm_touch", count[0])
+        self._call(lib.pbmpm_world_touches, found, count[0], count)
+        return [colliders.touch_from_c(self, touch) for touch in found]
 
     # The step
 

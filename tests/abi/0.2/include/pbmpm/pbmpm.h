@@ -124,7 +124,7 @@ pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const 
 pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
 typedef enum pbmpm_friction { PBMPM_FRICTION_COULOMB = 0, PBMPM_FRICTION_STICK = 1, PBMPM_FRICTION_SLIP = 2, PBMPM_FRICTION_FORCE32 = 2147483647 } pbmpm_friction;
-typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint32_t reserved; uint64_t key; uint64_t user_data; } pbmpm_collider_def;
+typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint32_t reserved; uint64_t key; uint64_t user_data; int32_t sensor; int32_t reports_touches; } pbmpm_collider_def;
 pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape, pbmpm_collider_id *collider);
 pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
@@ -140,6 +140,9 @@ pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t up
 typedef struct pbmpm_domain_wall { uint32_t size; int32_t open; pbmpm_friction friction; float friction_coefficient; } pbmpm_domain_wall;
 pbmpm_result pbmpm_domain_wall_get(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_domain_wall *wall);
 pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t upper, const pbmpm_domain_wall *wall);
+typedef enum pbmpm_touch_state { PBMPM_TOUCH_BEGAN = 1, PBMPM_TOUCH_STAYS = 2, PBMPM_TOUCH_ENDED = 3, PBMPM_TOUCH_FORCE32 = 2147483647 } pbmpm_touch_state;
+typedef struct pbmpm_touch { uint32_t size; pbmpm_touch_state state; pbmpm_collider_id collider; pbmpm_material_id material; uint32_t particles; uint32_t reserved; double impulse[3]; } pbmpm_touch;
+pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count);
 pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
 typedef enum pbmpm_advice_code { PBMPM_ADVICE_NO_GRAVITY = 1, PBMPM_ADVICE_FALLS_FOREVER = 2, PBMPM_ADVICE_IGNORED = 3, PBMPM_ADVICE_POOL_TOO_DEEP = 4, PBMPM_ADVICE_POOL_STIRS = 5, PBMPM_ADVICE_MODULUS_NOT_HELD = 6, PBMPM_ADVICE_SAND_NOT_HELD = 7, PBMPM_ADVICE_BODY_TOO_THIN = 8, PBMPM_ADVICE_BOUNCE_DAMPED = 9, PBMPM_ADVICE_ROLLING_BRAKED = 10, PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, PBMPM_ADVICE_STEP_TOO_LONG = 13, PBMPM_ADVICE_OVERLAPS = 17, PBMPM_ADVICE_KNOWN_LIMIT = 18, PBMPM_ADVICE_VOLUME_LOST = 14, PBMPM_ADVICE_STRAIN_CLAMPED = 15, PBMPM_ADVICE_NOT_SOLVED = 16, PBMPM_ADVICE_CODE_FORCE32 = 2147483647 } pbmpm_advice_code;
 typedef enum pbmpm_change { PBMPM_CHANGE_NONE = 0, PBMPM_CHANGE_SUBSTEPS = 1, PBMPM_CHANGE_ITERATIONS = 2, PBMPM_CHANGE_CELL_SIZE = 3, PBMPM_CHANGE_SOLVER = 4, PBMPM_CHANGE_GRAVITY = 5, PBMPM_CHANGE_KILL_BOUNDS = 6, PBMPM_CHANGE_PARAMETER = 7, PBMPM_CHANGE_YOUNG_MODULUS = 8, PBMPM_CHANGE_INTEGRATOR = 9, PBMPM_CHANGE_COLLIDER = 10, PBMPM_CHANGE_FORCE32 = 2147483647 } pbmpm_change;
