@@ -22,16 +22,19 @@ const char *copy_problem(const pbmpm_copy_def *def)
     for (uint32_t i = 0; i < def->field_count; i++)
         if (!inspect_is_field(def->fields[i])) return "copy.fields has a field that does not exist";
     if (def->stride % sizeof(float) != 0) return "copy.stride must be a multiple of 4";
+    if (def->offset % sizeof(float) != 0) return "copy.offset must be a multiple of 4";
+    if (def->pads_vectors != 0 && def->pads_vectors != 1) return "copy.pads_vectors must be 0 or 1";
     return NULL;
 }
 
 typedef struct Copying {
     pbmpm_view view[INSPECT_FIELDS];
     bool is_position[INSPECT_FIELDS];
+    uint32_t zeros[INSPECT_FIELDS]; /* behind its components */
     int fields;
     pbmpm_view velocity;
     float back; /* how long ago [s] */
-    size_t stride;
+    size_t stride, offset;
     char *out;
 } Copying;
 
@@ -47,7 +50,7 @@ static void copy_rows(void *context, int32_t begin, int32_t end)
 {
     const Copying *copying = context;
     for (size_t row = (size_t)begin; row < (size_t)end; row++) {
-        char *out = copying->out + row * copying->stride;
+        char *out = copying->out + row * copying->stride + copying->offset;
         for (int f = 0; f < copying->fields; f++) {
             const pbmpm_view *view = &copying->view[f];
             for (uint32_t c = 0; c < view->components; c++, out += sizeof(float)) {
@@ -57,6 +60,8 @@ static void copy_rows(void *context, int32_t begin, int32_t end)
                 const float place = number_at(view, row, c) - copying->back * number_at(&copying->velocity, row, c);
                 memcpy(out, &place, sizeof place);
             }
+            memset(out, 0, copying->zeros[f] * sizeof(float));
+            out += copying->zeros[f] * sizeof(float);
         }
     }
 }
@@ -66,21 +71,24 @@ static pbmpm_result look(World *world, pbmpm_field field, pbmpm_view *view)
     return background_is_stepping(world) ? background_view(world, field, view) : inspect_view(world, field, view);
 }
 
+static bool is_vector(pbmpm_field field) { return field == PBMPM_POSITION || field == PBMPM_VELOCITY; }
+
 static pbmpm_result plan(World *world, const pbmpm_copy_def *def, Copying *copying)
 {
     const pbmpm_field *fields = def->field_count ? def->fields : DRAWN;
     const float seconds = background_is_stepping(world) ? background_seconds(world) : world->record.seconds;
-    size_t bytes = 0;
-    *copying = (Copying){.fields = def->field_count ? (int)def->field_count : DRAWN_COUNT, .back = (1.0f - def->alpha) * seconds};
+    size_t bytes = def->offset;
+    *copying = (Copying){.fields = def->field_count ? (int)def->field_count : DRAWN_COUNT, .back = (1.0f - def->alpha) * seconds, .offset = def->offset};
     pbmpm_result result = copying->back != 0.0f ? look(world, PBMPM_VELOCITY, &copying->velocity) : PBMPM_OK;
     for (int f = 0; f < copying->fields && result == PBMPM_OK; f++) {
         result = look(world, fields[f], &copying->view[f]);
         copying->is_position[f] = fields[f] == PBMPM_POSITION;
-        bytes += copying->view[f].components * sizeof(float);
+        if (def->pads_vectors && is_vector(fields[f])) copying->zeros[f] = 3 - copying->view[f].components;
+        bytes += (copying->view[f].components + copying->zeros[f]) * sizeof(float);
     }
     if (result != PBMPM_OK) return result;
     copying->stride = def->stride ? def->stride : bytes;
-    return bytes <= copying->stride ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT, "copy.stride is %u; the fields take %zu bytes", def->stride, bytes);
+    return bytes <= copying->stride ? PBMPM_OK : fail(PBMPM_ERROR_INVALID_ARGUMENT, "copy.stride is %u; offset and fields take %zu bytes", def->stride, bytes);
 }
 
 pbmpm_result copy_particles(World *world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count)

@@ -1525,7 +1525,7 @@ namespace Pbmpm.Native
     {
         /// <summary>sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init()</summary>
         public uint Size;
-        /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what the fields take</summary>
+        /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what offset and fields take</summary>
         public uint Stride;
         /// <summary>when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
         /// duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
@@ -1535,6 +1535,10 @@ namespace Pbmpm.Native
         public uint FieldCount;
         /// <summary>one behind the other, without gaps; 4 bytes for each component</summary>
         public Field* Fields;
+        /// <summary>1: POSITION and VELOCITY take 3 floats in 2D too, the third is 0; 0 (default): d floats</summary>
+        public int PadsVectors;
+        /// <summary>bytes from the beginning of a record to the first field, a multiple of 4; default 0</summary>
+        public uint Offset;
 
         /// <summary>The library's defaults.</summary>
         public static CopyDef Default
@@ -1803,6 +1807,11 @@ namespace Pbmpm.Native
 
         /// <summary>Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
         /// null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
+        ///
+        /// Records for a GPU, which are the same in 2D and 3D with pads_vectors 1. The defaults: 28 bytes without gaps, position (3 floats), velocity (3 floats),
+        /// index of the material (uint32). Fields POSITION, MATERIAL, VELOCITY with stride 32: as std430 and Metal lay out {vec3, uint, vec3}. What is
+        /// before `offset` and behind the last field of a record stays the host's.
+        ///
         /// A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
         /// Expires no view. While a step runs in the background it copies the published state, see async.h.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
@@ -1896,14 +1905,15 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
 
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views but those of the published state before: it stays readable until the begin
+        /// after this one.
         /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
         /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
 
         /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
-        /// done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. The state that was published stays readable, see above.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_end(WorldId world, int wait);
@@ -2400,6 +2410,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_copy_def", "alpha", &it, &it.Alpha, &it.Alpha + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "field_count", &it, &it.FieldCount, &it.FieldCount + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "fields", &it, &it.Fields, &it.Fields + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "pads_vectors", &it, &it.PadsVectors, &it.PadsVectors + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "offset", &it, &it.Offset, &it.Offset + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "", &it, &it, &it + 1, true));
         }
 

@@ -111,7 +111,7 @@ pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count);
 typedef enum pbmpm_field { PBMPM_POSITION = 0, PBMPM_VELOCITY = 1, PBMPM_AFFINE_VELOCITY = 2, PBMPM_VOLUME_RATIO = 3, PBMPM_DEFORMATION = 4, PBMPM_MATERIAL = 5, PBMPM_PARTICLE = 6, PBMPM_MASS = 7, PBMPM_PRESSURE = 8, PBMPM_FIELD_FORCE32 = 2147483647 } pbmpm_field;
 typedef struct pbmpm_view { uint32_t size; uint32_t count; uint32_t components; uint32_t component_stride; uint64_t stride; const void *data; uint64_t generation; } pbmpm_view;
 pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
-typedef struct pbmpm_copy_def { uint32_t size; uint32_t stride; float alpha; uint32_t field_count; const pbmpm_field *fields; } pbmpm_copy_def;
+typedef struct pbmpm_copy_def { uint32_t size; uint32_t stride; float alpha; uint32_t field_count; const pbmpm_field *fields; int32_t pads_vectors; uint32_t offset; } pbmpm_copy_def;
 pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
 pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count);
 pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const float *values);
