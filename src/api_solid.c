@@ -80,7 +80,7 @@ static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no suc
 pbmpm_result pbmpm_baked_get(pbmpm_world_id world, pbmpm_baked_id baked, pbmpm_baked_info *info)
 {
     REQUIRE_SIZE(pbmpm_baked_info, info);
-    HOLD(world);
+    HOLD_READING(world);
     const DistanceGrid *grid = baked_find(&w->baked, baked);
     if (!grid) LET_GO(no_solid());
     const pbmpm_baked_info own = baked_describe(grid);
@@ -111,7 +111,7 @@ static void read_impulse(const World *world, uint32_t place, const float about[3
 pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_impulse *impulse)
 {
     REQUIRE_SIZE(pbmpm_impulse, impulse);
-    HOLD(world);
+    HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"));
     if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
@@ -122,7 +122,7 @@ pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id coll
 pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse)
 {
     REQUIRE_SIZE(pbmpm_impulse, impulse);
-    HOLD(world);
+    HOLD_READING(world);
     if (axis < 0 || axis >= w->def.dimension || upper < 0 || upper > 1)
         LET_GO(api_invalid("there is no such wall: axis is below the dimension, upper 0 or 1"));
     if (!w->def.domain_enabled || !w->def.domain_measures_impulse)

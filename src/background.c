@@ -24,8 +24,8 @@ struct Background {
     char *copy[SETS][FIELDS];
     int turn; /* the set of this step, or of the last one */
     pbmpm_view view[FIELDS]; /* of its copies; size 0: not published in this step */
-    uint32_t count;
-    float seconds;                    /* that the step before lasted */
+    pbmpm_stats stats; /* of the step before */
+    float seconds;     /* that it lasted */
     uint64_t generation;
 
     bool begun; /* from a begin to its end */
@@ -208,7 +208,7 @@ pbmpm_result background_begin(World *world, float dt)
     Background *background = world->background;
     world_touch(world);
     background->turn = (background->turn + 1) % SETS;
-    background->count = world->particles.count;
+    inspect_step_stats(world, &background->stats);
     background->seconds = world->record.seconds;
     background->generation = world->generation;
     background->dt = dt;
@@ -259,7 +259,9 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
     return PBMPM_OK;
 }
 
-uint32_t background_count(const World *world) { return world->background->count; }
+uint32_t background_count(const World *world) { return world->background->stats.particle_count; }
+
+const pbmpm_stats *background_step_stats(const World *world) { return &world->background->stats; }
 
 float background_seconds(const World *world) { return world->background->seconds; }
 

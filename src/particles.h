@@ -134,6 +134,9 @@ void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Loop
 /* Exchanges `count` rows from `a` on with those from `b` on; the two do not overlap. */
 void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count);
 
+/* Notes the rows of all particles, unless they are noted. */
+void particles_find_rows(Particles *p);
+
 /* The row of a live particle, or false. */
 bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row);
 

@@ -19,8 +19,9 @@ void registry_skip_particle_generations(uint32_t last);
 /* Makes a world known. */
 pbmpm_result registry_add(World *world, pbmpm_world_id *id);
 
-/* The world, held for the calling thread until registry_leave(). */
+/* The world, held until registry_leave(): for the calling thread alone, or for it and others that only read. BUSY if that cannot be. */
 pbmpm_result registry_enter(pbmpm_world_id id, World **world);
+pbmpm_result registry_enter_to_read(pbmpm_world_id id, World **world);
 void registry_leave(pbmpm_world_id id);
 
 /* Takes a world out; it is the caller's to destroy. */

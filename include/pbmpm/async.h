@@ -20,9 +20,10 @@ extern "C" {
  *   pbmpm_particles_count()       of that state;
  *   pbmpm_world_generation()      of those views;
  *   pbmpm_world_get_def()
+ *   pbmpm_world_get_step_stats()  of the step before
  *   pbmpm_world_destroy(), pbmpm_shutdown()  wait for the step; its result is lost.
  *
- * As ever, one thread at a time per world; any thread may begin, view and end.
+ * As ever those that only read share the world, which begin and end need for themselves; any thread may make any of these calls.
  *
  * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy, the
  * published state. The copy is made by the step's thread before anything else: a view that is asked for right after the begin may

@@ -133,10 +133,10 @@ PBMPM_API pbmpm_result pbmpm_world_destroy(pbmpm_world_id world);
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
 /** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
- *  Any thread, one at a time per world. */
+ *  Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings);
 
-/** Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. */
+/** Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
 
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
@@ -145,7 +145,7 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
  *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
  *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
  *  was set from outside is brought into its material's range.
- *  Any thread, one at a time per world; different worlds step at the same time. */
+ *  Any thread, alone in its world; different worlds step at the same time. */
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 
 /** A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to

@@ -241,6 +241,23 @@ static void test_views_expire_at_the_begin_and_at_the_end(void)
     TEST_ASSERT_TRUE(meanwhile != view_of(world, PBMPM_POSITION).generation);
 }
 
+/* The figures of the step before, whatever the one that runs has done to them. */
+static void test_figures_of_the_step_before(void)
+{
+    const target ids = target_create(use_gate, NULL);
+    pbmpm_stats before = {.size = sizeof before}, meanwhile = before, after = before;
+    begin_behind_gate(&ids);
+    OK(pbmpm_world_get_step_stats(ids.world, &before));
+    TEST_ASSERT_EQUAL_UINT64(1, before.step_count);
+    TEST_ASSERT_TRUE(before.ms_total > 0.0f && before.particle_blocks > 0);
+    OK(pbmpm_world_get_step_stats(ids.world, &meanwhile));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &meanwhile, sizeof before);
+    gate_set(false, true);
+    OK(pbmpm_world_step_end(ids.world, 1));
+    OK(pbmpm_world_get_step_stats(ids.world, &after));
+    TEST_ASSERT_EQUAL_UINT64(2, after.step_count);
+}
+
 static void test_only_published_fields_are_in_view(void)
 {
     static const pbmpm_field two[] = {PBMPM_VELOCITY, PBMPM_DEFORMATION}, twice[] = {PBMPM_MASS, PBMPM_MASS}, odd[] = {(pbmpm_field)77};
@@ -547,7 +564,7 @@ static void test_threads_of_the_library_take_no_signals(void)
 static bool is_allowed(const char *name)
 {
     static const char *const allowed[] = {"pbmpm_world_get_def", "pbmpm_world_generation", "pbmpm_particles_count", "pbmpm_particles_view", "pbmpm_particles_copy",
-                                          "pbmpm_world_step_done"};
+                                          "pbmpm_world_get_step_stats", "pbmpm_world_step_done"};
     for (size_t i = 0; i < sizeof allowed / sizeof *allowed; i++)
         if (strcmp(name, allowed[i]) == 0)
             return true;
@@ -755,6 +772,7 @@ int main(void)
     RUN_TEST(test_task_hooks_do_the_work);
     RUN_TEST(test_views_show_the_state_before_the_step);
     RUN_TEST(test_views_expire_at_the_begin_and_at_the_end);
+    RUN_TEST(test_figures_of_the_step_before);
     RUN_TEST(test_only_published_fields_are_in_view);
     RUN_TEST(test_a_published_frame_stays_until_the_next_begin_but_one);
     RUN_TEST(test_a_renderer_may_be_a_frame_late);

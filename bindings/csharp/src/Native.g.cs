@@ -70,7 +70,7 @@ namespace Pbmpm
         ErrorOutOfMemory = 3,
         /// <summary>more particles, materials, colliders or worlds than there is room for</summary>
         ErrorCapacity = 4,
-        /// <summary>another thread is inside a call on the same world, or a step of it runs in the background</summary>
+        /// <summary>another thread is inside a call on the same world that does not share it, or a step of it runs in the background</summary>
         ErrorBusy = 5,
         /// <summary>the CPU has no SSE4.2</summary>
         ErrorUnsupportedCpu = 6,
@@ -1347,7 +1347,7 @@ namespace Pbmpm.Native
 {
     /// <summary>Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
     /// null; `release` gets the size that was asked for. Called from the thread that calls the library, and
-    /// from that of a step in the background (async.h); for one world never from two at once.</summary>
+    /// from that of a step in the background (async.h); for one world never from two at once. Must not call the library.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Allocator
     {
@@ -1367,7 +1367,8 @@ namespace Pbmpm.Native
     ///
     /// Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
     /// not begun; so they may as well run one after another. They neither call enqueue nor finish. A step with 5 iterations enqueues some 10 times with the
-    /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.</summary>
+    /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
+    /// For one world one call at a time enqueues: another reader of it meanwhile does its work alone.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
@@ -1733,11 +1734,11 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
         /// <summary>Reads the settings. `settings-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
-        /// Any thread, one at a time per world.</summary>
+        /// Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_settings(WorldId world, Settings* settings);
 
-        /// <summary>Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT.</summary>
+        /// <summary>Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
 
@@ -1747,7 +1748,7 @@ namespace Pbmpm.Native
         /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
         /// needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
         /// was set from outside is brought into its material's range.
-        /// Any thread, one at a time per world; different worlds step at the same time.</summary>
+        /// Any thread, alone in its world; different worlds step at the same time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step(WorldId world, float dt);
 
@@ -1886,7 +1887,7 @@ namespace Pbmpm.Native
         /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
         /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
-        /// Any thread, one at a time per world.</summary>
+        /// Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_advice(WorldId world, float dt, Advice* array, uint capacity, uint* count);
 
@@ -2060,12 +2061,12 @@ namespace Pbmpm.Native
 
         /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
         /// sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
-        /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_wake(WorldId world, Shape* shape);
 
         /// <summary>How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world.</summary>
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_size(WorldId world, ulong* bytes, uint* bytesPerParticle);
 
@@ -2096,11 +2097,18 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes, uint flags);
 
-        /// <summary>Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
-        /// the particles, and only when called. `stats-&gt;size` must be set.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        /// <summary>All figures: of the last step, and of the present state, for which it makes a pass over the particles on the world's threads. Sums do not
+        /// depend on the number of threads. Before the first step times and step counts are 0. `stats-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
+
+        /// <summary>The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. 0 are those of the present state:
+        /// volume_error_rms, volume_error_max, max_speed, mass, momentum, angular_momentum, kinetic_energy, potential_energy and lane_occupancy.
+        /// While a step runs in the background they are those of the step before it, see async.h.
+        /// Errors: as pbmpm_world_get_stats(). Any thread, together with others that read.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_step_stats(WorldId world, Stats* stats);
 
         /// <summary>Events of the last step, and of calls since then. Writes up to `capacity` of them; *count is the number that the world keeps, at most
         /// PBMPM_MAX_EVENTS; *missed (may be null) counts those that it had no room to keep: totals are in pbmpm_stats. `events` may be null when

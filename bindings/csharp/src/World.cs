@@ -5,8 +5,8 @@ namespace Pbmpm
 {
     /// <summary>A world of liquid and elastic matter.
     /// Units are SI, angles radians; in 2D the third component of every vector is ignored.
-    /// Worlds are independent: different ones may step at the same time on different threads. A second thread in the same
-    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw.
+    /// Worlds are independent: different ones may step at the same time on different threads. Calls that only read
+    /// share a world; one that changes it gets <see cref="Result.ErrorBusy"/> while another thread is inside a call. No call makes garbage, except those that throw.
     /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected.</summary>
     public sealed unsafe partial class World : IDisposable
     {

@@ -39,8 +39,8 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
     number per axis. Everything that does not fit raises a `PbmpmError`, and the world is then as it was before.
 
     Use it as a context manager, or call `close()`; a forgotten world is destroyed when it is collected. Calls release
-    Python's global lock: different worlds may step at the same time in different threads; a second thread in the same
-    world gets a BusyError.
+    Python's global lock: different worlds may step at the same time in different threads. Calls that only read share a
+    world; one that changes it gets a BusyError while another thread is inside a call.
 
     Args:
         dimension: 2 or 3.
