@@ -72,8 +72,10 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
- *  nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows values that the field
+ *  had or has, of one particle or another, or as they were cleared: no whole frame, but each one a value of that field. Only of AFFINE_VELOCITY
+ *  and DEFORMATION it may show anything. What is drawn later, or by another thread, is to be published (async.h) or copied
+ *  (pbmpm_particles_copy()). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */

@@ -24,7 +24,7 @@ typedef struct pbmpm_world_def {
     uint32_t size;              /**< sizeof(pbmpm_world_def), set by pbmpm_world_def_init() */
     int32_t dimension;          /**< 2 or 3; default 3. In 2D the third component of every vector is ignored. */
     float cell_size;            /**< grid spacing dx [m], in [1e-6, 1e6]; default 0.1 */
-    uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 200 bytes per particle in 3D,
+    uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 230 bytes per particle in 3D,
                                      and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
                                      blocks take theirs when they come. */
     double origin[3];           /**< what positions are relative to [m]; default 0. Used by nothing but the caller's own
