@@ -719,7 +719,7 @@ namespace Pbmpm
         public int Dimension;
         /// <summary>grid spacing dx [m], in [1e-6, 1e6]; default 0.1</summary>
         public float CellSize;
-        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 200 bytes per particle in 3D,
+        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 230 bytes per particle in 3D,
         /// and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
         /// blocks take theirs when they come.</summary>
         public uint ParticleCapacity;
@@ -1498,8 +1498,10 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
-    /// nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows values that the field
+    /// had or has, of one particle or another, or as they were cleared: no whole frame, but each one a value of that field. Only of AFFINE_VELOCITY
+    /// and DEFORMATION it may show anything. What is drawn later, or by another thread, is to be published (async.h) or copied
+    /// (pbmpm_particles_copy()). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View

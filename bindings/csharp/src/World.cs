@@ -15,6 +15,7 @@ namespace Pbmpm
 
         WorldId id;
         ulong generation = NoGeneration;
+        ulong published = NoGeneration, publishedBefore = NoGeneration; // of the last two begins, whose views stay readable
         Event[] events = new Event[0];
 
         /// <summary>Makes a world; begin with <see cref="WorldDef.Default"/> and change what differs.</summary>
@@ -53,7 +54,7 @@ namespace Pbmpm
             var result = Methods.pbmpm_world_destroy(id);
             if (result != Result.ErrorInvalidId) Done(result); // an unknown one is gone: Library.Shutdown() was called
             id = default(WorldId);
-            generation = NoGeneration;
+            generation = published = publishedBefore = NoGeneration;
             GC.SuppressFinalize(this);
         }
 
@@ -103,7 +104,7 @@ namespace Pbmpm
             Changed(Methods.pbmpm_world_step(Id, seconds));
         }
 
-        /// <summary>What the last step cost and the state that it left.</summary>
+        /// <summary>What the last step cost and the state that it left; goes over all particles, on the world's threads.</summary>
         public Stats Stats
         {
             get
@@ -114,7 +115,19 @@ namespace Pbmpm
             }
         }
 
-        /// <summary>Events of the last step and of calls since then.</summary>
+        /// <summary>What the last step cost, without the state that it left: mass, momenta, energies, volume errors, the largest speed and
+        /// lane occupancy are 0. Costs nothing; also while a step runs in the background: then of the step before it.</summary>
+        public Stats StepStats
+        {
+            get
+            {
+                var found = new Stats { Size = (uint)sizeof(Stats) };
+                Done(Methods.pbmpm_world_get_step_stats(Id, &found));
+                return found;
+            }
+        }
+
+        /// <summary>Events of the last step and of calls since then. They share one array: for one thread at a time.</summary>
         public EventList Events
         {
             get
@@ -263,7 +276,8 @@ namespace Pbmpm
 
         internal bool IsCurrent(ulong viewGeneration)
         {
-            return viewGeneration == generation && generation != NoGeneration;
+            if (viewGeneration == NoGeneration) return false;
+            return viewGeneration == generation || viewGeneration == published || viewGeneration == publishedBefore;
         }
 
         internal ulong Generation => generation;

@@ -25,8 +25,8 @@ from .settings import Integrator, Pressure, Solver, WorldSettings
 from .shapes import Shape
 from .snapshots import WorldSnapshots
 from .solids import WorldSolids
-from .stats import Event, Stats, event_from_c, stats_from_c
-from .views import MATRICES, Field, View
+from .stats import Event, Stats, StepStats, event_from_c, stats_from_c
+from .views import MATRICES, RECORD, Field, View
 
 #: Identifiers of particles: shape (n, 2), index and generation. A generation alone is unique in a process.
 Ids = npt.NDArray[np.uint32]
@@ -86,6 +86,7 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
         sleep_time: float | None = None,
     ) -> None:
         self._handle: WorldHandle | None = None
+        self._published = (0, 0)
         definition = initialised("pbmpm_world_def")
         numbers = {
             "dimension": dimension,
@@ -382,14 +383,23 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
     def positions_at(self, alpha: float) -> npt.NDArray[np.float32]:
         """Positions between steps, for rendering: a copy of shape (n, d) [m] at the share `alpha` in [0, 1] of the way from before
         the last step (0) to now (1)."""
-        definition, count = initialised("pbmpm_copy_def"), ffi.new("uint32_t *")
+        definition = initialised("pbmpm_copy_def")
         fields = ffi.new("pbmpm_field[]", [ffi.integer_const("PBMPM_POSITION")])
         definition.fields, definition.field_count = fields, 1
+        return self._copy(definition, alpha, np.empty((len(self), self._dimension), np.float32))
+
+    def records(self, alpha: float = 1.0) -> npt.NDArray[Any]:
+        """What a renderer uploads to a GPU: for each particle a record of 28 bytes (`pbmpm.RECORD`), alike in 2D and 3D: "position" and
+        "velocity" of three numbers, in 2D the third is 0, and "material", its index. `alpha`: as for `positions_at()`."""
+        definition = initialised("pbmpm_copy_def")
+        definition.pads_vectors = 1
+        return self._copy(definition, alpha, np.empty(len(self), RECORD))
+
+    def _copy(self, definition: Any, alpha: float, room: npt.NDArray[Any]) -> npt.NDArray[Any]:
         assign(definition, "alpha", alpha)
-        positions = np.empty((len(self), self._dimension), np.float32)
-        out = pointer("char", positions, writable=True) if positions.size else ffi.NULL
-        self._call(lib.pbmpm_particles_copy, definition, out, positions.nbytes, count)
-        return positions
+        out = pointer("char", room, writable=True) if room.size else ffi.NULL
+        self._call(lib.pbmpm_particles_copy, definition, out, room.nbytes, ffi.new("uint32_t *"))
+        return room
 
     @property
     def velocities(self) -> View:
@@ -480,10 +490,18 @@ class World(WorldSettings, WorldFlow, WorldForces, WorldQueries, WorldSnapshots,
 
     @property
     def stats(self) -> Stats:
-        """Figures of the last step."""
+        """Figures of the last step and of the present state, for which all particles are gone over."""
         stats = sized("pbmpm_stats")
         self._call(lib.pbmpm_world_get_stats, stats)
-        return stats_from_c(stats)
+        return stats_from_c(stats, Stats)
+
+    @property
+    def step_stats(self) -> StepStats:
+        """Figures that the last step has left behind: made to be asked in each frame. While a step runs in the background they are
+        those of the step before it."""
+        stats = sized("pbmpm_stats")
+        self._call(lib.pbmpm_world_get_step_stats, stats)
+        return stats_from_c(stats, StepStats)
 
     @property
     def events(self) -> list[Event]:
