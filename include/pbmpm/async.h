@@ -23,15 +23,15 @@ extern "C" {
  *   pbmpm_world_get_step_stats()  of the step before
  *   pbmpm_world_destroy(), pbmpm_shutdown()  wait for the step; its result is lost.
  *
- * As ever those that only read share the world, which begin and end need for themselves; any thread may make any of these calls.
+ * Any thread may make them. As ever those that only read share the world; begin and end need it for themselves.
  *
  * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy, the
  * published state. The copy is made by the step's thread before anything else: a view that is asked for right after the begin may
  * wait for it, some milliseconds for a million particles.
  *
- * A published state stays readable for a renderer that is a frame late. Begins take turns with two sets of memory: what a view shows
- * stays, bit for bit, until the next begin but one, whatever else is called, or until the world is destroyed. Any thread reads it,
- * without a call. That pbmpm_world_generation() has moved on says only that there is a newer state. A frame loop:
+ * A published state stays readable for a renderer that is a frame late. Begins take turns with two sets of memory. So what a view
+ * shows stays, bit for bit, until the next begin but one or until the world is destroyed, whatever else is called. Any thread reads it,
+ * without a call. When pbmpm_world_generation() has moved on, there is a newer state, and this one is still whole. A frame loop:
  *
  *   pbmpm_world_step_begin();          the state of now is published
  *   pbmpm_particles_view() ...         hand the views to the renderer; it may read them while the next frame's step runs, too
@@ -41,7 +41,7 @@ extern "C" {
  * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
  * begins a step has neither.
  *
- * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world,
+ * The allocator and the task hooks are then called from the step's thread too, by one thread at a time per world, and the log callback,
  * in the floating-point mode of the thread that began the step. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
@@ -52,8 +52,8 @@ extern "C" {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
 
-/** Begins a step of `dt` seconds and returns. Expires all views but those of the published state before: it stays readable until the begin
- *  after this one.
+/** Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+ *  begin.
  *  Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
  *  published fields), THREAD (no thread for the step): then no step was begun and nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);

@@ -21,11 +21,15 @@ extern "C" {
 #define PBMPM_API
 #endif
 
-/* Threads. Any thread may call; different worlds know nothing of each other. Calls that only read share a world, from any number of threads at once:
- * those named query, get, count, find, view and copy, pbmpm_world_generation(), _hash(), _events() and _step_done(), pbmpm_snapshot_size() and _save(),
- * and those that tell impulses. Each gets what it would have got alone. All others need the world for themselves, as do pbmpm_material_effective()
- * and pbmpm_world_advice(), which try things out in it: they are BUSY while a thread is inside any call on it, and any call is while a thread is
- * inside one of them. Nothing waits for a turn: a host whose threads read all the time steps when they do not. */
+/* Threads. Any thread may call; different worlds know nothing of each other.
+ *
+ * Calls that only read share a world: any number of threads make them at once, and each gets what it would have got alone. They are
+ *   those named query, get, count, find, view, copy and impulse,
+ *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done(),
+ *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
+ * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
+ * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
+ * Nobody waits for a turn: a host whose threads read steps when they have come out. */
 
 /** What a call came to. Zero is success; everything else left the world as it was before the call, except
  *  where the function says otherwise. Details: pbmpm_last_error(). */
@@ -79,7 +83,7 @@ typedef struct pbmpm_particle_id {
 } pbmpm_particle_id;
 
 /** Receives one line per notable happening (a refused call, an event). May come from any thread that calls the
- *  library and from a step in the background, never from a worker; must not call the library. */
+ *  library and from a step in the background, from several at once, never from a worker; must not call the library. */
 typedef void pbmpm_log_callback(const char *message, void *user);
 
 /** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the

@@ -72,10 +72,9 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows values that the field
- *  had or has, of one particle or another, or as they were cleared: no whole frame, but each one a value of that field. Only of AFFINE_VELOCITY
- *  and DEFORMATION it may show anything. What is drawn later, or by another thread, is to be published (async.h) or copied
- *  (pbmpm_particles_copy()). Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
+ *  frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+ *  anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -84,7 +83,7 @@ typedef struct pbmpm_view {
     uint32_t component_stride; /**< bytes from one component to the next */
     uint64_t stride;           /**< bytes from one particle to the next */
     const void *data;          /**< null when count is 0 */
-    uint64_t generation;       /**< valid while pbmpm_world_generation() returns this number */
+    uint64_t generation;       /**< valid while pbmpm_world_generation() returns this number; of a published state for longer, see async.h */
 } pbmpm_view;
 
 /** A view of a field. The order of particles is the same in all views of one generation and changes with steps; their
@@ -110,9 +109,9 @@ PBMPM_API pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
 /** Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
  *  null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
  *
- *  Records for a GPU, which are the same in 2D and 3D with pads_vectors 1. The defaults: 28 bytes without gaps, position (3 floats), velocity (3 floats),
- *  index of the material (uint32). Fields POSITION, MATERIAL, VELOCITY with stride 32: as std430 and Metal lay out {vec3, uint, vec3}. What is
- *  before `offset` and behind the last field of a record stays the host's.
+ *  Records for a GPU: with pads_vectors 1 they are the same in 2D and 3D. The default fields take 28 bytes without gaps: position (3 floats),
+ *  velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
+ *  are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
  *
  *  A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
  *  Expires no view. While a step runs in the background it copies the published state, see async.h.

@@ -1,5 +1,5 @@
 /* What it costs to read a world: `reading THREADS` prints, for 51,200 particles of liquid in 3D, the wall time and the CPU time of all
- * threads per call, medians over rounds [ms], and those of a step to compare with. Times are for people: no test looks at them. */
+ * threads per call [ms], and those of a step to compare with: medians over rounds. Times are for people: no test looks at them. */
 #define _POSIX_C_SOURCE 200809L
 #include <pbmpm/pbmpm.h>
 #include <stdio.h>

@@ -1498,10 +1498,9 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows values that the field
-    /// had or has, of one particle or another, or as they were cleared: no whole frame, but each one a value of that field. Only of AFFINE_VELOCITY
-    /// and DEFORMATION it may show anything. What is drawn later, or by another thread, is to be published (async.h) or copied
-    /// (pbmpm_particles_copy()). Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
+    /// frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+    /// anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -1518,7 +1517,7 @@ namespace Pbmpm.Native
         public ulong Stride;
         /// <summary>null when count is 0</summary>
         public IntPtr Data;
-        /// <summary>valid while pbmpm_world_generation() returns this number</summary>
+        /// <summary>valid while pbmpm_world_generation() returns this number; of a published state for longer, see async.h</summary>
         public ulong Generation;
     }
 
@@ -1811,9 +1810,9 @@ namespace Pbmpm.Native
         /// <summary>Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
         /// null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
         ///
-        /// Records for a GPU, which are the same in 2D and 3D with pads_vectors 1. The defaults: 28 bytes without gaps, position (3 floats), velocity (3 floats),
-        /// index of the material (uint32). Fields POSITION, MATERIAL, VELOCITY with stride 32: as std430 and Metal lay out {vec3, uint, vec3}. What is
-        /// before `offset` and behind the last field of a record stays the host's.
+        /// Records for a GPU: with pads_vectors 1 they are the same in 2D and 3D. The default fields take 28 bytes without gaps: position (3 floats),
+        /// velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
+        /// are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
         ///
         /// A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
         /// Expires no view. While a step runs in the background it copies the published state, see async.h.
@@ -1908,8 +1907,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
 
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views but those of the published state before: it stays readable until the begin
-        /// after this one.
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+        /// begin.
         /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
         /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
