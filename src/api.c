@@ -17,27 +17,22 @@
 #include "numbers.h"
 #include "origin.h"
 #include "query.h"
+#include "readers.h"
 #include "registry.h"
 #include "step.h"
 #include "touches.h"
 
-pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held)
+pbmpm_result api_hold(pbmpm_world_id id, int kind, Hold *held)
 {
     held->id = id;
-    const pbmpm_result result = registry_enter(id, &held->world);
+    const pbmpm_result result = kind & HOLD_TO_READ ? registry_enter_to_read(id, &held->world) : registry_enter(id, &held->world);
     if (result != PBMPM_OK) return result;
     if (held->world->owner != getpid()) {
         registry_leave(id);
         return fail(PBMPM_ERROR_FORKED, "this world belongs to the parent process");
     }
     held->float_mode = float_mode_enter_from_host();
-    return PBMPM_OK;
-}
-
-pbmpm_result api_hold(pbmpm_world_id id, Hold *held)
-{
-    const pbmpm_result result = api_hold_stepping(id, held);
-    if (result != PBMPM_OK || !background_is_stepping(held->world)) return result;
+    if (kind & HOLD_WHILE_STEPPING || !background_is_stepping(held->world)) return PBMPM_OK;
     return api_let_go(held, fail(PBMPM_ERROR_BUSY, "a step of this world is under way: end it first"));
 }
 
@@ -154,7 +149,7 @@ pbmpm_result pbmpm_world_destroy(pbmpm_world_id world)
 pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def)
 {
     REQUIRE_SIZE(pbmpm_world_def, def);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     WRITE(pbmpm_world_def, def, &w->def);
     LET_GO(PBMPM_OK);
 }
@@ -162,7 +157,7 @@ pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def)
 pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings)
 {
     REQUIRE_SIZE(pbmpm_settings, settings);
-    HOLD(world);
+    HOLD_READING(world);
     WRITE(pbmpm_settings, settings, &w->settings);
     LET_GO(PBMPM_OK);
 }
@@ -208,7 +203,7 @@ pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[
 pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation)
 {
     REQUIRE(generation);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     *generation = background_is_stepping(w) ? background_generation(w) : w->generation;
     LET_GO(PBMPM_OK);
 }
@@ -216,7 +211,7 @@ pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation)
 pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash)
 {
     REQUIRE(hash);
-    HOLD(world);
+    HOLD_READING(world);
     *hash = inspect_hash(w);
     LET_GO(PBMPM_OK);
 }
@@ -249,7 +244,7 @@ static pbmpm_result no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no 
 pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def)
 {
     REQUIRE_SIZE(pbmpm_material_def, def);
-    HOLD(world);
+    HOLD_READING(world);
     if (!material_is_live(&w->materials, material)) LET_GO(no_material());
     WRITE(pbmpm_material_def, def, &w->materials.def[material.index]);
     LET_GO(PBMPM_OK);
@@ -354,7 +349,7 @@ pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider
 {
     if (def) REQUIRE_SIZE(pbmpm_collider_def, def);
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
-    HOLD(world);
+    HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
     if (def) WRITE(pbmpm_collider_def, def, &found->def);
@@ -419,7 +414,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
 {
     REQUIRE(count);
     if (capacity) REQUIRE(ids);
-    HOLD(world);
+    HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(no_collider());
     const Solid solid = solid_among(&found->shape, w->def.dimension, &w->baked);
@@ -431,7 +426,7 @@ pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, p
     READ(pbmpm_shape, own, shape, shape_defaults());
     REQUIRE(count);
     if (capacity) REQUIRE(ids);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
     const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
@@ -482,7 +477,7 @@ pbmpm_result pbmpm_particles_remove_in(pbmpm_world_id world, const pbmpm_shape *
 pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
 {
     REQUIRE(count);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     *count = background_is_stepping(w) ? background_count(w) : w->particles.count;
     LET_GO(PBMPM_OK);
 }
@@ -490,7 +485,7 @@ pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count)
 pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view)
 {
     REQUIRE_SIZE(pbmpm_view, view);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     pbmpm_view own;
     const pbmpm_result result = background_is_stepping(w) ? background_view(w, field, &own) : inspect_view(w, field, &own);
     if (result == PBMPM_OK) WRITE(pbmpm_view, view, &own);
@@ -509,7 +504,7 @@ pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *de
     if (capacity) REQUIRE(buffer);
     const char *problem = copy_problem(&own);
     if (problem) return api_invalid(problem);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     LET_GO(copy_particles(w, &own, buffer, capacity, count));
 }
 
@@ -524,8 +519,9 @@ pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id 
 {
     if (count) REQUIRE(ids);
     if (count) REQUIRE(rows);
-    HOLD(world);
+    HOLD_READING(world);
     uint32_t row;
+    readers_find_rows(w);
     for (uint32_t i = 0; i < count; i++)
         if (!particles_row(&w->particles, ids[i], &row))
             LET_GO(fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i));
@@ -538,18 +534,31 @@ pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id 
 pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats)
 {
     REQUIRE_SIZE(pbmpm_stats, stats);
-    HOLD(world);
+    HOLD_READING(world);
     pbmpm_stats own;
-    const pbmpm_result result = inspect_stats(w, &own);
-    if (result == PBMPM_OK) WRITE(pbmpm_stats, stats, &own);
-    LET_GO(result);
+    inspect_stats(w, &own);
+    WRITE(pbmpm_stats, stats, &own);
+    LET_GO(PBMPM_OK);
+}
+
+pbmpm_result pbmpm_world_get_step_stats(pbmpm_world_id world, pbmpm_stats *stats)
+{
+    REQUIRE_SIZE(pbmpm_stats, stats);
+    HOLD_READING_STEPPING(world);
+    pbmpm_stats own;
+    if (background_is_stepping(w))
+        own = *background_step_stats(w);
+    else
+        inspect_step_stats(w, &own);
+    WRITE(pbmpm_stats, stats, &own);
+    LET_GO(PBMPM_OK);
 }
 
 pbmpm_result pbmpm_world_events(pbmpm_world_id world, pbmpm_event *events, uint32_t capacity, uint32_t *count, uint32_t *missed)
 {
     REQUIRE(count);
     if (capacity) REQUIRE_SIZE(pbmpm_event, events);
-    HOLD(world);
+    HOLD_READING(world);
     for (uint32_t i = 0; i < w->events.count && i < capacity; i++) sized_put(SIZED_pbmpm_event, events, i, &w->events.list[i]);
     *count = w->events.count;
     if (missed) *missed = w->events.missed;

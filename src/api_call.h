@@ -58,23 +58,26 @@ typedef struct Hold {
     uint32_t float_mode;
 } Hold;
 
-pbmpm_result api_hold(pbmpm_world_id id, Hold *held);
+/* How a call holds a world. */
+typedef enum HoldKind {
+    HOLD_ALONE = 0,
+    HOLD_TO_READ = 1,      /* with others that read: the call changes nothing but what readers.h makes */
+    HOLD_WHILE_STEPPING = 2 /* also while a step runs in the background */
+} HoldKind;
+
+pbmpm_result api_hold(pbmpm_world_id id, int kind, Hold *held);
 pbmpm_result api_let_go(const Hold *held, pbmpm_result result);
 
-#define HOLD(id)                                                                                                        \
+#define HOLD_AS(id, kind)                                                                                               \
     Hold held;                                                                                                          \
-    const pbmpm_result hold_result = api_hold(id, &held);                                                               \
+    const pbmpm_result hold_result = api_hold(id, kind, &held);                                                         \
     if (hold_result != PBMPM_OK) return hold_result;                                                                    \
     World *w = held.world
 
-/* The same for the few calls that a world takes while a step runs in the background. */
-pbmpm_result api_hold_stepping(pbmpm_world_id id, Hold *held);
-
-#define HOLD_STEPPING(id)                                                                                               \
-    Hold held;                                                                                                          \
-    const pbmpm_result hold_result = api_hold_stepping(id, &held);                                                      \
-    if (hold_result != PBMPM_OK) return hold_result;                                                                    \
-    World *w = held.world
+#define HOLD(id) HOLD_AS(id, HOLD_ALONE)
+#define HOLD_READING(id) HOLD_AS(id, HOLD_TO_READ)
+#define HOLD_STEPPING(id) HOLD_AS(id, HOLD_WHILE_STEPPING)
+#define HOLD_READING_STEPPING(id) HOLD_AS(id, HOLD_TO_READ | HOLD_WHILE_STEPPING)
 
 #define LET_GO(result) return api_let_go(&held, result)
 

@@ -54,7 +54,7 @@ pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, p
 {
     if (def) REQUIRE_SIZE(pbmpm_emitter_def, def);
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
-    HOLD(world);
+    HOLD_READING(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
     if (def) WRITE(pbmpm_emitter_def, def, &found->def);
@@ -91,7 +91,7 @@ pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, 
 pbmpm_result pbmpm_emitter_status_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_status *status)
 {
     REQUIRE_SIZE(pbmpm_emitter_status, status);
-    HOLD(world);
+    HOLD_READING(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
     if (!found) LET_GO(no_emitter());
     pbmpm_emitter_status own;
@@ -146,7 +146,7 @@ pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_d
 {
     if (def) REQUIRE_SIZE(pbmpm_drain_def, def);
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
-    HOLD(world);
+    HOLD_READING(world);
     const Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
     if (def) WRITE(pbmpm_drain_def, def, &found->def);
@@ -172,7 +172,7 @@ pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const p
 pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status)
 {
     REQUIRE_SIZE(pbmpm_drain_status, status);
-    HOLD(world);
+    HOLD_READING(world);
     const Drain *found = sinks_find(&w->sinks, drain);
     if (!found) LET_GO(no_drain());
     const pbmpm_drain_status own = {.size = sizeof own, .drained = found->drained, .drained_mass = found->drained_mass};
@@ -199,7 +199,7 @@ pbmpm_result pbmpm_world_set_kill_bounds(pbmpm_world_id world, const pbmpm_kill_
 pbmpm_result pbmpm_world_get_kill_bounds(pbmpm_world_id world, pbmpm_kill_bounds *bounds)
 {
     REQUIRE_SIZE(pbmpm_kill_bounds, bounds);
-    HOLD(world);
+    HOLD_READING(world);
     WRITE(pbmpm_kill_bounds, bounds, &w->sinks.bounds);
     LET_GO(PBMPM_OK);
 }
@@ -207,7 +207,7 @@ pbmpm_result pbmpm_world_get_kill_bounds(pbmpm_world_id world, pbmpm_kill_bounds
 pbmpm_result pbmpm_world_get_flow(pbmpm_world_id world, pbmpm_flow *flow)
 {
     REQUIRE_SIZE(pbmpm_flow, flow);
-    HOLD(world);
+    HOLD_READING(world);
     WRITE(pbmpm_flow, flow, &w->flow);
     LET_GO(PBMPM_OK);
 }
@@ -261,7 +261,7 @@ pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_f
 {
     if (def) REQUIRE_SIZE(pbmpm_force_def, def);
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
-    HOLD(world);
+    HOLD_READING(world);
     const Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
     if (def) WRITE(pbmpm_force_def, def, &found->def);
@@ -290,7 +290,7 @@ pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const p
 pbmpm_result pbmpm_force_status_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_status *status)
 {
     REQUIRE_SIZE(pbmpm_force_status, status);
-    HOLD(world);
+    HOLD_READING(world);
     const Force *found = forces_find(&w->forces, force);
     if (!found) LET_GO(no_force());
     pbmpm_force_status own = {.size = sizeof own, .nodes = found->nodes};

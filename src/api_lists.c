@@ -27,7 +27,7 @@ typedef struct KeyedId {
 static pbmpm_result is_valid(pbmpm_world_id world, KeyedKind kind, KeyedId id, int32_t *valid)
 {
     if (!registry_has(world)) return *valid = 0, PBMPM_OK;
-    HOLD(world);
+    HOLD_READING(world);
     *valid = id.generation != 0 && keyed_generation(w, kind, id.index) == id.generation;
     LET_GO(PBMPM_OK);
 }
@@ -50,7 +50,7 @@ static KeyedId next_from(const World *w, KeyedKind kind, uint32_t slot)
     {                                                                                                                   \
         REQUIRE(count);                                                                                                 \
         if (capacity) REQUIRE(many);                                                                                    \
-        HOLD(world);                                                                                                    \
+        HOLD_READING(world);                                                                                                    \
         *count = 0;                                                                                                     \
         for (KeyedId id = next_from(w, kind, 0); id.generation != 0; id = next_from(w, kind, id.index + 1)) {           \
             if (*count < capacity) many[*count] = (pbmpm_##one##_id){id.index, id.generation};                          \
@@ -69,7 +69,7 @@ pbmpm_result pbmpm_world_debug_lines(pbmpm_world_id world, uint32_t parts, pbmpm
 {
     REQUIRE(count);
     if (capacity) REQUIRE(lines);
-    HOLD(world);
+    HOLD_READING(world);
     if (parts & ~(uint32_t)PBMPM_DEBUG_ALL) LET_GO(api_invalid("parts: a bit is not that of a pbmpm_debug_part"));
     *count = lines_draw(w, parts, lines, capacity);
     LET_GO(PBMPM_OK);

@@ -80,7 +80,7 @@ static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no suc
 pbmpm_result pbmpm_baked_get(pbmpm_world_id world, pbmpm_baked_id baked, pbmpm_baked_info *info)
 {
     REQUIRE_SIZE(pbmpm_baked_info, info);
-    HOLD(world);
+    HOLD_READING(world);
     const DistanceGrid *grid = baked_find(&w->baked, baked);
     if (!grid) LET_GO(no_solid());
     const pbmpm_baked_info own = baked_describe(grid);
@@ -111,7 +111,7 @@ static void read_impulse(const World *world, uint32_t place, const float about[3
 pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_impulse *impulse)
 {
     REQUIRE_SIZE(pbmpm_impulse, impulse);
-    HOLD(world);
+    HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
     if (!found) LET_GO(fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"));
     if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
@@ -128,7 +128,7 @@ static const char *wrong_wall(const World *w, int32_t axis, int32_t upper)
 pbmpm_result pbmpm_domain_wall_get(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_domain_wall *wall)
 {
     REQUIRE_SIZE(pbmpm_domain_wall, wall);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = wrong_wall(w, axis, upper);
     if (problem) LET_GO(api_invalid(problem));
     WRITE(pbmpm_domain_wall, wall, &w->domain.wall[domain_place(axis, upper)]);
@@ -151,7 +151,7 @@ pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t u
 pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, int32_t upper, pbmpm_impulse *impulse)
 {
     REQUIRE_SIZE(pbmpm_impulse, impulse);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = wrong_wall(w, axis, upper);
     if (!problem && !w->def.domain_measures_impulse) problem = "the walls measure no impulse: set world.domain_measures_impulse";
     if (problem) LET_GO(api_invalid(problem));

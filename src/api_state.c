@@ -13,7 +13,7 @@
 pbmpm_result pbmpm_snapshot_size(pbmpm_world_id world, uint64_t *bytes, uint32_t *bytes_per_particle)
 {
     REQUIRE(bytes);
-    HOLD(world);
+    HOLD_READING(world);
     *bytes = snapshot_size(w);
     if (bytes_per_particle) *bytes_per_particle = snapshot_bytes_per_particle(w);
     LET_GO(PBMPM_OK);
@@ -22,7 +22,7 @@ pbmpm_result pbmpm_snapshot_size(pbmpm_world_id world, uint64_t *bytes, uint32_t
 pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, uint64_t capacity, uint64_t *bytes)
 {
     REQUIRE(buffer);
-    HOLD(world);
+    HOLD_READING(world);
     const uint64_t needed = snapshot_size(w);
     if (bytes) *bytes = needed;
     if (needed > capacity)
@@ -68,7 +68,7 @@ pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait)
 pbmpm_result pbmpm_world_step_done(pbmpm_world_id world, int32_t *done)
 {
     REQUIRE(done);
-    HOLD_STEPPING(world);
+    HOLD_READING_STEPPING(world);
     LET_GO(background_done(w, done));
 }
 
@@ -102,7 +102,7 @@ pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, 
     READ(pbmpm_shape, own, shape, shape_defaults());
     REQUIRE(count);
     if (capacity) REQUIRE_SIZE(pbmpm_region_share, shares);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (problem) LET_GO(api_invalid(problem));
     const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
@@ -112,7 +112,7 @@ pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shape *shape, 
 pbmpm_result pbmpm_query_points(pbmpm_world_id world, const float *points, uint32_t count, float *filling, float *density, float *velocity)
 {
     if (count) REQUIRE(points);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = query_points_problem(w, points, count);
     if (problem) LET_GO(api_invalid(problem));
     LET_GO(query_points(w, points, count, filling, density, velocity));
@@ -123,7 +123,7 @@ pbmpm_result pbmpm_query_heights(pbmpm_world_id world, const float *points, uint
 {
     if (count) REQUIRE(points);
     if (count) REQUIRE(heights);
-    HOLD(world);
+    HOLD_READING(world);
     double up[3];
     const char *problem = query_points_problem(w, points, count);
     if (!problem) problem = query_level_problem(level);
@@ -137,7 +137,7 @@ pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_r
 {
     READ(pbmpm_ray, own, ray, query_ray_defaults());
     REQUIRE_SIZE(pbmpm_ray_hit, hit);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = query_ray_problem(w, &own);
     if (problem) LET_GO(api_invalid(problem));
     pbmpm_ray_hit found;

@@ -10,7 +10,7 @@
 #include "step.h"
 #include "thread.h"
 
-enum { FIELDS = INSPECT_FIELDS };
+enum { FIELDS = INSPECT_FIELDS, SETS = 2 };
 
 /* What the step's thread is at. It goes from COPYING to DONE; callers do the rest. */
 typedef enum Stage { IDLE, COPYING, STEPPING, DONE } Stage;
@@ -20,11 +20,12 @@ struct Background {
     pbmpm_field wanted[FIELDS];
     uint32_t wanted_count;
 
-    /* Copies of published fields, by field. They stay until the end, for a view may expire but not dangle. */
-    char *copy[FIELDS];
-    pbmpm_view view[FIELDS]; /* of the copies; size 0: not published in this step */
-    uint32_t count;
-    float seconds;                    /* that the step before lasted */
+    /* Copies of published fields, by field. Steps take turns with the two sets, so a renderer that is a frame late reads a whole old frame. */
+    char *copy[SETS][FIELDS];
+    int turn; /* the set of this step, or of the last one */
+    pbmpm_view view[FIELDS]; /* of its copies; size 0: not published in this step */
+    pbmpm_stats stats; /* of the step before */
+    float seconds;     /* that it lasted */
     uint64_t generation;
 
     bool begun; /* from a begin to its end */
@@ -66,7 +67,7 @@ static void copy_field(Background *background, pbmpm_field field)
     *view = (pbmpm_view){.size = sizeof *view};
     if (inspect_view(background->world, field, view) != PBMPM_OK) return;
     const char *from = view->data;
-    char *to = background->copy[field];
+    char *to = background->copy[background->turn][field];
     view->data = view->count ? to : NULL;
     view->generation = background->generation;
     if (view->stride == (uint64_t)view->components * view->component_stride) {
@@ -89,11 +90,11 @@ static void copy_fields(Background *background)
 static pbmpm_result reserve_copies(World *world)
 {
     Background *background = world->background;
-    for (uint32_t i = 0; i < background->wanted_count; i++) {
-        const pbmpm_field field = background->wanted[i];
-        if (background->copy[field]) continue;
-        background->copy[field] = memory_take(&world->memory, copy_bytes(world, field));
-        if (!background->copy[field]) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to publish field %d", (int)field);
+    for (uint32_t i = 0; i < SETS * background->wanted_count; i++) {
+        const pbmpm_field field = background->wanted[i / SETS];
+        char **copy = &background->copy[i % SETS][field];
+        if (!*copy) *copy = memory_take(&world->memory, copy_bytes(world, field));
+        if (!*copy) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to publish field %d", (int)field);
     }
     return PBMPM_OK;
 }
@@ -179,8 +180,8 @@ void background_free(World *world)
 {
     Background *background = world->background;
     if (!background) return;
-    for (int field = 0; field < FIELDS; field++)
-        memory_give(&world->memory, background->copy[field], copy_bytes(world, (pbmpm_field)field));
+    for (int i = 0; i < SETS * FIELDS; i++)
+        memory_give(&world->memory, background->copy[i % SETS][i / SETS], copy_bytes(world, (pbmpm_field)(i / SETS)));
     memory_give(&world->memory, background, sizeof *background);
     world->background = NULL;
 }
@@ -206,7 +207,8 @@ pbmpm_result background_begin(World *world, float dt)
     if (result != PBMPM_OK) return result;
     Background *background = world->background;
     world_touch(world);
-    background->count = world->particles.count;
+    background->turn = (background->turn + 1) % SETS;
+    inspect_step_stats(world, &background->stats);
     background->seconds = world->record.seconds;
     background->generation = world->generation;
     background->dt = dt;
@@ -257,7 +259,9 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
     return PBMPM_OK;
 }
 
-uint32_t background_count(const World *world) { return world->background->count; }
+uint32_t background_count(const World *world) { return world->background->stats.particle_count; }
+
+const pbmpm_stats *background_step_stats(const World *world) { return &world->background->stats; }
 
 float background_seconds(const World *world) { return world->background->seconds; }
 

@@ -20,6 +20,7 @@ pbmpm_result background_done(World *world, int32_t *done);
 /* Of the state that the step began with. */
 pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view);
 uint32_t background_count(const World *world);
+const pbmpm_stats *background_step_stats(const World *world);
 /* How long the step lasted that made this state; 0: there was none. */
 float background_seconds(const World *world);
 uint64_t background_generation(const World *world);

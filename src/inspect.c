@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "readers.h"
 #include "result.h"
 
 /* ---- Views ---- */
@@ -54,7 +55,7 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
     const uint32_t d = (uint32_t)p->dimension;
     pbmpm_view found;
     switch (field) {
-    case PBMPM_POSITION: found = packed(particles_positions(p, (double)world->def.cell_size, world->pool), d); break;
+    case PBMPM_POSITION: found = packed(readers_positions(world), d); break;
     case PBMPM_VELOCITY: found = planes(p->velocity[0], d, p->array_bytes); break;
     case PBMPM_AFFINE_VELOCITY: found = planes(p->affine[0], d * d, p->array_bytes); break;
     case PBMPM_VOLUME_RATIO: found = packed(p->volume_ratio, 1); break;
@@ -65,7 +66,7 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
         break;
     case PBMPM_MATERIAL: found = packed(p->material, 1); break;
     case PBMPM_PARTICLE: found = packed(p->id, 2); break;
-    case PBMPM_MASS: found = packed(particles_kilograms(p, world_cell_volume(world)), 1); break;
+    case PBMPM_MASS: found = packed(readers_kilograms(world), 1); break;
     case PBMPM_PRESSURE:
         if (!p->pressure) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has pressures only once the dual solver was used");
         found = packed(p->pressure, 1);
@@ -86,50 +87,94 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
 
 /* ---- Statistics ---- */
 
-static void position_of(const World *world, uint32_t row, double point[3])
-{
-    for (int a = 0; a < 3; a++)
-        point[a] = a < world->def.dimension ? particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size : 0.0;
-}
-
-/* Sums over all particles, in storage order and double precision. */
+/* Sums over particles, in double precision. */
 typedef struct Sums {
     double mass, momentum[3], angular[3], kinetic, potential;
     double volume_error2, volume_error_max, speed2_max;
 } Sums;
 
+/* Particles are summed in storage order in parts that depend on nothing but their number, and then the parts in order: so the threads that share them
+ * change no bit. */
+enum { PARTS = 64, PART_ROWS = 2048 };
+
+typedef struct Summing {
+    const World *world;
+    double cell_size, cell_volume;
+    uint32_t part_rows;
+    Sums part[PARTS];
+} Summing;
+
 /* L = sum m (x cross v + dx^2/4 axl(C - C^T)): the affine part carries angular momentum of its own (C. Jiang et al., "The
  * Affine Particle-In-Cell Method", ACM TOG 34(4), 2015, with the quadratic spline's inertia dx^2/4). */
-static void add_angular(const World *world, uint32_t row, double mass, const double x[3], const double v[3], Sums *sums)
+static void add_angular(const Summing *summing, uint32_t row, double mass, const double x[3], const double v[3], Sums *sums)
 {
-    float *const *C = world->particles.affine;
-    const double inertia = 0.25 * (double)world->def.cell_size * (double)world->def.cell_size;
-    for (int a = world->def.dimension == 3 ? 0 : 2; a < 3; a++) {
+    float *const *C = summing->world->particles.affine;
+    const double inertia = 0.25 * summing->cell_size * summing->cell_size;
+    for (int a = summing->world->def.dimension == 3 ? 0 : 2; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
         const double spin = (double)C[c * 3 + b][row] - (double)C[b * 3 + c][row];
         sums->angular[a] += mass * (x[b] * v[c] - x[c] * v[b] + inertia * spin);
     }
 }
 
-static void add_particle(const World *world, uint32_t row, Sums *sums)
+static void add_particle(const Summing *summing, uint32_t row, Sums *sums)
 {
-    const Particles *p = &world->particles;
-    const double mass = (double)p->mass[row] * world_cell_volume(world);
+    const Particles *p = &summing->world->particles;
+    const double mass = (double)p->mass[row] * summing->cell_volume;
     const double volume_error = fabs((double)p->volume_ratio[row] - 1.0);
-    double x[3], v[3] = {0}, speed2 = 0.0;
-    position_of(world, row, x);
+    double x[3] = {0}, v[3] = {0}, speed2 = 0.0, height = 0.0;
     for (int a = 0; a < p->dimension; a++) {
+        x[a] = particles_coordinate(p, row, a) * summing->cell_size;
         v[a] = (double)p->velocity[a][row];
         speed2 += v[a] * v[a];
+        height += (double)summing->world->settings.gravity[a] * x[a];
         sums->momentum[a] += mass * v[a];
-        sums->potential -= mass * (double)world->settings.gravity[a] * x[a];
     }
-    add_angular(world, row, mass, x, v, sums);
+    add_angular(summing, row, mass, x, v, sums);
     sums->mass += mass;
     sums->kinetic += 0.5 * mass * speed2;
+    sums->potential -= mass * height;
     if (!(speed2 <= sums->speed2_max)) sums->speed2_max = speed2; /* a NaN stays */
     sums->volume_error2 += volume_error * volume_error;
     if (!(volume_error <= sums->volume_error_max)) sums->volume_error_max = volume_error;
+}
+
+static void sum_parts(void *context, int32_t begin, int32_t end)
+{
+    Summing *summing = context;
+    for (int32_t part = begin; part < end; part++) {
+        const uint32_t first = (uint32_t)part * summing->part_rows, left = summing->world->particles.count - first;
+        const uint32_t last = first + (left < summing->part_rows ? left : summing->part_rows);
+        Sums sums = {0};
+        for (uint32_t row = first; row < last; row++) add_particle(summing, row, &sums);
+        summing->part[part] = sums;
+    }
+}
+
+static void add_sums(Sums *all, const Sums *part)
+{
+    for (int a = 0; a < 3; a++) {
+        all->momentum[a] += part->momentum[a];
+        all->angular[a] += part->angular[a];
+    }
+    all->mass += part->mass;
+    all->kinetic += part->kinetic;
+    all->potential += part->potential;
+    all->volume_error2 += part->volume_error2;
+    if (!(part->speed2_max <= all->speed2_max)) all->speed2_max = part->speed2_max;
+    if (!(part->volume_error_max <= all->volume_error_max)) all->volume_error_max = part->volume_error_max;
+}
+
+static Sums sum_particles(World *world)
+{
+    const uint32_t count = world->particles.count, even = count / PARTS + 1;
+    Summing summing = {.world = world, .cell_size = (double)world->def.cell_size, .cell_volume = world_cell_volume(world)};
+    summing.part_rows = even > PART_ROWS ? even : PART_ROWS;
+    const uint32_t parts = (count + summing.part_rows - 1) / summing.part_rows;
+    Sums all = {0};
+    pool_for(world->pool, (int32_t)parts, 1, sum_parts, &summing);
+    for (uint32_t part = 0; part < parts; part++) add_sums(&all, &summing.part[part]);
+    return all;
 }
 
 /* Adds the lanes that the gangs of the runs take. */
@@ -143,25 +188,30 @@ static void add_lanes(const World *world, const Grid *grid, uint64_t *lanes, uin
     }
 }
 
-static void fill_grids(const World *world, pbmpm_stats *stats)
+static float lane_occupancy(const World *world)
 {
     uint64_t lanes = 0, particles = 0;
+    for (int group = 0; group == 0 || group < world->islands.groups; group++) add_lanes(world, islands_grid(world, group), &lanes, &particles);
+    return lanes ? (float)((double)particles / (double)lanes) : 0.0f;
+}
+
+static void fill_grids(const World *world, pbmpm_stats *stats)
+{
     for (int group = 0; group == 0 || group < world->islands.groups; group++) {
         const Grid *grid = islands_grid(world, group);
         stats->particle_blocks += (uint32_t)grid->particle_blocks;
         stats->node_blocks += (uint32_t)grid->node_blocks;
-        add_lanes(world, grid, &lanes, &particles);
     }
     stats->contacts = world->islands.contacts + colliders_contacts(&world->colliders);
-    stats->lane_occupancy = lanes ? (float)((double)particles / (double)lanes) : 0.0f;
 }
 
-static void fill_record(const World *world, pbmpm_stats *stats)
+void inspect_step_stats(World *world, pbmpm_stats *stats)
 {
     const StepRecord *record = &world->record;
+    *stats = (pbmpm_stats){.size = sizeof *stats, .particle_count = world->particles.count};
     stats->step_count = world->step_count;
     stats->simulated_seconds = world->simulated_seconds;
-    stats->memory_bytes = world->memory.used;
+    stats->memory_bytes = readers_memory_used(world);
     fill_grids(world, stats);
     stats->substeps = record->substeps;
     stats->iterations = record->iterations;
@@ -188,23 +238,20 @@ static void fill_record(const World *world, pbmpm_stats *stats)
     stats->blocks_woken = record->blocks_woken;
 }
 
-pbmpm_result inspect_stats(World *world, pbmpm_stats *stats)
+void inspect_stats(World *world, pbmpm_stats *stats)
 {
-    const uint32_t count = world->particles.count;
-    Sums sums = {0};
-    for (uint32_t row = 0; row < count; row++) add_particle(world, row, &sums);
-    *stats = (pbmpm_stats){.size = sizeof *stats, .particle_count = count};
-    fill_record(world, stats);
-    if (count == 0) return PBMPM_OK;
+    inspect_step_stats(world, stats);
+    stats->lane_occupancy = lane_occupancy(world);
+    if (stats->particle_count == 0) return;
+    const Sums sums = sum_particles(world);
     stats->mass = sums.mass;
     memcpy(stats->momentum, sums.momentum, sizeof stats->momentum);
     memcpy(stats->angular_momentum, sums.angular, sizeof stats->angular_momentum);
     stats->kinetic_energy = sums.kinetic;
     stats->potential_energy = sums.potential;
-    stats->volume_error_rms = (float)sqrt(sums.volume_error2 / count);
+    stats->volume_error_rms = (float)sqrt(sums.volume_error2 / stats->particle_count);
     stats->volume_error_max = (float)sums.volume_error_max;
     stats->max_speed = (float)sqrt(sums.speed2_max);
-    return PBMPM_OK;
 }
 
 /* ---- Hash ---- */

@@ -16,7 +16,10 @@ pbmpm_result inspect_no_field(pbmpm_field field);
 uint32_t inspect_components(const World *world, pbmpm_field field);
 bool inspect_has(const World *world, pbmpm_field field);
 
-pbmpm_result inspect_stats(World *world, pbmpm_stats *stats);
+/* What the last step has noted, and with a pass over the particles what there is now. */
+void inspect_step_stats(World *world, pbmpm_stats *stats);
+void inspect_stats(World *world, pbmpm_stats *stats);
+
 uint64_t inspect_hash(const World *world);
 
 #endif

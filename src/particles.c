@@ -51,6 +51,12 @@ static void bind_field(const Particles *p, const Field *field)
     for (int c = 0; c < particles_components(p, field->class); c++) *field->component[c] = field->base + (size_t)c * p->array_bytes;
 }
 
+/* What hosts draw keeps to its own memory, so that a view which has expired shows nothing else. Matrices do not: theirs is a third of a world's. */
+static bool is_drawn(FieldTag tag)
+{
+    return tag == FIELD_VELOCITY || tag == FIELD_VOLUME_RATIO || tag == FIELD_MATERIAL || tag == FIELD_ID || tag == FIELD_PRESSURE;
+}
+
 /* `pointers`: the first of the component pointers; those of a matrix stand in rows of three. */
 static bool add_field(Particles *p, Memory *memory, FieldTag tag, void **pointers)
 {
@@ -58,7 +64,8 @@ static bool add_field(Particles *p, Memory *memory, FieldTag tag, void **pointer
     Field *field = &p->field[p->field_count];
     *field = (Field){.base = memory_take(memory, field_bytes(p, class)), .class = class, .tag = tag};
     if (!field->base) return false;
-    if (!p->spare[class] && !(p->spare[class] = memory_take(memory, field_bytes(p, class)))) {
+    char **spare = is_drawn(tag) ? &field->other : &p->spare[class];
+    if (!*spare && !(*spare = memory_take(memory, field_bytes(p, class)))) {
         memory_give(memory, field->base, field_bytes(p, class));
         return false;
     }
@@ -88,7 +95,8 @@ pbmpm_result particles_init(Particles *p, Memory *memory, int dimension, uint32_
 {
     const size_t padded = ((size_t)capacity + K_MAX_GANG + 15) / 16 * 16; /* whole cache lines */
     *p = (Particles){.capacity = capacity, .dimension = dimension, .array_bytes = padded * 4};
-    const bool ok = add_fields(p, memory) && (p->slot_row = memory_take(memory, table_bytes(p))) &&
+    const bool ok = add_fields(p, memory) && (p->positions = memory_take(memory, field_bytes(p, CLASS_VECTOR))) &&
+                    (p->kilograms = memory_take(memory, field_bytes(p, CLASS_SCALAR))) && (p->slot_row = memory_take(memory, table_bytes(p))) &&
                     (p->slot_generation = memory_take(memory, table_bytes(p))) &&
                     (p->free_slot = memory_take(memory, table_bytes(p)));
     if (!ok) {
@@ -100,9 +108,17 @@ pbmpm_result particles_init(Particles *p, Memory *memory, int dimension, uint32_
     return PBMPM_OK;
 }
 
+static void free_field(Particles *p, Memory *memory, const Field *field)
+{
+    memory_give(memory, field->base, field_bytes(p, field->class));
+    memory_give(memory, field->other, field_bytes(p, field->class));
+}
+
 void particles_free(Particles *p, Memory *memory)
 {
-    for (int i = 0; i < p->field_count; i++) memory_give(memory, p->field[i].base, field_bytes(p, p->field[i].class));
+    for (int i = 0; i < p->field_count; i++) free_field(p, memory, &p->field[i]);
+    memory_give(memory, p->positions, field_bytes(p, CLASS_VECTOR));
+    memory_give(memory, p->kilograms, field_bytes(p, CLASS_SCALAR));
     for (int class = 0; class < CLASS_COUNT; class++) memory_give(memory, p->spare[class], field_bytes(p, class));
     memory_give(memory, p->slot_row, table_bytes(p));
     memory_give(memory, p->slot_generation, table_bytes(p));
@@ -161,7 +177,7 @@ void particles_keep_fields(Particles *p, Memory *memory, int count)
     while (p->field_count > count) {
         const Field *field = &p->field[--p->field_count];
         for (int c = 0; c < particles_components(p, field->class); c++) *field->component[c] = NULL;
-        memory_give(memory, field->base, field_bytes(p, field->class));
+        free_field(p, memory, field);
     }
 }
 
@@ -271,7 +287,7 @@ void particles_compact(Particles *p, uint32_t first)
     particles_changed(p);
 }
 
-/* One field, which goes from its own memory to the spare of its class, or back. */
+/* One field, which goes from its own memory to other, or back. */
 typedef struct Reorder {
     const uint32_t *order;
     char *from, *to;
@@ -337,7 +353,7 @@ typedef struct Adopt {
     bool swaps;
 } Adopt;
 
-/* What was sorted into the spares becomes the fields, and what they were the spares of those that follow. */
+/* What was sorted into other memory becomes the fields, and what they were is where the next are sorted to. */
 static void adopt(void *context, int32_t begin, int32_t end)
 {
     const Adopt *job = context;
@@ -346,8 +362,8 @@ static void adopt(void *context, int32_t begin, int32_t end)
     (void)end;
     for (int i = 0; i < p->field_count && job->swaps; i++) {
         Field *field = &p->field[i];
-        char *sorted = p->spare[field->class];
-        p->spare[field->class] = field->base;
+        char **other = field->other ? &field->other : &p->spare[field->class], *sorted = *other;
+        *other = field->base;
         field->base = sorted;
         bind_field(p, field);
     }
@@ -365,12 +381,13 @@ void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Loop
         const Field *field = &p->field[i];
         const int components = particles_components(p, field->class);
         const uint32_t count = p->count - first;
-        const Reorder job = {order, field->base, spare[field->class], p->array_bytes, first, field->class, components};
+        char *other = field->other ? field->other : spare[field->class];
+        const Reorder job = {order, field->base, other, p->array_bytes, first, field->class, components};
         const Span rows = {(int32_t)count, ROW_GRAIN, (int64_t)count * components};
         LOOPS_ADD(loops, rows, reorder_field, &job);
         if (first > 0)
             LOOPS_ADD(loops, rows, copy_back, &job);
-        else
+        else if (!field->other)
             spare[field->class] = field->base;
     }
     LOOPS_ADD(loops, span_once(), adopt, &last);
@@ -394,13 +411,16 @@ void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count)
     particles_changed(p);
 }
 
+void particles_find_rows(Particles *p)
+{
+    for (uint32_t i = 0; i < p->count && !p->rows_valid; i++) p->slot_row[p->id[i].index] = i;
+    p->rows_valid = true;
+}
+
 bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row)
 {
     if (id.index >= p->capacity || id.generation == 0 || p->slot_generation[id.index] != id.generation) return false;
-    if (!p->rows_valid) {
-        for (uint32_t i = 0; i < p->count; i++) p->slot_row[p->id[i].index] = i;
-        p->rows_valid = true;
-    }
+    if (!p->rows_valid) particles_find_rows(p);
     *row = p->slot_row[id.index];
     return true;
 }
@@ -423,16 +443,15 @@ static void make_positions(void *context, int32_t begin, int32_t end)
 
 const float *particles_positions(Particles *p, double cell_size, Pool *pool)
 {
-    MakePositions job = {p, (float *)(void *)p->spare[CLASS_VECTOR], cell_size};
+    MakePositions job = {p, p->positions, cell_size};
     if (!p->positions_made) pool_for(pool, (int32_t)p->count, ROW_GRAIN, make_positions, &job);
     p->positions_made = true;
-    return job.positions;
+    return p->positions;
 }
 
 const float *particles_kilograms(Particles *p, double cell_volume)
 {
-    float *kilograms = (float *)(void *)p->spare[CLASS_SCALAR];
-    for (uint32_t i = 0; i < p->count && !p->masses_made; i++) kilograms[i] = (float)((double)p->mass[i] * cell_volume);
-    p->masses_made = true;
-    return kilograms;
+    for (uint32_t i = 0; i < p->count && !p->kilograms_made; i++) p->kilograms[i] = (float)((double)p->mass[i] * cell_volume);
+    p->kilograms_made = true;
+    return p->kilograms;
 }

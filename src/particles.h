@@ -8,7 +8,7 @@
 #include "pbmpm/particles.h"
 #include "pool.h"
 
-/* Sizes of fields, as multiples of one array: each has a spare, into which a field is written in its new order. */
+/* Sizes of fields, as multiples of one array. */
 enum { CLASS_SCALAR, CLASS_VECTOR, CLASS_MATRIX, CLASS_ID, CLASS_COUNT, MAX_FIELDS = 24, MAX_COMPONENTS = 9 };
 
 /* What a field is. Snapshots name fields by these numbers, so none gets another meaning. */
@@ -35,6 +35,7 @@ typedef enum FieldTag {
 /* A quantity of the particles: `components` arrays of equal length in one allocation. */
 typedef struct Field {
     char *base;
+    char *other; /* into which it is written in its new order, by turns; null: into the spare of its class */
     int class;
     FieldTag tag;
     void **component[MAX_COMPONENTS]; /* the pointers below that point into it */
@@ -64,10 +65,11 @@ typedef struct Particles {
 
     Field field[MAX_FIELDS]; /* all of the above that exist; they move together */
     int field_count;
-    char *spare[CLASS_COUNT];
+    char *spare[CLASS_COUNT]; /* fields without an `other` go round through it: each leaves its memory to the next */
+    float *positions, *kilograms; /* for views */
     size_t array_bytes; /* from one component of a field to the next; twice as much for identifiers */
 
-    bool positions_made, masses_made; /* in the spares, for views; until the next change of order */
+    bool positions_made, kilograms_made; /* until particles change */
     uint32_t *slot_row;        /* per identifier index: the particle's row; valid when rows_valid */
     uint32_t *slot_generation; /* per identifier index: its live generation, 0 if free */
     uint32_t *free_slot;       /* stack of free identifier indices */
@@ -140,6 +142,9 @@ void particles_reorder(Particles *p, const uint32_t *order, uint32_t first, Loop
 /* Exchanges `count` rows from `a` on with those from `b` on; the two do not overlap. */
 void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count);
 
+/* Notes the rows of all particles, unless they are noted. */
+void particles_find_rows(Particles *p);
+
 /* The row of a live particle, or false. */
 bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row);
 
@@ -149,8 +154,7 @@ void particles_set_position(Particles *p, uint32_t row, const double position[3]
 void particles_shift(Particles *p, uint32_t row, const double way[3]);
 double particles_coordinate(const Particles *p, uint32_t row, int axis); /* in cells */
 
-/* d floats [m] per particle, and kilograms, for views; valid until the particles change. They are written into the spares,
- * which nobody needs between steps. */
+/* d floats [m] per particle, and kilograms, for views; right until the particles change. */
 const float *particles_positions(Particles *p, double cell_size, Pool *pool);
 const float *particles_kilograms(Particles *p, double cell_volume);
 
@@ -161,6 +165,6 @@ static inline void particles_forget(Particles *p, uint32_t row)
 }
 
 /* To be called when any particle has changed. */
-static inline void particles_changed(Particles *p) { p->positions_made = p->masses_made = false; }
+static inline void particles_changed(Particles *p) { p->positions_made = p->kilograms_made = false; }
 
 #endif

@@ -25,7 +25,8 @@ struct Pool {
     int threads;
     int spin_rounds;
     bool serial;
-    Loops *loops; /* under way */
+    atomic_bool taken; /* by loops under way: of several readers of a world one has the threads */
+    Loops *loops;      /* under way */
 
     /* Own threads only. */
     pthread_mutex_t lock;
@@ -186,19 +187,32 @@ int pool_thread_count(const Pool *pool) { return pool->threads; }
 
 void pool_set_serial(Pool *pool, bool serial) { pool->serial = serial; }
 
-static void fork_join(Pool *pool, Loops *loops)
+static void share_with_host(Pool *pool)
 {
-    pool->loops = loops;
-    if (pool->hooks.enqueue) {
-        const uint32_t mode = float_mode_lend();
-        void *handle = pool->hooks.enqueue(host_task, pool->threads, pool, pool->hooks.user);
-        pool->hooks.finish(handle, pool->hooks.user);
-        float_mode_take_back(mode);
-        return;
-    }
+    const uint32_t mode = float_mode_lend();
+    void *handle = pool->hooks.enqueue(host_task, pool->threads, pool, pool->hooks.user);
+    pool->hooks.finish(handle, pool->hooks.user);
+    float_mode_take_back(mode);
+}
+
+static void share_with_workers(Pool *pool)
+{
     start_round(pool);
-    run_share(loops, pool->spin_rounds);
+    run_share(pool->loops, pool->spin_rounds);
     finish_round(pool);
+}
+
+/* False, and nothing done: another reader has the threads. */
+static bool fork_join(Pool *pool, Loops *loops)
+{
+    if (atomic_exchange(&pool->taken, true)) return false;
+    pool->loops = loops;
+    if (pool->hooks.enqueue)
+        share_with_host(pool);
+    else
+        share_with_workers(pool);
+    atomic_store(&pool->taken, false);
+    return true;
 }
 
 typedef struct PointerJob {
@@ -215,15 +229,14 @@ static void run_pointed(void *context, int32_t begin, int32_t end)
 void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *context)
 {
     if (count <= 0) return;
-    if (pool->serial || pool->threads == 1 || count <= grain) {
-        task(context, 0, count);
-        return;
+    if (pool && !pool->serial && pool->threads > 1 && count > grain) {
+        Loops loops;
+        loops_open(&loops, pool);
+        const PointerJob job = {task, context};
+        LOOPS_ADD(&loops, ((Span){count, grain, WORTH_A_FORK_NS}), run_pointed, &job);
+        if (fork_join(pool, &loops)) return;
     }
-    Loops loops;
-    loops_open(&loops, pool);
-    const PointerJob job = {task, context};
-    LOOPS_ADD(&loops, ((Span){count, grain, WORTH_A_FORK_NS}), run_pointed, &job);
-    fork_join(pool, &loops);
+    task(context, 0, count);
 }
 
 /* ---- Loops that follow one another ---- */
@@ -252,10 +265,8 @@ void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, si
 void loops_run(Loops *loops)
 {
     Pool *pool = loops->pool;
-    if (pool->serial || pool->threads == 1 || loops->ns < WORTH_A_FORK_NS) {
+    const bool shares = !pool->serial && pool->threads > 1 && loops->ns >= WORTH_A_FORK_NS;
+    if (!shares || !fork_join(pool, loops))
         for (int i = 0; i < loops->count; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
-    } else {
-        fork_join(pool, loops);
-    }
     loops_open(loops, pool);
 }

@@ -24,7 +24,8 @@ int pool_thread_count(const Pool *pool);
 /* Serial mode runs every loop on the caller: cheaper when there is little to do. */
 void pool_set_serial(Pool *pool, bool serial);
 
-/* Calls task on disjoint ranges of at most `grain` items that cover [0, count), and returns when all are done. */
+/* Calls task on disjoint ranges of at most `grain` items that cover [0, count), and returns when all are done. Without a pool, or with one that
+ * works for another thread, on the caller. */
 void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *context);
 
 /* ---- Loops that follow one another ----

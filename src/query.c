@@ -7,6 +7,7 @@
 #include "lookup.h"
 #include "numbers.h"
 #include "pool.h"
+#include "readers.h"
 #include "result.h"
 
 /* A particle counts nearer than NODE_REACH along each axis, and it is within 1/2 of the node that it is stored at. */
@@ -56,11 +57,6 @@ const char *query_ray_problem(const World *world, const pbmpm_ray *ray)
     if (!problem && !normalise(ray->direction, world->def.dimension, 1.0, unit)) problem = "ray.direction must be finite and longer than 1e-6";
     if (!problem && !in_range(ray->max_distance, 0.0, 1e9)) problem = "ray.max_distance must be in [0, 1e9]";
     return problem;
-}
-
-static pbmpm_result prepare(World *world)
-{
-    return lookup_build(&world->lookup, &world->memory, &world->particles, world->generation, world->pool);
 }
 
 /* ---- Weights ---- */
@@ -157,7 +153,7 @@ static void sample_points(void *context, int32_t begin, int32_t end)
 
 pbmpm_result query_points(World *world, const float *points, uint32_t count, float *filling, float *density, float *velocity)
 {
-    const pbmpm_result result = prepare(world);
+    const pbmpm_result result = readers_build_lookup(world);
     if (result != PBMPM_OK) return result;
     PointsJob job = {world, points, filling, density, velocity};
     pool_for(world->pool, (int32_t)count, POINT_GRAIN, sample_points, &job);
@@ -311,7 +307,7 @@ static void find_heights(void *context, int32_t begin, int32_t end)
 
 pbmpm_result query_heights(World *world, const float *points, uint32_t count, const double up[3], float level, float *heights)
 {
-    const pbmpm_result result = prepare(world);
+    const pbmpm_result result = readers_build_lookup(world);
     if (result != PBMPM_OK) return result;
     HeightsJob job = {world, points, up, (double)level, heights};
     pool_for(world->pool, (int32_t)count, POINT_GRAIN, find_heights, &job);
@@ -376,7 +372,7 @@ static void describe_hit(const Line *line, double t, pbmpm_ray_hit *hit)
 
 pbmpm_result query_ray(World *world, const pbmpm_ray *ray, pbmpm_ray_hit *hit)
 {
-    const pbmpm_result result = prepare(world);
+    const pbmpm_result result = readers_build_lookup(world);
     if (result != PBMPM_OK) return result;
     Line line = {.world = world, .level = (double)ray->level};
     query_direction(world, ray->direction, line.direction);

@@ -4,6 +4,7 @@
 
 #include "lookup.h"
 #include "query.h"
+#include "readers.h"
 #include "sized.h"
 
 /* A box that is surely on one side by more than this share of a cell is not looked into: far above rounding. */
@@ -49,7 +50,7 @@ static void add_rows(const LookupBox *box, uint32_t begin, uint32_t end, void *c
 
 static pbmpm_result visit_region(World *world, Region *region)
 {
-    const pbmpm_result result = lookup_build(&world->lookup, &world->memory, &world->particles, world->generation, world->pool);
+    const pbmpm_result result = readers_build_lookup(world);
     if (result == PBMPM_OK) lookup_visit(&world->lookup, touches_region, add_rows, region);
     return result;
 }

@@ -11,7 +11,7 @@
 typedef struct Slot {
     atomic_bool taken;      /* by a world, or by one that comes or goes */
     atomic_uint generation; /* of the world in it; 0: none */
-    atomic_int holder;      /* the process of which a thread is inside a call; 0: none is */
+    atomic_ullong holders;  /* the process of which threads are inside calls, and how many readers: see hold_of(); 0: none are */
     World *world;
 } Slot;
 
@@ -63,34 +63,66 @@ uint32_t registry_list(pbmpm_world_id *ids, uint32_t capacity)
     return count;
 }
 
-/* False: a thread of this process has it. What a thread of the parent had when the process forked is `orphaned`: nobody will give it back. */
-static bool hold(Slot *slot, bool *orphaned)
+/* ---- Holds ---- */
+
+/* In place of a number of readers: one that may write, and is alone. */
+static const uint32_t WRITER = UINT32_MAX;
+
+typedef unsigned long long Holders;
+
+static Holders hold_of(uint32_t process, uint32_t readers) { return (Holders)process << 32 | readers; }
+
+static uint32_t process_of(Holders holders) { return (uint32_t)(holders >> 32); }
+
+static uint32_t readers_of(Holders holders) { return (uint32_t)holders; }
+
+/* False: threads of this process have it, and do not share it. What threads of the parent had when the process forked is `orphaned`: nobody will
+ * give it back. */
+static bool hold(Slot *slot, bool shared, bool *orphaned)
 {
-    const int self = getpid();
-    int before = 0;
-    *orphaned = false;
-    if (atomic_compare_exchange_strong(&slot->holder, &before, self)) return true;
-    if (before == self) return false;
-    *orphaned = atomic_compare_exchange_strong(&slot->holder, &before, self);
-    return *orphaned;
+    const uint32_t self = (uint32_t)getpid();
+    Holders before = atomic_load(&slot->holders), after;
+    do {
+        const bool ours = process_of(before) == self;
+        if (ours && (!shared || readers_of(before) >= WRITER - 1)) return false;
+        *orphaned = before != 0 && !ours;
+        after = hold_of(self, !shared ? WRITER : ours ? readers_of(before) + 1 : 1);
+    } while (!atomic_compare_exchange_weak(&slot->holders, &before, after));
+    return true;
 }
 
-pbmpm_result registry_enter(pbmpm_world_id id, World **world)
+static void let_go(Slot *slot)
+{
+    Holders before = atomic_load(&slot->holders), after;
+    do {
+        const uint32_t readers = readers_of(before);
+        after = readers == WRITER || readers == 1 ? 0 : before - 1;
+    } while (!atomic_compare_exchange_weak(&slot->holders, &before, after));
+}
+
+static pbmpm_result enter(pbmpm_world_id id, bool shared, World **world)
 {
     bool orphaned;
     if (!registry_has(id)) return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
     Slot *slot = &slots[id.index];
-    if (!hold(slot, &orphaned)) return fail(PBMPM_ERROR_BUSY, "another thread is using this world");
+    if (!hold(slot, shared, &orphaned))
+        return fail(PBMPM_ERROR_BUSY, shared ? "another thread is changing this world" : "another thread is using this world");
     if (atomic_load(&slot->generation) != id.generation) { /* destroyed in the meantime */
-        atomic_store(&slot->holder, 0);
+        let_go(slot);
         return fail(PBMPM_ERROR_INVALID_ID, "no such world: it has just been destroyed");
     }
     *world = slot->world;
-    (*world)->frozen = (*world)->frozen || orphaned;
+    if (orphaned) (*world)->frozen = true;
     return PBMPM_OK;
 }
 
-void registry_leave(pbmpm_world_id id) { atomic_store(&slots[id.index].holder, 0); }
+pbmpm_result registry_enter(pbmpm_world_id id, World **world) { return enter(id, false, world); }
+
+pbmpm_result registry_enter_to_read(pbmpm_world_id id, World **world) { return enter(id, true, world); }
+
+void registry_leave(pbmpm_world_id id) { let_go(&slots[id.index]); }
+
+/* ---- All worlds ---- */
 
 pbmpm_result registry_remove(pbmpm_world_id id, World **world)
 {

@@ -25,8 +25,9 @@ bool registry_has(pbmpm_world_id id);
 /* Writes the identifiers of the first `capacity` worlds, and returns how many there are. */
 uint32_t registry_list(pbmpm_world_id *ids, uint32_t capacity);
 
-/* The world, held for the calling thread until registry_leave(). */
+/* The world, held until registry_leave(): for the calling thread alone, or for it and others that only read. BUSY if that cannot be. */
 pbmpm_result registry_enter(pbmpm_world_id id, World **world);
+pbmpm_result registry_enter_to_read(pbmpm_world_id id, World **world);
 void registry_leave(pbmpm_world_id id);
 
 /* Takes a world out; it is the caller's to destroy. */

@@ -112,6 +112,7 @@ pbmpm_result world_create(const pbmpm_world_def *def, World **out)
     world->sinks.bounds = kill_bounds_defaults();
     world->flow.size = sizeof world->flow;
     world->owner = getpid();
+    pthread_mutex_init(&world->making, NULL);
     world->kernels = kernels_for(isa, def->dimension);
     world->generation = 1;
     world->domain = domain_of(def);
@@ -134,6 +135,7 @@ void world_destroy(World *world)
     const bool here = world->owner == getpid();
     if (!here && (world->frozen || background_is_stepping(world))) return; /* nobody knows what the frozen call has given back */
     background_stop(world, here);
+    if (here) pthread_mutex_destroy(&world->making);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
     lookup_free(&world->lookup, &world->memory);

@@ -2,6 +2,7 @@
 #ifndef PBMPM_SRC_WORLD_H
 #define PBMPM_SRC_WORLD_H
 
+#include <pthread.h>
 #include <sys/types.h>
 
 #include "bodies.h"
@@ -132,6 +133,7 @@ typedef struct World {
     double slow_iterations; /* follows the iterations down at once and up slowly, see solver.c; 0 before the first substep */
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
+    pthread_mutex_t making; /* see readers.h */
     Lookup lookup;          /* of queries; empty until the first */
     Background *background; /* null until a step is begun in the background */
 

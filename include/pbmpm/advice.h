@@ -76,7 +76,7 @@ typedef struct pbmpm_advice {
  *  capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
  *  step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
- *  Any thread, one at a time per world. */
+ *  Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count);
 
 /** A short constant name of a code ("PBMPM_ADVICE_NO_GRAVITY"); "PBMPM_ADVICE_UNKNOWN" of a number that is none; never null. Any thread. */

@@ -20,19 +20,28 @@ extern "C" {
  *   pbmpm_particles_count()       of that state;
  *   pbmpm_world_generation()      of those views;
  *   pbmpm_world_get_def()
+ *   pbmpm_world_get_step_stats()  of the step before
  *   pbmpm_world_destroy(), pbmpm_shutdown()  wait for the step; its result is lost.
  *
- * As ever, one thread at a time per world; any thread may begin, view and end.
+ * Any thread may make them. As ever those that only read share the world; begin and end need it for themselves.
  *
- * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy,
- * and are valid until the end. The copy is made by the step's thread before anything else: a view that is asked for right after
- * the begin may wait for it, some milliseconds for a million particles.
+ * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy, the
+ * published state. The copy is made by the step's thread before anything else: a view that is asked for right after the begin may
+ * wait for it, some milliseconds for a million particles.
  *
- * Memory: the copy of the published fields, for `particle_capacity` particles: 28 bytes per particle in 2D and 36 in 3D for the
+ * A published state stays readable for a renderer that is a frame late. Begins take turns with two sets of memory. So what a view
+ * shows stays, bit for bit, until the next begin but one or until the world is destroyed, whatever else is called. Any thread reads it,
+ * without a call. When pbmpm_world_generation() has moved on, there is a newer state, and this one is still whole. A frame loop:
+ *
+ *   pbmpm_world_step_begin();          the state of now is published
+ *   pbmpm_particles_view() ...         hand the views to the renderer; it may read them while the next frame's step runs, too
+ *   pbmpm_world_step_end();            then edit the world, and begin again
+ *
+ * Memory: two copies of the published fields, for `particle_capacity` particles: 56 bytes per particle in 2D and 72 in 3D for the
  * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
  * begins a step has neither.
  *
- * The allocator, the task hooks and the log callback are then called from the step's thread too, by one thread at a time per world,
+ * The allocator and the task hooks are then called from the step's thread too, by one thread at a time per world, and the log callback,
  * in the floating-point mode of the thread that began the step. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
@@ -43,13 +52,14 @@ extern "C" {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
 
-/** Begins a step of `dt` seconds and returns. Expires all views.
+/** Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+ *  begin.
  *  Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
  *  published fields), THREAD (no thread for the step): then no step was begun and nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);
 
 /** Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
- *  done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+ *  done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. The state that was published stays readable, see above.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY. */
 PBMPM_API pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait);
 

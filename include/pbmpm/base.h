@@ -24,6 +24,16 @@ extern "C" {
 #define PBMPM_API
 #endif
 
+/* Threads. Any thread may call; different worlds know nothing of each other.
+ *
+ * Calls that only read share a world: any number of threads make them at once, and each gets what it would have got alone. They are
+ *   those named query, get, count, find, view, copy and impulse,
+ *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done(),
+ *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
+ * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
+ * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
+ * Nobody waits for a turn: a host whose threads read steps when they have come out. */
+
 /** What a call came to. Zero is success; everything else left the world as it was before the call, except
  *  where the function says otherwise. Details: pbmpm_last_error(). */
 typedef enum pbmpm_result {
@@ -32,7 +42,7 @@ typedef enum pbmpm_result {
     PBMPM_ERROR_INVALID_ID = 2,       /**< null, stale, foreign or made-up identifier */
     PBMPM_ERROR_OUT_OF_MEMORY = 3,    /**< the allocator returned null, or the memory budget is used up */
     PBMPM_ERROR_CAPACITY = 4,         /**< more particles, materials, colliders or worlds than there is room for */
-    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world, or a step of it runs in the background */
+    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world that does not share it, or a step of it runs in the background */
     PBMPM_ERROR_UNSUPPORTED_CPU = 6,  /**< the CPU has no SSE4.2 */
     PBMPM_ERROR_UNSUPPORTED = 7,      /**< a structure size, material or feature that this build does not know */
     PBMPM_ERROR_THREAD = 8,           /**< a worker thread could not be started */
@@ -84,7 +94,7 @@ typedef enum pbmpm_log_level {
 } pbmpm_log_level;
 
 /** Receives one line per notable happening. May come from any thread that calls the
- *  library and from a step in the background, never from a worker; must not call the library. */
+ *  library and from a step in the background, from several at once, never from a worker; must not call the library. */
 typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void *user);
 
 /** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
@@ -93,7 +103,7 @@ PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void
 
 /** Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
  *  null; `release` gets the size that was asked for. Called from the thread that calls the library, and
- *  from that of a step in the background (async.h); for one world never from two at once. */
+ *  from that of a step in the background (async.h); for one world never from two at once. Must not call the library. */
 typedef struct pbmpm_allocator {
     uint32_t size;                                                /**< sizeof(pbmpm_allocator), set by the caller */
     void *(*allocate)(size_t size, size_t alignment, void *user); /**< not null */
@@ -110,7 +120,8 @@ typedef void pbmpm_task(int32_t index, void *context);
  *
  *  Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
  *  not begun; so they may as well run one after another. They neither call enqueue nor finish. A step with 5 iterations enqueues some 10 times with the
- *  paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller. */
+ *  paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
+ *  For one world one call at a time enqueues: another reader of it meanwhile does its work alone. */
 typedef struct pbmpm_task_hooks {
     uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */
     void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< not null; returns a handle */

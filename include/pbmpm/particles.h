@@ -76,8 +76,9 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
- *  nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
+ *  frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+ *  anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -86,7 +87,7 @@ typedef struct pbmpm_view {
     uint32_t component_stride; /**< bytes from one component to the next */
     uint64_t stride;           /**< bytes from one particle to the next */
     const void *data;          /**< null when count is 0 */
-    uint64_t generation;       /**< valid while pbmpm_world_generation() returns this number */
+    uint64_t generation;       /**< valid while pbmpm_world_generation() returns this number; of a published state for longer, see async.h */
 } pbmpm_view;
 
 /** A view of a field. The order of particles is the same in all views of one generation and changes with steps; their
@@ -96,12 +97,14 @@ PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field fi
 /** What pbmpm_particles_copy() writes for each particle. Fill it with pbmpm_copy_def_init(), then change what differs. */
 typedef struct pbmpm_copy_def {
     uint32_t size;             /**< sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init() */
-    uint32_t stride;           /**< bytes from one particle to the next, a multiple of 4; 0 (default): what the fields take */
+    uint32_t stride;           /**< bytes from one particle to the next, a multiple of 4; 0 (default): what offset and fields take */
     float alpha;               /**< when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
                                     duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
                                     are those of now. */
     uint32_t field_count;      /**< of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL */
     const pbmpm_field *fields; /**< one behind the other, without gaps; 4 bytes for each component */
+    int32_t pads_vectors;      /**< 1: POSITION and VELOCITY take 3 floats in 2D too, the third is 0; 0 (default): d floats */
+    uint32_t offset;           /**< bytes from the beginning of a record to the first field, a multiple of 4; default 0 */
 } pbmpm_copy_def;
 
 /** Writes the defaults, as pbmpm_particles_def_init() does. */
@@ -109,6 +112,11 @@ PBMPM_API pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
 
 /** Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
  *  null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
+ *
+ *  Records for a GPU: with pads_vectors 1 they are the same in 2D and 3D. The default fields take 28 bytes without gaps: position (3 floats),
+ *  velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
+ *  are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
+ *
  *  A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
  *  Expires no view. While a step runs in the background it copies the published state, see async.h.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the

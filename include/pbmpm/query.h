@@ -12,7 +12,7 @@ extern "C" {
  * on them. The first query after a change of the particles goes once over all of them (boxes around 64 neighbours in storage
  * order, and boxes around those); each query then looks only at what is near. That is fastest after a step, which
  * stores neighbours side by side. A world takes 1/2 byte per particle for it with the first query. Answers do not depend on
- * the number of threads.
+ * the number of threads. Threads may ask at once: the first makes what all need.
  *
  * Fields between particles are sums over the particles p near a point x, with the weight of the solver's transfers,
  *     W_p(x) = product over the axes a of w((x_a - x_pa) / dx),

@@ -30,7 +30,7 @@ extern "C" {
 
 /** Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
  *  sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
- *  `shape->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world. */
+ *  `shape->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape);
 
 #ifdef __cplusplus

@@ -37,7 +37,7 @@ typedef enum pbmpm_restore_flags {
  * free again, and with sleeping some bytes for each block. Little-endian; a snapshot may be stored and sent as it is. */
 
 /** How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
- *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world. */
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_snapshot_size(pbmpm_world_id world, uint64_t *bytes, uint32_t *bytes_per_particle);
 
 /** Writes a snapshot into the caller's memory, of any alignment. `capacity`: bytes there; *bytes (may be null): how many are

@@ -60,10 +60,16 @@ typedef struct pbmpm_stats {
     uint32_t blocks_woken;         /**< blocks that woke in the last step, and by calls before it */
 } pbmpm_stats;
 
-/** Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
- *  the particles, and only when called. `stats->size` must be set.
- *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. */
+/** All figures: of the last step, and of the present state, for which it makes a pass over the particles on the world's threads. Sums do not
+ *  depend on the number of threads. Before the first step times and step counts are 0. `stats->size` must be set.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);
+
+/** The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. 0 are those of the present state:
+ *  volume_error_rms, volume_error_max, max_speed, mass, momentum, angular_momentum, kinetic_energy, potential_energy and lane_occupancy.
+ *  While a step runs in the background they are those of the step before it, see async.h.
+ *  Errors: as pbmpm_world_get_stats(). Any thread, together with others that read. */
+PBMPM_API pbmpm_result pbmpm_world_get_step_stats(pbmpm_world_id world, pbmpm_stats *stats);
 
 /** What an event tells. */
 typedef enum pbmpm_event_kind {

@@ -24,7 +24,7 @@ typedef struct pbmpm_world_def {
     uint32_t size;              /**< sizeof(pbmpm_world_def), set by pbmpm_world_def_init() */
     int32_t dimension;          /**< 2 or 3; default 3. In 2D the third component of every vector is ignored. */
     float cell_size;            /**< grid spacing dx [m], in [1e-6, 1e6]; default 0.1 */
-    uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 200 bytes per particle in 3D,
+    uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 230 bytes per particle in 3D,
                                      and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
                                      blocks take theirs when they come. */
     double origin[3];           /**< what positions are relative to [m]; default 0. Used by nothing but the caller's own
@@ -141,10 +141,10 @@ PBMPM_API pbmpm_result pbmpm_get_worlds(pbmpm_world_id *worlds, uint32_t capacit
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
 /** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
- *  Any thread, one at a time per world. */
+ *  Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_settings *settings);
 
-/** Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. */
+/** Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
 
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
@@ -153,7 +153,7 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
  *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
  *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
  *  was set from outside is brought into its material's range.
- *  Any thread, one at a time per world; different worlds step at the same time. */
+ *  Any thread, alone in its world; different worlds step at the same time. */
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 
 /** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float

@@ -50,6 +50,12 @@ static pbmpm_result call_get_stats(const target *ids)
     return pbmpm_world_get_stats(ids->world, &stats);
 }
 
+static pbmpm_result call_get_step_stats(const target *ids)
+{
+    pbmpm_stats stats = {.size = sizeof stats};
+    return pbmpm_world_get_step_stats(ids->world, &stats);
+}
+
 static pbmpm_result call_events(const target *ids)
 {
     pbmpm_event event = {.size = sizeof event};
@@ -547,6 +553,7 @@ const world_call world_calls[] = {
     {"pbmpm_world_generation", call_generation, 0},
     {"pbmpm_world_hash", call_hash, 0},
     {"pbmpm_world_get_stats", call_get_stats, 0},
+    {"pbmpm_world_get_step_stats", call_get_step_stats, 0},
     {"pbmpm_world_events", call_events, 0},
     {"pbmpm_material_create", call_material_create, 0},
     {"pbmpm_material_get", call_material_get, USES_MATERIAL},

@@ -245,6 +245,23 @@ static void test_views_expire_at_the_begin_and_at_the_end(void)
     TEST_ASSERT_TRUE(meanwhile != view_of(world, PBMPM_POSITION).generation);
 }
 
+/* The figures of the step before, whatever the one that runs has done to them. */
+static void test_figures_of_the_step_before(void)
+{
+    const target ids = target_create(use_gate, NULL);
+    pbmpm_stats before = {.size = sizeof before}, meanwhile = before, after = before;
+    begin_behind_gate(&ids);
+    OK(pbmpm_world_get_step_stats(ids.world, &before));
+    TEST_ASSERT_EQUAL_UINT64(1, before.step_count);
+    TEST_ASSERT_TRUE(before.ms_total > 0.0f && before.particle_blocks > 0);
+    OK(pbmpm_world_get_step_stats(ids.world, &meanwhile));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &meanwhile, sizeof before);
+    gate_set(false, true);
+    OK(pbmpm_world_step_end(ids.world, 1));
+    OK(pbmpm_world_get_step_stats(ids.world, &after));
+    TEST_ASSERT_EQUAL_UINT64(2, after.step_count);
+}
+
 static void test_only_published_fields_are_in_view(void)
 {
     static const pbmpm_field two[] = {PBMPM_VELOCITY, PBMPM_DEFORMATION}, twice[] = {PBMPM_MASS, PBMPM_MASS}, odd[] = {(pbmpm_field)77};
@@ -266,7 +283,131 @@ static void test_only_published_fields_are_in_view(void)
     OK(pbmpm_particles_view(world, PBMPM_POSITION, &view));
 }
 
-/* Memory as documented: 28 bytes per particle in 2D and 36 in 3D, with the first begin. */
+/* A published frame as a renderer keeps it: the views, and what they showed at first. */
+typedef struct frame {
+    pbmpm_view view[3];
+    unsigned char *shown[3];
+} frame;
+
+static const pbmpm_field drawn_fields[] = {PBMPM_POSITION, PBMPM_VELOCITY, PBMPM_PARTICLE};
+
+static frame publish_frame(pbmpm_world_id world)
+{
+    frame made;
+    OK(pbmpm_world_step_begin(world, 0.01f));
+    for (int f = 0; f < 3; f++) {
+        made.view[f] = view_of(world, drawn_fields[f]);
+        made.shown[f] = packed_copy(world, drawn_fields[f]);
+    }
+    return made;
+}
+
+/* Without a call into the world. */
+static void expect_frame(const frame *kept)
+{
+    for (int f = 0; f < 3; f++)
+        for (uint32_t row = 0; row < kept->view[f].count; row++)
+            for (uint32_t c = 0; c < kept->view[f].components; c++) {
+                const uint32_t value = view_uint(&kept->view[f], row, c);
+                if (memcmp(&value, kept->shown[f] + 4 * ((size_t)row * kept->view[f].components + c), 4) != 0)
+                    TEST_FAIL_MESSAGE("a published frame has changed before the next begin but one");
+            }
+}
+
+static void forget_frame(const frame *kept)
+{
+    for (int f = 0; f < 3; f++)
+        free(kept->shown[f]);
+}
+
+/* Whatever is called: ends, edits, steps that wait, and the next begin with its step. */
+static void test_a_published_frame_stays_until_the_next_begin_but_one(void)
+{
+    const stage made = stirred_pool(3, &dual, three_threads, NULL);
+    frame before = publish_frame(made.world);
+    OK(pbmpm_world_step_end(made.world, 1));
+    for (int i = 0; i < 6; i++) {
+        expect_frame(&before);
+        OK(pbmpm_world_step(made.world, 0.01f));
+        const pbmpm_shape ball = sphere_shape(0.3f, 0.2f, 0.3f, 0.1f);
+        OK(pbmpm_particles_remove_in(made.world, &ball, NULL));
+        const frame next = publish_frame(made.world);
+        expect_frame(&before);
+        OK(pbmpm_world_step_end(made.world, 1));
+        expect_frame(&before);
+        forget_frame(&before);
+        before = next;
+    }
+    forget_frame(&before);
+}
+
+/* A renderer that is a frame late reads on its own thread while the world goes on. */
+typedef struct renderer {
+    pthread_mutex_t mutex;
+    pthread_cond_t changed;
+    frame *ready; /* null: none */
+    bool quits, sees_garbage;
+} renderer;
+
+static void *draw_frames(void *user)
+{
+    renderer *own = user;
+    pthread_mutex_lock(&own->mutex);
+    for (;;) {
+        while (!own->ready && !own->quits)
+            pthread_cond_wait(&own->changed, &own->mutex);
+        if (!own->ready)
+            break;
+        const frame drawn = *own->ready;
+        pthread_mutex_unlock(&own->mutex);
+        bool same = true;
+        for (int pass = 0; pass < 3; pass++)
+            for (uint32_t row = 0; row < drawn.view[0].count; row++)
+                for (uint32_t c = 0; c < drawn.view[0].components; c++) {
+                    const uint32_t value = view_uint(&drawn.view[0], row, c);
+                    same &= memcmp(&value, drawn.shown[0] + 4 * ((size_t)row * drawn.view[0].components + c), 4) == 0;
+                }
+        pthread_mutex_lock(&own->mutex);
+        own->sees_garbage |= !same;
+        own->ready = NULL;
+        pthread_cond_broadcast(&own->changed);
+    }
+    pthread_mutex_unlock(&own->mutex);
+    return NULL;
+}
+
+static void test_a_renderer_may_be_a_frame_late(void)
+{
+    renderer drawer = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+    const pbmpm_world_id world = stirred_pool(2, &dual, three_threads, NULL).world;
+    pthread_t thread;
+    frame late = publish_frame(world);
+    OK(pbmpm_world_step_end(world, 1));
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread, NULL, draw_frames, &drawer));
+    for (int i = 0; i < 20; i++) {
+        pthread_mutex_lock(&drawer.mutex);
+        drawer.ready = &late;
+        pthread_cond_broadcast(&drawer.changed);
+        pthread_mutex_unlock(&drawer.mutex);
+        const frame next = publish_frame(world);
+        OK(pbmpm_world_step_end(world, 1));
+        pthread_mutex_lock(&drawer.mutex);
+        while (drawer.ready)
+            pthread_cond_wait(&drawer.changed, &drawer.mutex);
+        pthread_mutex_unlock(&drawer.mutex);
+        forget_frame(&late);
+        late = next;
+    }
+    pthread_mutex_lock(&drawer.mutex);
+    drawer.quits = true;
+    pthread_cond_broadcast(&drawer.changed);
+    pthread_mutex_unlock(&drawer.mutex);
+    pthread_join(thread, NULL);
+    forget_frame(&late);
+    TEST_ASSERT_FALSE(drawer.sees_garbage);
+}
+
+/* Memory as documented: twice 28 bytes per particle in 2D and twice 36 in 3D, with the first begin. */
 static void check_memory(int32_t dimension, uint64_t expected)
 {
     static ledger book;
@@ -293,8 +434,8 @@ static void check_memory(int32_t dimension, uint64_t expected)
 
 static void test_memory_is_as_documented(void)
 {
-    check_memory(2, 28);
-    check_memory(3, 36);
+    check_memory(2, 56);
+    check_memory(3, 72);
 }
 
 /* ---- the host's functions, and its signals ---- */
@@ -428,7 +569,7 @@ static void test_threads_of_the_library_take_no_signals(void)
 static bool is_allowed(const char *name)
 {
     static const char *const allowed[] = {"pbmpm_world_get_def", "pbmpm_world_generation", "pbmpm_particles_count", "pbmpm_particles_view", "pbmpm_particles_copy",
-                                          "pbmpm_world_step_done"};
+                                          "pbmpm_world_get_step_stats", "pbmpm_world_step_done"};
     for (size_t i = 0; i < sizeof allowed / sizeof *allowed; i++)
         if (strcmp(name, allowed[i]) == 0)
             return true;
@@ -546,7 +687,7 @@ static void test_failure_of_the_step_is_its_ends(void)
 static void test_begin_without_memory_changes_nothing(void)
 {
     static ledger book;
-    for (uint64_t fail_at = 1; fail_at <= 5; fail_at++) {
+    for (uint64_t fail_at = 1; fail_at <= 9; fail_at++) {
         book = (ledger){0};
         pbmpm_world_def def = default_world(2, 0.05f, 512);
         def.allocator = ledger_allocator(&book);
@@ -637,7 +778,10 @@ int main(void)
     RUN_TEST(test_task_hooks_do_the_work);
     RUN_TEST(test_views_show_the_state_before_the_step);
     RUN_TEST(test_views_expire_at_the_begin_and_at_the_end);
+    RUN_TEST(test_figures_of_the_step_before);
     RUN_TEST(test_only_published_fields_are_in_view);
+    RUN_TEST(test_a_published_frame_stays_until_the_next_begin_but_one);
+    RUN_TEST(test_a_renderer_may_be_a_frame_late);
     RUN_TEST(test_memory_is_as_documented);
     RUN_TEST(test_functions_of_the_host_run_in_its_mode);
     RUN_TEST(test_threads_of_the_library_take_no_signals);

@@ -64,6 +64,48 @@ static void test_fields_and_stride_of_the_hosts_choice(void)
     TEST_ASSERT_EQUAL_FLOAT(-7.0f, buffer[8 * (size_t)count]);
 }
 
+/* One layout for 2D and 3D: what a shader reads does not know the dimension. */
+static void check_padded(pbmpm_world_id world, const pbmpm_copy_def *def, const int at[3])
+{
+    const size_t stride = def->stride ? def->stride / sizeof(float) : 7;
+    const pbmpm_view position = view_of(world, PBMPM_POSITION), velocity = view_of(world, PBMPM_VELOCITY), material = view_of(world, PBMPM_MATERIAL);
+    uint32_t count;
+    for (int i = 0; i < ROOM; i++) buffer[i] = -7.0f;
+    OK(pbmpm_particles_copy(world, def, buffer, sizeof buffer, &count));
+    TEST_ASSERT_TRUE(count > 0);
+    for (uint32_t i = 0; i < count; i++) {
+        const float *particle = buffer + stride * i + def->offset / sizeof(float);
+        for (uint32_t c = 0; c < def->offset / sizeof(float); c++) TEST_ASSERT_EQUAL_FLOAT(-7.0f, buffer[stride * i + c]);
+        for (uint32_t c = 0; c < 3; c++) {
+            TEST_ASSERT_EQUAL_FLOAT(c < position.components ? view_float(&position, i, c) : 0.0f, particle[at[0] + (int)c]);
+            TEST_ASSERT_EQUAL_FLOAT(c < velocity.components ? view_float(&velocity, i, c) : 0.0f, particle[at[1] + (int)c]);
+        }
+        TEST_ASSERT_EQUAL_UINT32(view_uint(&material, i, 0), word(particle[at[2]]));
+        if (stride > 7) TEST_ASSERT_EQUAL_FLOAT(-7.0f, particle[7]);
+    }
+    TEST_ASSERT_EQUAL_FLOAT(-7.0f, buffer[stride * count]);
+}
+
+static void test_records_for_a_gpu_are_the_same_in_2d_and_3d(void)
+{
+    static const pbmpm_field aligned[] = {PBMPM_POSITION, PBMPM_MATERIAL, PBMPM_VELOCITY};
+    for (int i = 0; i < scene_count; i++) {
+        const stage made = scenes[i].build(NULL, NULL);
+        pbmpm_copy_def def = default_copy();
+        OK(pbmpm_world_step(made.world, 0.004f));
+        def.pads_vectors = 1;
+        check_padded(made.world, &def, (const int[]){0, 3, 6});
+        def.fields = aligned;
+        def.field_count = 3;
+        def.stride = 32;
+        check_padded(made.world, &def, (const int[]){0, 4, 3});
+        def.offset = 12;
+        def.stride = 44;
+        check_padded(made.world, &def, (const int[]){0, 4, 3});
+        OK(pbmpm_world_destroy(made.world));
+    }
+}
+
 /* The largest way from where particles were before a step to where alpha = 0 says that they were [cells]. A block of water stands free, falls
  * apart and runs to the wall; thrown, it hits the wall. */
 static float error_of_before(float speed, float dt)
@@ -164,6 +206,19 @@ static void test_what_is_refused(void)
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
     def.stride = 21;
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
+    def.stride = 24; /* 28 with zeros */
+    OK(pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
+    def.pads_vectors = 1;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
+    def = good;
+    def.offset = 2;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
+    def.offset = 8;
+    def.stride = 24;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
+    def = good;
+    def.pads_vectors = 2;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
     def = good;
     def.field_count = 1;
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_particles_copy(world, &def, buffer, sizeof buffer, &count));
@@ -178,6 +233,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_position_velocity_and_material_stand_side_by_side);
     RUN_TEST(test_fields_and_stride_of_the_hosts_choice);
+    RUN_TEST(test_records_for_a_gpu_are_the_same_in_2d_and_3d);
     RUN_TEST(test_before_the_last_step);
     RUN_TEST(test_between);
     RUN_TEST(test_while_a_step_runs);

@@ -59,7 +59,7 @@ static const pbmpm_layout_entry expected[] = {
     FIELD(pbmpm_particles_def, volume), FIELD(pbmpm_particles_def, user_values),
     WHOLE(pbmpm_copy_def),
     FIELD(pbmpm_copy_def, size), FIELD(pbmpm_copy_def, stride), FIELD(pbmpm_copy_def, alpha), FIELD(pbmpm_copy_def, field_count),
-    FIELD(pbmpm_copy_def, fields),
+    FIELD(pbmpm_copy_def, fields), FIELD(pbmpm_copy_def, pads_vectors), FIELD(pbmpm_copy_def, offset),
     WHOLE(pbmpm_fill_def),
     FIELD(pbmpm_fill_def, size), FIELD(pbmpm_fill_def, seed), FIELD(pbmpm_fill_def, material),
     FIELD(pbmpm_fill_def, particles_per_axis), FIELD(pbmpm_fill_def, jitter), FIELD(pbmpm_fill_def, velocity), FIELD(pbmpm_fill_def, user_value),

@@ -565,6 +565,82 @@ static void test_user_values_are_saved(void)
     for (uint32_t i = 0; i < 256; i++) TEST_ASSERT_EQUAL_UINT32(values[i], view_uint(&view, i, 0));
 }
 
+/* ---- expired views ---- */
+
+/* What a field's values are, or were, in a world where no two fields have values alike. A world's memory begins cleared, and ends of arrays are. */
+typedef struct kept_view {
+    pbmpm_field field;
+    float low[3], high[3];
+    pbmpm_view view;
+} kept_view;
+
+static bool is_of_field(const kept_view *kept, uint32_t row, uint32_t component)
+{
+    if (kept->field == PBMPM_MATERIAL) return view_uint(&kept->view, row, 0) <= 2;
+    const float value = view_float(&kept->view, row, component);
+    return value == 0.0f || (value >= kept->low[component] && value <= kept->high[component]);
+}
+
+static bool is_identifier(const kept_view *kept, uint32_t row, uint32_t capacity, uint32_t first)
+{
+    const uint32_t index = view_uint(&kept->view, row, 0), generation = view_uint(&kept->view, row, 1);
+    return index < capacity && (generation == 0 || (generation >= first && generation <= first + 2));
+}
+
+/* Liquid and jelly fly through cell after cell, so each substep sorts; far from the origin, heavy, and fast. */
+static void check_expired_views(int32_t dimension, pbmpm_solver solver)
+{
+    enum { CAPACITY = 6000 };
+    kept_view kept[] = {{.field = PBMPM_POSITION, .low = {200, 300, 400}, .high = {240, 340, 440}},
+                        {.field = PBMPM_VELOCITY, .low = {40, 50, 60}, .high = {44, 54, 64}},
+                        {.field = PBMPM_VOLUME_RATIO, .low = {0.8f}, .high = {1.2f}},
+                        {.field = PBMPM_MASS, .low = {5000}, .high = {20000}},
+                        {.field = PBMPM_MATERIAL},
+                        {.field = PBMPM_PARTICLE}};
+    enum { FIELDS = sizeof kept / sizeof *kept };
+    pbmpm_world_def def = default_world(dimension, 1.0f, CAPACITY);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.solver = solver;
+    OK(pbmpm_world_set_settings(world, &settings));
+    pbmpm_material_def heavy = default_material(PBMPM_LIQUID);
+    pbmpm_material_id liquid, jelly;
+    heavy.density = dimension == 3 ? 80000 : 40000;
+    OK(pbmpm_material_create(world, &heavy, &liquid));
+    heavy.kind = PBMPM_ELASTIC;
+    OK(pbmpm_material_create(world, &heavy, &jelly));
+    fill_shape(world, liquid, box_shape(210, 310, 410, 4, 4, 4), (const float[]){42, 52, 62});
+    fill_shape(world, jelly, box_shape(222, 322, 422, 3, 3, 3), (const float[]){42, 52, 62});
+    for (int f = 0; f < FIELDS; f++) kept[f].view = view_of(world, kept[f].field);
+    const uint32_t first = view_uint(&kept[5].view, 0, 1);
+    for (int step = 0; step < 8; step++) {
+        OK(pbmpm_world_step(world, 0.05f));
+        if (step == 3) view_of(world, PBMPM_POSITION); /* made anew, where the old one is */
+        if (step == 5) {
+            const pbmpm_shape some = box_shape(230, 330, 430, 9, 9, 9);
+            OK(pbmpm_particles_remove_in(world, &some, NULL));
+        }
+        for (int f = 0; f < FIELDS; f++)
+            for (uint32_t row = 0; row < kept[f].view.count; row++) {
+                bool right = kept[f].field == PBMPM_PARTICLE && is_identifier(&kept[f], row, CAPACITY, first);
+                for (uint32_t c = 0; c < kept[f].view.components && kept[f].field != PBMPM_PARTICLE; c++)
+                    right = (c == 0 || right) && is_of_field(&kept[f], row, c);
+                if (!right) TEST_FAIL_MESSAGE("an expired view shows what its field never was");
+            }
+    }
+    TEST_ASSERT_TRUE(world_stats(world).cell_changes > 0.5f);
+    OK(pbmpm_world_destroy(world));
+}
+
+static void test_expired_views_show_values_of_their_field(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        check_expired_views(dimension, PBMPM_SOLVER_PAPER);
+        check_expired_views(dimension, PBMPM_SOLVER_CONVERGENT);
+    }
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -592,5 +668,6 @@ int main(void)
     RUN_TEST(test_user_values_cost_nothing_until_there_is_one);
     RUN_TEST(test_fills_and_emitters_give_user_values);
     RUN_TEST(test_user_values_are_saved);
+    RUN_TEST(test_expired_views_show_values_of_their_field);
     return UNITY_END();
 }

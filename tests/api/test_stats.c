@@ -114,6 +114,63 @@ static void test_sums_agree_with_the_views(void)
         check_sums(&scenes[i]);
 }
 
+/* What a step leaves behind comes without the pass, and is the same; what takes a pass is 0. */
+static void test_figures_of_the_step_alone(void)
+{
+    for (int i = 0; i < scene_count; i++) {
+        const stage made = scenes[i].build(NULL, NULL);
+        scene_run(&scenes[i], &made, 0, 5);
+        pbmpm_stats step = {.size = sizeof step}, all = world_stats(made.world);
+        OK(pbmpm_world_get_step_stats(made.world, &step));
+        TEST_ASSERT_TRUE(all.mass > 0.0 && all.lane_occupancy > 0.0f && all.max_speed > 0.0f);
+        all.volume_error_rms = all.volume_error_max = all.max_speed = all.lane_occupancy = 0.0f;
+        all.mass = all.kinetic_energy = all.potential_energy = 0.0;
+        memset(all.momentum, 0, sizeof all.momentum);
+        memset(all.angular_momentum, 0, sizeof all.angular_momentum);
+        TEST_ASSERT_EQUAL_MEMORY(&all, &step, sizeof all);
+        OK(pbmpm_world_destroy(made.world));
+    }
+}
+
+static void with_threads(pbmpm_world_def *def, void *user) { def->thread_count = *(const int32_t *)user; }
+
+/* 64 x 2048 particles are the most whose parts are of the least size: more, and parts grow. */
+static pbmpm_stats stats_with_threads(uint32_t particles, int32_t threads)
+{
+    uint32_t seed = 7;
+    static float positions[3 * 200000], velocities[3 * 200000];
+    pbmpm_world_def def = default_world(3, 0.1f, particles);
+    with_threads(&def, &threads);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particles_def added;
+    OK(pbmpm_particles_def_init(&added, sizeof added));
+    added.material = create_material(world, PBMPM_LIQUID);
+    added.count = particles;
+    added.positions = positions;
+    added.velocities = velocities;
+    for (uint32_t i = 0; i < 3 * particles; i++) {
+        positions[i] = random_float(&seed, 0.0f, 5.0f);
+        velocities[i] = random_float(&seed, -2.0f, 2.0f);
+    }
+    set_gravity(world, 0, -10, 0);
+    OK(pbmpm_particles_add(world, &added, NULL));
+    const pbmpm_stats stats = world_stats(world);
+    OK(pbmpm_world_destroy(world));
+    return stats;
+}
+
+static void test_sums_do_not_depend_on_the_number_of_threads(void)
+{
+    static const uint32_t counts[] = {1, 2048, 2049, 10000, 64 * 2048, 64 * 2048 + 1, 200000};
+    for (size_t i = 0; i < sizeof counts / sizeof *counts; i++) {
+        pbmpm_stats one = stats_with_threads(counts[i], 1), three = stats_with_threads(counts[i], 3);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6 * one.mass, counts[i] * 1000.0 * 1.25e-4, one.mass); /* each counts once */
+        one.thread_count = three.thread_count;
+        one.memory_bytes = three.memory_bytes;
+        TEST_ASSERT_EQUAL_MEMORY(&one, &three, sizeof one);
+    }
+}
+
 static void test_counts_and_shares_are_in_range(void)
 {
     for (int i = 0; i < scene_count; i++) {
@@ -336,6 +393,8 @@ int main(void)
     RUN_TEST(test_before_the_first_step_times_are_zero);
     RUN_TEST(test_the_solver_tells_what_it_did);
     RUN_TEST(test_sums_agree_with_the_views);
+    RUN_TEST(test_figures_of_the_step_alone);
+    RUN_TEST(test_sums_do_not_depend_on_the_number_of_threads);
     RUN_TEST(test_counts_and_shares_are_in_range);
     RUN_TEST(test_memory_is_what_the_allocator_gave);
     RUN_TEST(test_slowed_particles_are_told);

@@ -2,6 +2,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "calls.h"
 
@@ -343,11 +344,236 @@ static void test_the_hosts_job_system_gives_the_same_results(void)
     TEST_ASSERT_TRUE(threaded.largest > 1);
 }
 
+/* ---- readers share a world ---- */
+
+/* A job system that keeps a call inside the library until it is told to let it go on. */
+typedef struct holding_host {
+    pthread_mutex_t mutex;
+    pthread_cond_t changed;
+    bool holds, released;
+    int enqueued;
+} holding_host;
+
+static void *enqueue_and_hold(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    holding_host *own = user;
+    pthread_mutex_lock(&own->mutex);
+    own->enqueued++;
+    own->holds = true;
+    pthread_cond_broadcast(&own->changed);
+    while (!own->released)
+        pthread_cond_wait(&own->changed, &own->mutex);
+    pthread_mutex_unlock(&own->mutex);
+    for (int32_t i = 0; i < count; i++)
+        task(i, context);
+    return NULL;
+}
+
+static void finish_held(void *handle, void *user)
+{
+    (void)handle;
+    (void)user;
+}
+
+static void use_holding_host(pbmpm_world_def *def, void *user)
+{
+    static pbmpm_task_hooks hooks = {sizeof hooks, enqueue_and_hold, finish_held, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
+    def->thread_count = 2;
+}
+
+static bool only_reads(const char *name)
+{
+    static const char *const readers[] = {
+        "pbmpm_world_get_def", "pbmpm_world_get_settings", "pbmpm_world_generation", "pbmpm_world_hash", "pbmpm_world_get_stats", "pbmpm_world_get_step_stats",
+        "pbmpm_world_events", "pbmpm_material_get", "pbmpm_collider_get", "pbmpm_query_collider", "pbmpm_collider_impulse", "pbmpm_domain_impulse",
+        "pbmpm_baked_get", "pbmpm_particles_count", "pbmpm_particles_view", "pbmpm_particles_copy", "pbmpm_particles_find", "pbmpm_query_shape",
+        "pbmpm_query_region", "pbmpm_query_points", "pbmpm_query_heights", "pbmpm_query_ray", "pbmpm_snapshot_size", "pbmpm_snapshot_save",
+        "pbmpm_emitter_get", "pbmpm_emitter_status_get", "pbmpm_drain_get", "pbmpm_drain_status_get", "pbmpm_world_get_kill_bounds", "pbmpm_world_get_flow",
+        "pbmpm_force_get", "pbmpm_force_status_get"};
+    for (size_t i = 0; i < sizeof readers / sizeof *readers; i++)
+        if (strcmp(name, readers[i]) == 0)
+            return true;
+    return false;
+}
+
+static void *query_many_points(void *user)
+{
+    static float points[2 * 64], filling[64];
+    return pbmpm_query_points(*(const pbmpm_world_id *)user, points, 64, filling, NULL, NULL) == PBMPM_OK ? NULL : user;
+}
+
+/* While one thread is inside a query others read as they like, and whoever would change something is refused. */
+static void test_readers_share_a_world(void)
+{
+    static holding_host gatekeeper = {.mutex = PTHREAD_MUTEX_INITIALIZER, .changed = PTHREAD_COND_INITIALIZER};
+    target ids = target_create(use_holding_host, &gatekeeper);
+    void *failed = NULL;
+    pthread_t thread;
+    int readers = 0;
+    const uint64_t before = world_hash(ids.world);
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread, NULL, query_many_points, &ids.world));
+    pthread_mutex_lock(&gatekeeper.mutex);
+    while (!gatekeeper.holds)
+        pthread_cond_wait(&gatekeeper.changed, &gatekeeper.mutex);
+    pthread_mutex_unlock(&gatekeeper.mutex);
+    const pbmpm_result alone = query_many_points(&ids.world) ? PBMPM_ERROR_BUSY : PBMPM_OK; /* large enough to be shared out; the threads are taken */
+    pbmpm_result results[128];
+    TEST_ASSERT_TRUE(world_call_count <= (int)(sizeof results / sizeof *results));
+    for (int i = 0; i < world_call_count; i++)
+        results[i] = world_calls[i].make(&ids);
+    pthread_mutex_lock(&gatekeeper.mutex);
+    gatekeeper.released = true;
+    pthread_cond_broadcast(&gatekeeper.changed);
+    pthread_mutex_unlock(&gatekeeper.mutex);
+    pthread_join(thread, &failed);
+    TEST_ASSERT_NULL(failed);
+    OK(alone);
+    TEST_ASSERT_EQUAL_INT(1, gatekeeper.enqueued);
+    for (int i = 0; i < world_call_count; i++) {
+        if (strcmp(world_calls[i].name, "pbmpm_world_step_done") == 0)
+            continue; /* it reads, but there is no step */
+        const char *expected = only_reads(world_calls[i].name) ? "PBMPM_OK" : "PBMPM_ERROR_BUSY";
+        readers += only_reads(world_calls[i].name);
+        TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, pbmpm_result_name(results[i]), world_calls[i].name);
+    }
+    TEST_ASSERT_EQUAL_INT(32, readers);
+    TEST_ASSERT_EQUAL_HEX64(before, world_hash(ids.world));
+    OK(pbmpm_world_step(ids.world, 0.001f)); /* nobody is left inside */
+}
+
+/* What one may ask a world, and all of it once. */
+typedef struct answers {
+    float filling[64], heights[64], copied[2000];
+    double mass, kinetic;
+    pbmpm_ray_hit hit;
+    pbmpm_particle_id first;
+    uint64_t hash;
+    uint32_t inside, shares, count, row;
+    float place[2], kilograms;
+    pbmpm_result worst;
+} answers;
+
+static void note(answers *told, pbmpm_result result)
+{
+    if (result != PBMPM_OK)
+        told->worst = result;
+}
+
+static void ask(pbmpm_world_id world, answers *told)
+{
+    float points[2 * 64];
+    pbmpm_shape ball;
+    pbmpm_ray ray;
+    pbmpm_copy_def copy;
+    pbmpm_stats stats = {.size = sizeof stats};
+    pbmpm_view place = {.size = sizeof place}, mass = place;
+    memset(told, 0, sizeof *told);
+    for (int i = 0; i < 64; i++) {
+        points[2 * i] = 0.01f * (float)i;
+        points[2 * i + 1] = 0.1f + 0.003f * (float)i;
+    }
+    note(told, pbmpm_shape_init(&ball, sizeof ball));
+    ball.position[0] = ball.position[1] = 0.3f;
+    note(told, pbmpm_ray_init(&ray, sizeof ray));
+    ray.origin[0] = 0.3f;
+    ray.origin[1] = 3.0f;
+    told->hit.size = sizeof told->hit;
+    note(told, pbmpm_query_ray(world, &ray, &told->hit));
+    note(told, pbmpm_query_points(world, points, 64, told->filling, NULL, NULL));
+    note(told, pbmpm_query_heights(world, points, 64, (const float[]){0, 1}, 0.5f, told->heights));
+    note(told, pbmpm_query_shape(world, &ball, &told->first, 1, &told->inside));
+    note(told, pbmpm_query_region(world, &ball, NULL, 0, &told->shares));
+    note(told, pbmpm_particles_find(world, &told->first, 1, &told->row));
+    note(told, pbmpm_world_get_stats(world, &stats));
+    note(told, pbmpm_world_hash(world, &told->hash));
+    note(told, pbmpm_copy_def_init(&copy, sizeof copy));
+    copy.alpha = 0.5f;
+    copy.stride = 20;
+    static _Thread_local float room[20 * 20000];
+    note(told, pbmpm_particles_copy(world, &copy, room, sizeof room, &told->count));
+    memcpy(told->copied, room, sizeof told->copied);
+    note(told, pbmpm_particles_view(world, PBMPM_MASS, &mass));
+    note(told, pbmpm_particles_view(world, PBMPM_POSITION, &place));
+    if (place.count > told->row)
+        memcpy(told->place, (const char *)place.data + told->row * place.stride, sizeof told->place);
+    if (mass.count > 0)
+        memcpy(&told->kilograms, mass.data, sizeof told->kilograms);
+    told->mass = stats.mass;
+    told->kinetic = stats.kinetic_energy;
+    told->first.generation = told->hit.particle.generation = told->hit.material.generation = 0; /* no two worlds share them */
+}
+
+enum { ASKERS = 3, ROUNDS = 12, TIMES = 8 };
+
+typedef struct asker {
+    pbmpm_world_id world;
+    pthread_barrier_t *together;
+    answers right;
+    const answers *wanted;
+    int wrong;
+} asker;
+
+static void *ask_often(void *user)
+{
+    asker *self = user;
+    for (int round = 0; round < ROUNDS; round++) {
+        pthread_barrier_wait(self->together); /* a step was made: nothing is there yet that readers make for each other */
+        for (int i = 0; i < TIMES; i++) {
+            ask(self->world, &self->right);
+            self->wrong += memcmp(&self->right, self->wanted, sizeof self->right) != 0;
+        }
+        pthread_barrier_wait(self->together);
+    }
+    return NULL;
+}
+
+static void check_askers(scene_tweak *tweak, void *user)
+{
+    static answers wanted;
+    static asker askers[ASKERS];
+    const pbmpm_world_id world = tank_2d(tweak, user), twin = tank_2d(tweak, user);
+    pthread_t threads[ASKERS];
+    pthread_barrier_t together;
+    TEST_ASSERT_EQUAL_INT(0, pthread_barrier_init(&together, NULL, ASKERS + 1));
+    for (int i = 0; i < ASKERS; i++) {
+        askers[i] = (asker){.world = world, .together = &together, .wanted = &wanted};
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&threads[i], NULL, ask_often, &askers[i]));
+    }
+    pbmpm_result worst = PBMPM_OK;
+    for (int round = 0; round < ROUNDS; round++) {
+        const pbmpm_result one = pbmpm_world_step(world, 0.005f), other = pbmpm_world_step(twin, 0.005f);
+        worst = one != PBMPM_OK ? one : other != PBMPM_OK ? other : worst;
+        ask(twin, &wanted);
+        pthread_barrier_wait(&together);
+        pthread_barrier_wait(&together);
+    }
+    for (int i = 0; i < ASKERS; i++)
+        pthread_join(threads[i], NULL);
+    pthread_barrier_destroy(&together);
+    OK(worst);
+    OK(wanted.worst);
+    TEST_ASSERT_TRUE(wanted.inside > 0 && wanted.hit.hit && wanted.mass > 0);
+    for (int i = 0; i < ASKERS; i++)
+        TEST_ASSERT_EQUAL_INT_MESSAGE(0, askers[i].wrong, pbmpm_result_name(askers[i].right.worst));
+}
+
+static void test_readers_get_right_answers(void)
+{
+    static host reversed;
+    check_askers(NULL, NULL);
+    check_askers(two_threads, NULL);
+    check_askers(use_host, &reversed);
+}
+
 int main(void)
 {
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_every_call_is_refused_while_another_thread_steps);
+    RUN_TEST(test_readers_share_a_world);
+    RUN_TEST(test_readers_get_right_answers);
     RUN_TEST(test_racing_threads_do_no_harm);
     RUN_TEST(test_worlds_step_at_the_same_time);
     RUN_TEST(test_worlds_are_made_and_destroyed_at_the_same_time);

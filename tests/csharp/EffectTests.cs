@@ -217,6 +217,45 @@ static class EffectTests
     }
 
     [Test]
+    static void APublishedFrameStaysUntilTheNextBeginButOne()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            Run(world, 3);
+            world.BeginStep(Scenes.Frame);
+            var frame = world.Positions;
+            var shown = new float[frame.Count * frame.Components];
+            frame.CopyTo(shown);
+            world.EndStep();
+            world.RemoveIn(Shape.Box(new Float3(1, 1, 1), new Float3(0.1f, 0.1f, 0.1f)));
+            world.BeginStep(Scenes.Frame);
+            world.EndStep();
+            Expect.True(frame.IsCurrent, "a frame that is one begin old");
+            for (var i = 0; i < shown.Length; i++) Expect.Equal(shown[i], frame[i / 2, i % 2], "a value of it");
+            world.BeginStep(Scenes.Frame);
+            Expect.True(!frame.IsCurrent, "a frame that is two begins old");
+            world.EndStep();
+        }
+    }
+
+    [Test]
+    static void FiguresOfTheStepAlone()
+    {
+        using (var world = Scenes.Pool(2))
+        {
+            Run(world, 2);
+            Stats all = world.Stats, step = world.StepStats;
+            Expect.Equal(all.MsTotal, step.MsTotal, "time");
+            Expect.Equal(all.ParticleCount, step.ParticleCount, "particles");
+            Expect.True(all.Mass > 0 && step.Mass == 0, "what takes a pass is left out");
+            world.BeginStep(Scenes.Frame);
+            Expect.Equal(2ul, world.StepStats.StepCount, "steps, while the third runs");
+            world.EndStep();
+            Expect.Equal(3ul, world.StepStats.StepCount, "steps");
+        }
+    }
+
+    [Test]
     static void WhatRestsSleepsUntilItIsWoken()
     {
         using (var world = Scenes.Pool(2))

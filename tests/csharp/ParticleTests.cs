@@ -260,6 +260,12 @@ static class ParticleTests
             world.CopyParticles(buffer, 0.5f);
             Expect.Near(world.Positions[0, 1] - 0.5f * Scenes.Frame * world.Velocities[0, 1], buffer[1], 1e-6, "half a step ago");
             Expect.Refused(Result.ErrorCapacity, () => world.CopyParticles(new float[3]), "a buffer that is too small");
+            var records = new ParticleRecord[world.ParticleCount];
+            Expect.Equal(records.Length, world.CopyParticles(records), "records");
+            Expect.Equal(world.Positions[7, 1], records[7].Position.Y, "position of a record");
+            Expect.Equal(0f, records[7].Position.Z, "a third coordinate in 2D");
+            Expect.Equal(world.Velocities[7, 0], records[7].Velocity.X, "velocity of a record");
+            Expect.Equal(world.Materials[7], records[7].Material, "material of a record");
         }
     }
 }

@@ -38,8 +38,35 @@ def test_the_last_state_is_in_view_meanwhile(pool: pbmpm.World) -> None:
     assert old.expired and not meanwhile.expired
     assert np.array_equal(meanwhile.copy(), before) and len(pool) == len(before)
     assert pool.step_end()
-    assert meanwhile.expired
+    assert meanwhile.generation != pool.generation
     assert not np.array_equal(pool.positions.copy(), before)
+
+
+def test_a_published_frame_stays_until_the_next_begin_but_one(pool: pbmpm.World) -> None:
+    pool.step_begin(0.01)
+    frame = pool.positions
+    shown = frame.copy()
+    assert pool.step_end()
+    pool.remove_in(pbmpm.Sphere([1.0] * pool.dimension, 0.1))
+    pool.step_begin(0.01)
+    assert pool.step_end()
+    assert not frame.expired and np.array_equal(frame.array(), shown) and not np.array_equal(frame, pool.positions)
+    pool.step_begin(0.01)
+    assert frame.expired
+    with pytest.raises(pbmpm.ExpiredViewError):
+        frame.array()
+    assert pool.step_end()
+
+
+def test_figures_of_the_step_before(pool: pbmpm.World) -> None:
+    pool.step(0.01)
+    before = pool.step_stats
+    assert before.step_count == 1 and before.ms_total > 0 and not hasattr(before, "mass")
+    assert all(getattr(pool.stats, name) == value for name, value in vars(before).items())
+    pool.step_begin(0.01)
+    assert pool.step_stats.step_count == 1
+    assert pool.step_end()
+    assert pool.step_stats.step_count == 2
 
 
 def test_other_calls_are_refused(pool: pbmpm.World) -> None:
@@ -87,3 +114,13 @@ def test_positions_between_steps(pool: pbmpm.World) -> None:
     assert pool.step_end()
     with pytest.raises(pbmpm.InvalidArgumentError, match="alpha"):
         pool.positions_at(1.5)
+
+
+def test_records_for_a_gpu(pool: pbmpm.World) -> None:
+    pool.step(0.01)
+    records, d = pool.records(), pool.dimension
+    assert records.dtype.itemsize == 28 and len(records) == len(pool)
+    assert np.array_equal(records["position"][:, :d], pool.positions.array()) and not records["position"][:, d:].any()
+    assert np.array_equal(records["velocity"][:, :d], pool.velocities.array()) and not records["velocity"][:, d:].any()
+    assert np.array_equal(records["material"], pool.material_indices.array())
+    assert np.array_equal(pool.records(0.5)["position"][:, :d], pool.positions_at(0.5))

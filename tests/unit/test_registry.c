@@ -1,4 +1,4 @@
-/* The registry: identifiers are never reused, and a world is held by one caller at a time. The registry never looks into a
+/* The registry: identifiers are never reused, and a world is held by one caller that writes, or by readers. The registry never looks into a
  * world, except when it destroys all. */
 #include <pthread.h>
 #include <unity.h>
@@ -131,6 +131,24 @@ static void test_clear_destroys_all(void)
     for (int i = 0; i < 3; i++) expect_unknown(ids[i]);
 }
 
+static void test_readers_share_and_writers_do_not(void)
+{
+    const pbmpm_world_id id = add(&worlds[0]);
+    World *world;
+    for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, registry_enter_to_read(id, &world));
+    TEST_ASSERT_EQUAL_PTR(&worlds[0], world);
+    for (int i = 0; i < 3; i++) { /* until the last has left */
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_BUSY, registry_enter(id, &world));
+        TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_BUSY, registry_remove(id, &world));
+        registry_leave(id);
+    }
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, registry_enter(id, &world));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_BUSY, registry_enter_to_read(id, &world));
+    registry_leave(id);
+    TEST_ASSERT_FALSE(worlds[0].frozen);
+    remove_again(id, &worlds[0]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -140,5 +158,6 @@ int main(void)
     RUN_TEST(test_a_world_is_held_by_one_caller);
     RUN_TEST(test_capacity);
     RUN_TEST(test_clear_destroys_all);
+    RUN_TEST(test_readers_share_and_writers_do_not);
     return UNITY_END();
 }

@@ -70,7 +70,7 @@ namespace Pbmpm
         ErrorOutOfMemory = 3,
         /// <summary>more particles, materials, colliders or worlds than there is room for</summary>
         ErrorCapacity = 4,
-        /// <summary>another thread is inside a call on the same world, or a step of it runs in the background</summary>
+        /// <summary>another thread is inside a call on the same world that does not share it, or a step of it runs in the background</summary>
         ErrorBusy = 5,
         /// <summary>the CPU has no SSE4.2</summary>
         ErrorUnsupportedCpu = 6,
@@ -763,7 +763,7 @@ namespace Pbmpm
         public int Dimension;
         /// <summary>grid spacing dx [m], in [1e-6, 1e6]; default 0.1</summary>
         public float CellSize;
-        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 200 bytes per particle in 3D,
+        /// <summary>hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 230 bytes per particle in 3D,
         /// and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
         /// blocks take theirs when they come.</summary>
         public uint ParticleCapacity;
@@ -1447,7 +1447,7 @@ namespace Pbmpm.Native
 {
     /// <summary>Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
     /// null; `release` gets the size that was asked for. Called from the thread that calls the library, and
-    /// from that of a step in the background (async.h); for one world never from two at once.</summary>
+    /// from that of a step in the background (async.h); for one world never from two at once. Must not call the library.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Allocator
     {
@@ -1467,7 +1467,8 @@ namespace Pbmpm.Native
     ///
     /// Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
     /// not begun; so they may as well run one after another. They neither call enqueue nor finish. A step with 5 iterations enqueues some 10 times with the
-    /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.</summary>
+    /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
+    /// For one world one call at a time enqueues: another reader of it meanwhile does its work alone.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
@@ -1599,8 +1600,9 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults, but what it shows means
-    /// nothing. What is drawn later, or by another thread, is to be copied: pbmpm_particles_copy(). Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
+    /// frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+    /// anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -1617,7 +1619,7 @@ namespace Pbmpm.Native
         public ulong Stride;
         /// <summary>null when count is 0</summary>
         public IntPtr Data;
-        /// <summary>valid while pbmpm_world_generation() returns this number</summary>
+        /// <summary>valid while pbmpm_world_generation() returns this number; of a published state for longer, see async.h</summary>
         public ulong Generation;
     }
 
@@ -1627,7 +1629,7 @@ namespace Pbmpm.Native
     {
         /// <summary>sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init()</summary>
         public uint Size;
-        /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what the fields take</summary>
+        /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what offset and fields take</summary>
         public uint Stride;
         /// <summary>when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
         /// duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
@@ -1637,6 +1639,10 @@ namespace Pbmpm.Native
         public uint FieldCount;
         /// <summary>one behind the other, without gaps; 4 bytes for each component</summary>
         public Field* Fields;
+        /// <summary>1: POSITION and VELOCITY take 3 floats in 2D too, the third is 0; 0 (default): d floats</summary>
+        public int PadsVectors;
+        /// <summary>bytes from the beginning of a record to the first field, a multiple of 4; default 0</summary>
+        public uint Offset;
 
         /// <summary>The library's defaults.</summary>
         public static CopyDef Default
@@ -1680,7 +1686,7 @@ namespace Pbmpm.Native
     }
 
     /// <summary>Receives one line per notable happening. May come from any thread that calls the
-    /// library and from a step in the background, never from a worker; must not call the library.</summary>
+    /// library and from a step in the background, from several at once, never from a worker; must not call the library.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void LogCallback(LogLevel level, IntPtr message, IntPtr user);
 
@@ -1880,11 +1886,11 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
         /// <summary>Reads the settings. `settings-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
-        /// Any thread, one at a time per world.</summary>
+        /// Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_settings(WorldId world, Settings* settings);
 
-        /// <summary>Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT.</summary>
+        /// <summary>Changes the settings. All or nothing. Errors as pbmpm_world_get_settings(), and INVALID_ARGUMENT. Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
 
@@ -1894,7 +1900,7 @@ namespace Pbmpm.Native
         /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
         /// needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
         /// was set from outside is brought into its material's range.
-        /// Any thread, one at a time per world; different worlds step at the same time.</summary>
+        /// Any thread, alone in its world; different worlds step at the same time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step(WorldId world, float dt);
 
@@ -1962,6 +1968,11 @@ namespace Pbmpm.Native
 
         /// <summary>Copies all particles into the caller's memory, for rendering and for uploads to a GPU: it stays readable whatever the world does. `def` may be
         /// null: the defaults. *count is the number of particles; `capacity`: bytes of `buffer`, any alignment. The order is that of views.
+        ///
+        /// Records for a GPU: with pads_vectors 1 they are the same in 2D and 3D. The default fields take 28 bytes without gaps: position (3 floats),
+        /// velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
+        /// are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
+        ///
         /// A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
         /// Expires no view. While a step runs in the background it copies the published state, see async.h.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
@@ -2053,9 +2064,9 @@ namespace Pbmpm.Native
 
         /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
         /// that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen.
-        /// *count is how many touches there are. With less room than that: CAPACITY, and the next call compares with the same.
+        /// *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
         /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), CAPACITY (less room than *count), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_touches(WorldId world, Touch* touches, uint capacity, uint* count);
 
@@ -2070,7 +2081,7 @@ namespace Pbmpm.Native
         /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
         /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
-        /// Any thread, one at a time per world.</summary>
+        /// Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_advice(WorldId world, float dt, Advice* array, uint capacity, uint* count);
 
@@ -2089,14 +2100,15 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
 
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views.
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+        /// begin.
         /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
         /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_begin(WorldId world, float dt);
 
         /// <summary>Ends a step that was begun, and gives its result: what pbmpm_world_step() would have given. With `wait` 0 and a step that is not
-        /// done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. Expires the views that were taken while the step ran.
+        /// done: BUSY, of which the log callback is not told, and the step goes on. With another number it waits. The state that was published stays readable, see above.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (no step is under way), BUSY, FORKED; of the step: OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_end(WorldId world, int wait);
@@ -2280,12 +2292,12 @@ namespace Pbmpm.Native
 
         /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
         /// sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
-        /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, one at a time per world.</summary>
+        /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_wake(WorldId world, Shape* shape);
 
         /// <summary>How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, one at a time per world.</summary>
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_size(WorldId world, ulong* bytes, uint* bytesPerParticle);
 
@@ -2316,11 +2328,18 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes, uint flags);
 
-        /// <summary>Figures of the last step and the present state; before the first step times and step counts are 0. Costs a pass over
-        /// the particles, and only when called. `stats-&gt;size` must be set.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY.</summary>
+        /// <summary>All figures: of the last step, and of the present state, for which it makes a pass over the particles on the world's threads. Sums do not
+        /// depend on the number of threads. Before the first step times and step counts are 0. `stats-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
+
+        /// <summary>The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. 0 are those of the present state:
+        /// volume_error_rms, volume_error_max, max_speed, mass, momentum, angular_momentum, kinetic_energy, potential_energy and lane_occupancy.
+        /// While a step runs in the background they are those of the step before it, see async.h.
+        /// Errors: as pbmpm_world_get_stats(). Any thread, together with others that read.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_world_get_step_stats(WorldId world, Stats* stats);
 
         /// <summary>Events of the last step, and of calls since then. Writes up to `capacity` of them; *count is the number that the world keeps, at most
         /// PBMPM_MAX_EVENTS; *missed (may be null) counts those that it had no room to keep: totals are in pbmpm_stats. `events` may be null when
@@ -2635,6 +2654,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_copy_def", "alpha", &it, &it.Alpha, &it.Alpha + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "field_count", &it, &it.FieldCount, &it.FieldCount + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "fields", &it, &it.Fields, &it.Fields + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "pads_vectors", &it, &it.PadsVectors, &it.PadsVectors + 1, false));
+            fields.Add(new MirrorField("pbmpm_copy_def", "offset", &it, &it.Offset, &it.Offset + 1, false));
             fields.Add(new MirrorField("pbmpm_copy_def", "", &it, &it, &it + 1, true));
         }
 

@@ -71,12 +71,30 @@ namespace Pbmpm
             fixed (float* first = buffer) return CopyParticles((IntPtr)first, (long)buffer.Length * sizeof(float), alpha);
         }
 
+        /// <summary>The same as records, which are alike in 2D and 3D.</summary>
+        /// <param name="buffer">At least ParticleCount of them.</param>
+        /// <param name="alpha">Share of the way from before the last step to now.</param>
+        public int CopyParticles(ParticleRecord[] buffer, float alpha = 1)
+        {
+            if (buffer == null) throw new ArgumentNullException(nameof(buffer));
+            var definition = CopyDef.Default;
+            definition.Alpha = alpha;
+            definition.PadsVectors = 1;
+            fixed (ParticleRecord* first = buffer) return CopyParticles((IntPtr)first, (long)buffer.Length * sizeof(ParticleRecord), definition);
+        }
+
         /// <summary>The same into memory of the host, a mapped buffer of the GPU for one.</summary>
         public int CopyParticles(IntPtr buffer, long bytes, float alpha = 1)
         {
             var definition = CopyDef.Default;
-            uint count;
             definition.Alpha = alpha;
+            return CopyParticles(buffer, bytes, definition);
+        }
+
+        /// <summary>The same in any layout; begin with <see cref="CopyDef.Default"/>.</summary>
+        public int CopyParticles(IntPtr buffer, long bytes, CopyDef definition)
+        {
+            uint count;
             Done(Methods.pbmpm_particles_copy(Id, &definition, buffer, (ulong)bytes, &count));
             return (int)count;
         }
@@ -244,5 +262,19 @@ namespace Pbmpm
             if (count < 0 || count > array.Length)
                 throw new ArgumentException("the length is " + array.Length + ", too few for " + count, name);
         }
+    }
+
+    /// <summary>What <see cref="World.CopyParticles(ParticleRecord[], float)"/> writes for each particle: 28 bytes, as a structured buffer of a GPU
+    /// has them.</summary>
+    public struct ParticleRecord
+    {
+        /// <summary>[m], relative to the origin; in 2D the third is 0.</summary>
+        public Float3 Position;
+
+        /// <summary>[m/s]</summary>
+        public Float3 Velocity;
+
+        /// <summary>Index of the material's identifier.</summary>
+        public uint Material;
     }
 }

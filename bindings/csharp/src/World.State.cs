@@ -37,10 +37,13 @@ namespace Pbmpm
         }
 
         /// <summary>Begins a step of <paramref name="seconds"/> and returns. Until it ends, views of published fields show the
-        /// state from which it began; other calls get <see cref="Result.ErrorBusy"/>.</summary>
+        /// state from which it began; other calls get <see cref="Result.ErrorBusy"/>. Those views stay current until the next begin but one, and
+        /// any thread may read them: a renderer that is a frame late reads a whole old frame.</summary>
         public void BeginStep(float seconds)
         {
             Changed(Methods.pbmpm_world_step_begin(Id, seconds));
+            publishedBefore = published;
+            published = generation;
         }
 
         /// <summary>Waits for the step that was begun, and ends it.</summary>

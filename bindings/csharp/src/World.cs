@@ -5,9 +5,9 @@ namespace Pbmpm
 {
     /// <summary>A world of liquid and elastic matter.
     /// Units are SI, angles radians; in 2D the third component of every vector is ignored.
-    /// Worlds are independent: different ones may step at the same time on different threads. A second thread in the same
-    /// world gets <see cref="Result.ErrorBusy"/>. No call makes garbage, except those that throw, that make an array
-    /// or, in 2D, that take vectors.
+    /// Worlds are independent: different ones may step at the same time on different threads. Calls that only read share a
+    /// world; one that changes it gets <see cref="Result.ErrorBusy"/> while another thread is inside a call. No call makes
+    /// garbage, except those that throw, that make an array or, in 2D, that take vectors.
     /// Dispose of a world to release its memory at once; one that is forgotten is destroyed when it is collected, or with its
     /// domain or process at the latest.</summary>
     public sealed unsafe partial class World : IDisposable
@@ -17,6 +17,7 @@ namespace Pbmpm
 
         WorldId id;
         ulong generation = NoGeneration;
+        ulong published = NoGeneration, publishedBefore = NoGeneration; // of the last two begins, whose views stay readable
         Event[] events = new Event[0];
 
         /// <summary>Makes a world; begin with <see cref="WorldDef.Default"/> and change what differs.</summary>
@@ -61,7 +62,7 @@ namespace Pbmpm
             GC.KeepAlive(this);
             if (result != Result.Ok) return result;
             id = default(WorldId);
-            generation = NoGeneration;
+            generation = published = publishedBefore = NoGeneration;
             GC.SuppressFinalize(this);
             return result;
         }
@@ -112,7 +113,7 @@ namespace Pbmpm
             Changed(Methods.pbmpm_world_step(Id, seconds));
         }
 
-        /// <summary>What the last step cost and the state that it left.</summary>
+        /// <summary>What the last step cost and the state that it left; goes over all particles, on the world's threads.</summary>
         public Stats Stats
         {
             get
@@ -123,7 +124,19 @@ namespace Pbmpm
             }
         }
 
-        /// <summary>Events of the last step and of calls since then.</summary>
+        /// <summary>What the last step cost, without the state that it left: mass, momenta, energies, volume errors, the largest speed and
+        /// lane occupancy are 0. Costs nothing; also while a step runs in the background: then of the step before it.</summary>
+        public Stats StepStats
+        {
+            get
+            {
+                var found = new Stats { Size = (uint)sizeof(Stats) };
+                Done(Methods.pbmpm_world_get_step_stats(Id, &found));
+                return found;
+            }
+        }
+
+        /// <summary>Events of the last step and of calls since then. They share one array: for one thread at a time.</summary>
         public EventList Events
         {
             get
@@ -284,7 +297,8 @@ namespace Pbmpm
 
         internal bool IsCurrent(ulong viewGeneration)
         {
-            return viewGeneration == generation && generation != NoGeneration;
+            if (viewGeneration == NoGeneration) return false;
+            return viewGeneration == generation || viewGeneration == published || viewGeneration == publishedBefore;
         }
 
         internal ulong Generation => generation;

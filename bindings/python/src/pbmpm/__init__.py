@@ -41,8 +41,8 @@ from .queries import PointFields, RayHit, RegionShare
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
 from .solids import BakedSolid, Impulse, LoadedSolid, SolidInfo, bake_heights, bake_hull, bake_mesh
-from .stats import Event, EventKind, Stats
-from .views import Field, View
+from .stats import Event, EventKind, Stats, StepStats
+from .views import RECORD, Field, View
 from .world import World
 
 __version__ = version_text(_lib.pbmpm_version())
@@ -106,6 +106,7 @@ __all__ = [
     "PointFields",
     "Pressure",
     "RayHit",
+    "RECORD",
     "Region",
     "RegionShare",
     "Sand",
@@ -114,6 +115,7 @@ __all__ = [
     "Solver",
     "Sphere",
     "Stats",
+    "StepStats",
     "Stop",
     "StrainPolicy",
     "ThreadError",

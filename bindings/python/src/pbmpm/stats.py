@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
-from typing import Any
+from typing import Any, TypeVar
 
 from ._choice import Choice
 from ._convert import plain
@@ -12,10 +12,9 @@ from .settings import Solver, Stop
 
 
 @dataclass(frozen=True)
-class Stats:
-    """Figures of the last step; before the first all are 0 but the counts. Times are of the whole step (all substeps),
-    state is that at its end. Momenta are relative to the world's origin; in 2D only the third component of the angular
-    momentum is used."""
+class StepStats:
+    """Figures that the last step has left behind; before the first all are 0 but the counts. Times are of the whole step (all
+    substeps)."""
 
     particle_count: int  #: live particles
     step_count: int  #: steps since creation
@@ -33,17 +32,8 @@ class Stats:
     ms_contacts: float  #: finding nodes near obstacles
     ms_iterate: float  #: the iterations
     ms_integrate: float  #: last grid-to-particle transfer, integration, guards
-    volume_error_rms: float  #: root mean square of |J - 1| over particles
-    volume_error_max: float  #: largest |J - 1|
-    max_speed: float  #: [m/s]
     max_displacement: float  #: largest displacement of the last substep [cells]
-    mass: float  #: [kg]
-    momentum: tuple[float, float, float]  #: [kg m/s]
-    angular_momentum: tuple[float, float, float]  #: about the origin [kg m^2/s]
-    kinetic_energy: float  #: translation of particles [J]
-    potential_energy: float  #: in gravity, relative to the origin [J]
     cell_changes: float  #: share of particles that left their cell in the last substep
-    lane_occupancy: float  #: share of SIMD lanes that held a particle
     deleted_total: int  #: particles deleted by the library since creation
     clamped_total: int  #: times a particle was slowed to max_displacement since creation
     solver: Solver  #: that the last substep was solved with; CONVERGENT: with several
@@ -56,6 +46,22 @@ class Stats:
     blocks_asleep: int  #: blocks that took no part in it; particle_blocks counts those that did
     blocks_drowsy: int  #: of particle_blocks, those that took part without being moved: next to blocks that are awake
     blocks_woken: int  #: blocks that woke in the last step, and by calls before it
+
+
+@dataclass(frozen=True)
+class Stats(StepStats):
+    """Those, and figures of the present state. Momenta are relative to the world's origin; in 2D only the third component of the
+    angular momentum is used."""
+
+    volume_error_rms: float  #: root mean square of |J - 1| over particles
+    volume_error_max: float  #: largest |J - 1|
+    max_speed: float  #: [m/s]
+    mass: float  #: [kg]
+    momentum: tuple[float, float, float]  #: [kg m/s]
+    angular_momentum: tuple[float, float, float]  #: about the origin [kg m^2/s]
+    kinetic_energy: float  #: translation of particles [J]
+    potential_energy: float  #: in gravity, relative to the origin [J]
+    lane_occupancy: float  #: share of SIMD lanes that held a particle
 
 
 class EventKind(Choice):
@@ -91,9 +97,12 @@ class Event:
     step: int
 
 
-def stats_from_c(stats: Any) -> Stats:
-    values = {item.name: plain(getattr(stats, item.name)) for item in fields(Stats)}
-    return Stats(**{**values, "solver": Solver(stats.solver), "stop": Stop(stats.stop)})
+_Kind = TypeVar("_Kind", bound=StepStats)
+
+
+def stats_from_c(stats: Any, kind: type[_Kind]) -> _Kind:
+    values = {item.name: plain(getattr(stats, item.name)) for item in fields(kind)}
+    return kind(**{**values, "solver": Solver(stats.solver), "stop": Stop(stats.stop)})
 
 
 def event_from_c(event: Any, dimension: int) -> Event:

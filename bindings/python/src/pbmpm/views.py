@@ -39,6 +39,10 @@ INTEGERS = (Field.MATERIAL, Field.PARTICLE, Field.USER_VALUE)
 _SCALARS = (Field.VOLUME_RATIO, Field.MATERIAL, Field.MASS, Field.PRESSURE, Field.USER_VALUE)
 
 
+#: What `World.records()` gives for each particle.
+RECORD = np.dtype([("position", np.float32, 3), ("velocity", np.float32, 3), ("material", np.uint32)])
+
+
 class _Memory:
     """What NumPy makes an array from; as the array's base it keeps the world's memory alive."""
 
@@ -53,10 +57,11 @@ class View(Bound):
     """A read-only window on one field of the particles in the world's own memory.
 
     It expires with everything that moves, adds or removes particles: a step, a fill, a removal, a setter. An expired
-    view raises ExpiredViewError instead of showing what is no longer true.
+    view raises ExpiredViewError instead of showing what is no longer true. A view that was taken while a step runs in the
+    background shows a copy, and expires with the next `step_begin()` but one.
 
     `array()` and `numpy.asarray(view)` give the memory itself as a strided NumPy array. Such an array cannot know that
-    it has expired: after the next change it shows rows of other particles, so take it anew or work on `copy()`. It
+    it has expired: after the next change it shows values of one particle or another, so take it anew or work on `copy()`. It
     never dangles: the memory lives until the last array is gone, even when the world has been closed.
     Indexing a view gives a copy.
     """
@@ -83,8 +88,12 @@ class View(Bound):
 
     @property
     def expired(self) -> bool:
-        """Whether the world has been closed or changed since."""
-        return self._world.closed or self._world.generation != self._generation
+        """Whether the world has been closed or changed since; of a published state: whether two steps were begun since."""
+        return self._world.closed or not (self._stays or self._world.generation == self._generation)
+
+    @property
+    def _stays(self) -> bool:
+        return self._generation in self._world._published
 
     def array(self) -> npt.NDArray[Any]:
         """The memory itself, read-only; true until the world changes.
@@ -93,6 +102,8 @@ class View(Bound):
             ExpiredViewError: the world has changed since the view was taken.
             ClosedError: the world has been closed.
         """
+        if self._stays and not self._world.closed:
+            return self._array
         now = self._world.generation
         if now != self._generation:
             raise ExpiredViewError(

@@ -28,8 +28,8 @@ from .settings import Integrator, Pressure, Solver, WorldSettings
 from .shapes import Shape
 from .snapshots import WorldSnapshots
 from .solids import WorldSolids
-from .stats import Event, Stats, event_from_c, stats_from_c
-from .views import INTEGERS, MATRICES, Field, View
+from .stats import Event, Stats, StepStats, event_from_c, stats_from_c
+from .views import INTEGERS, MATRICES, RECORD, Field, View
 
 Found = TypeVar("Found", bound=Member)
 
@@ -55,8 +55,8 @@ class World(
     number per axis. Everything that does not fit raises a `PbmpmError`, and the world is then as it was before.
 
     Use it as a context manager, or call `close()`; a forgotten world is destroyed when it is collected. Calls release
-    Python's global lock: different worlds may step at the same time in different threads; a second thread in the same
-    world gets a BusyError.
+    Python's global lock: different worlds may step at the same time in different threads. Calls that only read share a
+    world; one that changes it gets a BusyError while another thread is inside a call.
 
     Args:
         dimension: 2 or 3.
@@ -105,6 +105,7 @@ class World(
         sleep_time: float | None = None,
     ) -> None:
         self._handle: WorldHandle | None = None
+        self._published = (0, 0)
         definition = initialised("pbmpm_world_def")
         numbers = {
             "dimension": dimension,
@@ -409,14 +410,23 @@ class World(
     def positions_at(self, alpha: float) -> npt.NDArray[np.float32]:
         """Positions between steps, for rendering: a copy of shape (n, d) [m] at the share `alpha` in [0, 1] of the way from before
         the last step (0) to now (1)."""
-        definition, count = initialised("pbmpm_copy_def"), ffi.new("uint32_t *")
+        definition = initialised("pbmpm_copy_def")
         fields = ffi.new("pbmpm_field[]", [ffi.integer_const("PBMPM_POSITION")])
         definition.fields, definition.field_count = fields, 1
+        return self._copy(definition, alpha, np.empty((len(self), self._dimension), np.float32))
+
+    def records(self, alpha: float = 1.0) -> npt.NDArray[Any]:
+        """What a renderer uploads to a GPU: for each particle a record of 28 bytes (`pbmpm.RECORD`), alike in 2D and 3D: "position" and
+        "velocity" of three numbers, in 2D the third is 0, and "material", its index. `alpha`: as for `positions_at()`."""
+        definition = initialised("pbmpm_copy_def")
+        definition.pads_vectors = 1
+        return self._copy(definition, alpha, np.empty(len(self), RECORD))
+
+    def _copy(self, definition: Any, alpha: float, room: npt.NDArray[Any]) -> npt.NDArray[Any]:
         assign(definition, "alpha", alpha)
-        positions = np.empty((len(self), self._dimension), np.float32)
-        out = pointer("char", positions, writable=True) if positions.size else ffi.NULL
-        self._call(lib.pbmpm_particles_copy, definition, out, positions.nbytes, count)
-        return positions
+        out = pointer("char", room, writable=True) if room.size else ffi.NULL
+        self._call(lib.pbmpm_particles_copy, definition, out, room.nbytes, ffi.new("uint32_t *"))
+        return room
 
     @property
     def velocities(self) -> View:
@@ -571,10 +581,18 @@ class World(
 
     @property
     def stats(self) -> Stats:
-        """Figures of the last step."""
+        """Figures of the last step and of the present state, for which all particles are gone over."""
         stats = sized("pbmpm_stats")
         self._call(lib.pbmpm_world_get_stats, stats)
-        return stats_from_c(stats)
+        return stats_from_c(stats, Stats)
+
+    @property
+    def step_stats(self) -> StepStats:
+        """Figures that the last step has left behind: made to be asked in each frame. While a step runs in the background they are
+        those of the step before it."""
+        stats = sized("pbmpm_stats")
+        self._call(lib.pbmpm_world_get_step_stats, stats)
+        return stats_from_c(stats, StepStats)
 
     @property
     def events(self) -> list[Event]:

@@ -117,7 +117,7 @@ pbmpm_result pbmpm_particles_count(pbmpm_world_id world, uint32_t *count);
 typedef enum pbmpm_field { PBMPM_POSITION = 0, PBMPM_VELOCITY = 1, PBMPM_AFFINE_VELOCITY = 2, PBMPM_VOLUME_RATIO = 3, PBMPM_DEFORMATION = 4, PBMPM_MATERIAL = 5, PBMPM_PARTICLE = 6, PBMPM_MASS = 7, PBMPM_PRESSURE = 8, PBMPM_USER_VALUE = 9, PBMPM_FIELD_FORCE32 = 2147483647 } pbmpm_field;
 typedef struct pbmpm_view { uint32_t size; uint32_t count; uint32_t components; uint32_t component_stride; uint64_t stride; const void *data; uint64_t generation; } pbmpm_view;
 pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm_view *view);
-typedef struct pbmpm_copy_def { uint32_t size; uint32_t stride; float alpha; uint32_t field_count; const pbmpm_field *fields; } pbmpm_copy_def;
+typedef struct pbmpm_copy_def { uint32_t size; uint32_t stride; float alpha; uint32_t field_count; const pbmpm_field *fields; int32_t pads_vectors; uint32_t offset; } pbmpm_copy_def;
 pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
 pbmpm_result pbmpm_particles_copy(pbmpm_world_id world, const pbmpm_copy_def *def, void *buffer, uint64_t capacity, uint32_t *count);
 pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const void *values);
@@ -215,6 +215,7 @@ pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, uint64_t ca
 pbmpm_result pbmpm_snapshot_restore(pbmpm_world_id world, const void *snapshot, uint64_t bytes, uint32_t flags);
 typedef struct pbmpm_stats { uint32_t size; uint32_t particle_count; uint64_t step_count; double simulated_seconds; uint64_t memory_bytes; uint32_t particle_blocks; uint32_t node_blocks; uint32_t contacts; uint32_t substeps; uint32_t iterations; uint32_t thread_count; float ms_total; float ms_sort; float ms_scatter; float ms_contacts; float ms_iterate; float ms_integrate; float volume_error_rms; float volume_error_max; float max_speed; float max_displacement; double mass; double momentum[3]; double angular_momentum[3]; double kinetic_energy; double potential_energy; float cell_changes; float lane_occupancy; uint64_t deleted_total; uint64_t clamped_total; pbmpm_solver solver; pbmpm_stop stop; uint32_t iterations_used; float residual; float predicted_error; uint32_t energy_checks_failed; uint32_t particles_asleep; uint32_t blocks_asleep; uint32_t blocks_drowsy; uint32_t blocks_woken; } pbmpm_stats;
 pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);
+pbmpm_result pbmpm_world_get_step_stats(pbmpm_world_id world, pbmpm_stats *stats);
 typedef enum pbmpm_event_kind { PBMPM_EVENT_DELETED_NOT_FINITE = 1, PBMPM_EVENT_DELETED_OUT_OF_RANGE = 2, PBMPM_EVENT_DELETED_CONDITION = 3, PBMPM_EVENT_SPEED_CLAMPED = 4, PBMPM_EVENT_CAPACITY = 5, PBMPM_EVENT_EMISSION_REFUSED = 6, PBMPM_EVENT_KILLED = 7, PBMPM_EVENT_KIND_FORCE32 = 2147483647 } pbmpm_event_kind;
 typedef struct pbmpm_event { uint32_t size; pbmpm_event_kind kind; uint32_t count; pbmpm_particle_id particle; float position[3]; uint32_t substep; uint64_t step; } pbmpm_event;
 pbmpm_result pbmpm_world_events(pbmpm_world_id world, pbmpm_event *events, uint32_t capacity, uint32_t *count, uint32_t *missed);
