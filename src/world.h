@@ -133,6 +133,7 @@ typedef struct World {
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     Lookup lookup;          /* of queries; empty until the first */
+    Array submersion;       /* see submerged.c; empty until it is first asked for */
     Background *background; /* null until a step is begun in the background */
 
     Events events;

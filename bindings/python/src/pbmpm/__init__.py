@@ -36,6 +36,7 @@ from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
 from .forces import Falloff, Force, ForceKind
 from .materials import Effective, Elastic, ElasticModel, Liquid, Material, Sand, StrainPolicy, Visco, built_materials
 from .queries import PointFields, RayHit, RegionShare
+from .rigid import Freedom, Mass, RigidBody, Submersion
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
 from .solids import BakedSolid, Impulse, LoadedSolid, SolidInfo, bake_heights, bake_hull, bake_mesh
@@ -87,6 +88,7 @@ __all__ = [
     "ForceKind",
     "ForeignError",
     "ForkedError",
+    "Freedom",
     "Friction",
     "Impulse",
     "InUseError",
@@ -96,6 +98,7 @@ __all__ = [
     "LibraryError",
     "Liquid",
     "LoadedSolid",
+    "Mass",
     "Material",
     "OutOfMemoryError",
     "PbmpmError",
@@ -105,6 +108,7 @@ __all__ = [
     "RayHit",
     "Region",
     "RegionShare",
+    "RigidBody",
     "Sand",
     "Shape",
     "SolidInfo",
@@ -112,6 +116,7 @@ __all__ = [
     "Sphere",
     "Stats",
     "Stop",
+    "Submersion",
     "StrainPolicy",
     "ThreadError",
     "UnsupportedCpuError",
