@@ -185,7 +185,7 @@ static void expect_submerged(int32_t dimension, pbmpm_shape shape, float level, 
              found.centre[1], height);
     TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(cells * (double)DX * across, exact, found.volume, label);
     if (exact > 0.3 * all) {
-        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.4 * (double)DX, height, found.centre[1], label);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(cells * (double)DX, height, found.centre[1], label);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.4 * (double)DX, (double)shape.position[0], found.centre[0], label);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-3, 1000.0, found.density, label);
     }
