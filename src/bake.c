@@ -7,8 +7,6 @@
 #include "numbers.h"
 #include "result.h"
 
-enum { BORDER = 2 }; /* cells between the surface and the edge of the grid */
-
 pbmpm_mesh_def mesh_defaults(void) { return (pbmpm_mesh_def){.size = sizeof(pbmpm_mesh_def), .dimension = 3, .resolution = 64}; }
 
 /* ---- The grid ---- */
@@ -21,7 +19,7 @@ static DistanceGrid grid_around(const pbmpm_mesh_def *def)
     grid.spacing = surface_bounds(def, low, high) / def->resolution;
     for (int a = 0; a < def->dimension; a++) {
         const double extent = high[a] - low[a];
-        const double cells = ceil(extent / grid.spacing - 1e-9) + 2 * BORDER;
+        const double cells = ceil(extent / grid.spacing - 1e-9) + 2 * DISTANCE_GRID_BORDER;
         grid.count[a] = (int32_t)cells + 1;
         grid.low[a] = low[a] - 0.5 * (cells * grid.spacing - extent);
     }

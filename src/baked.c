@@ -30,6 +30,7 @@ pbmpm_result baked_add(BakedTable *table, Memory *memory, int dimension, const v
     if (!value) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a baked solid of %zu bytes", value_bytes(&grid));
     memcpy(value, values, value_bytes(&grid));
     grid.value = value;
+    grid.moments = distance_grid_moments(&grid);
     table->slot[index] = (Baked){generation, grid, value};
     *id = (pbmpm_baked_id){index, generation};
     return PBMPM_OK;

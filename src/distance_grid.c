@@ -94,6 +94,41 @@ double distance_grid_least(const DistanceGrid *grid, const double local[3])
     return sqrt(place.outside2 + fmax(least, 0.0) * fmax(least, 0.0));
 }
 
+/* ---- Moments ---- */
+
+/* About the middle of the grid first, so that places far from the origin lose no digits. */
+Moments distance_grid_moments(const DistanceGrid *grid)
+{
+    double sum = 0.0, first[3] = {0}, square[3] = {0}, product[3] = {0};
+    const size_t nodes = distance_grid_nodes(grid);
+    for (size_t i = 0; i < nodes; i++) {
+        const double share = share_inside((double)grid->value[i] / grid->spacing);
+        double x[3] = {0};
+        size_t rest = i;
+        for (int a = 0; a < grid->dimension; a++) {
+            x[a] = (double)(rest % (size_t)grid->count[a]) - 0.5 * (grid->count[a] - 1);
+            rest /= (size_t)grid->count[a];
+        }
+        sum += share;
+        for (int a = 0; a < 3; a++) {
+            first[a] += share * x[a];
+            square[a] += share * x[a] * x[a];
+            product[a] += share * x[a] * x[(a + 1) % 3];
+        }
+    }
+    Moments moments = {0};
+    if (sum == 0.0) return moments; /* thinner than a cell */
+    const double h = grid->spacing;
+    moments.volume = sum * (grid->dimension == 3 ? h * h * h : h * h);
+    for (int a = 0; a < 3; a++) {
+        const double middle = first[a] / sum, other = first[(a + 1) % 3] / sum;
+        moments.square[a] = moments.volume * h * h * (square[a] / sum - middle * middle);
+        moments.product[a] = moments.volume * h * h * (product[a] / sum - middle * other);
+        if (a < grid->dimension) moments.centre[a] = 0.5 * (grid->low[a] + distance_grid_high(grid, a)) + h * middle;
+    }
+    return moments;
+}
+
 /* ---- As bytes ---- */
 
 static const char MAGIC[8] = {'P', 'B', 'M', 'P', 'M', 'S', 'D', 'F'};

@@ -8,6 +8,13 @@
 
 #include "pbmpm/base.h"
 
+enum { DISTANCE_GRID_BORDER = 2 }; /* cells between the surface and the edge of the grid */
+
+/* Of a volume: its size, its centre, and the integrals of x x, y y, z z, x y, y z, z x about the centre. */
+typedef struct Moments {
+    double volume, centre[3], square[3], product[3];
+} Moments;
+
 /* Lengths in metres, relative to the solid's own frame. The surface lies inside: at the border all values are positive. */
 typedef struct DistanceGrid {
     int dimension;
@@ -15,6 +22,7 @@ typedef struct DistanceGrid {
     double spacing;
     double low[3];      /* of the first node */
     const float *value; /* x fastest, then y */
+    Moments moments;    /* of the solid, once a world has loaded it */
 } DistanceGrid;
 
 size_t distance_grid_nodes(const DistanceGrid *grid);
@@ -26,6 +34,12 @@ double distance_grid_at(const DistanceGrid *grid, const double local[3], double 
 
 /* A number that the true distance is not less than. */
 double distance_grid_least(const DistanceGrid *grid, const double local[3]);
+
+/* Sums over the nodes; a cell that the surface crosses counts by its share, which its distance tells. */
+Moments distance_grid_moments(const DistanceGrid *grid);
+
+/* The share of a cell around a place that lies in a solid whose surface is `distance` cells away, negative inside. */
+static inline double share_inside(double distance) { return distance <= -0.5 ? 1.0 : distance >= 0.5 ? 0.0 : 0.5 - distance; }
 
 /* ---- As bytes: a header, then the values ---- */
 

@@ -63,9 +63,9 @@ void normalise_quaternion(float q[4])
     for (int a = 0; a < 4; a++) q[a] = (float)(q[a] / length);
 }
 
-void rotation_from_quaternion(const float q[4], double r[9])
+void rotation_from_quaternion(const double q[4], double r[9])
 {
-    const double n = 1.0 / quaternion_length(q);
+    const double n = 1.0 / sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     const double x = q[0] * n, y = q[1] * n, z = q[2] * n, w = q[3] * n;
     const double matrix[9] = {1 - 2 * (y * y + z * z), 2 * (x * y - w * z),     2 * (x * z + w * y),
                               2 * (x * y + w * z),     1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
@@ -76,7 +76,8 @@ void rotation_from_quaternion(const float q[4], double r[9])
 Solid solid_of(const pbmpm_shape *shape, int dimension)
 {
     Solid s = {.kind = shape->kind, .dimension = dimension, .radius = shape->radius};
-    rotation_from_quaternion(shape->rotation, s.rotation);
+    const double q[4] = {shape->rotation[0], shape->rotation[1], shape->rotation[2], shape->rotation[3]};
+    rotation_from_quaternion(q, s.rotation);
     double length = 0.0;
     for (int a = 0; a < dimension; a++) {
         s.position[a] = shape->position[a];

@@ -27,7 +27,8 @@ const char *shape_problem_among(const pbmpm_shape *shape, int dimension, const B
 
 Solid solid_of(const pbmpm_shape *shape, int dimension);
 Solid solid_among(const pbmpm_shape *shape, int dimension, const BakedTable *table);
-void rotation_from_quaternion(const float q[4], double r[9]);
+/* The matrix, row-major, of a quaternion of any length. */
+void rotation_from_quaternion(const double q[4], double r[9]);
 void normalise_quaternion(float q[4]);
 
 /* A shape on its way to another pose, at the share `t` of the way: positions along a line, quaternions along the shorter arc. */

@@ -139,6 +139,7 @@ void world_destroy(World *world)
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
     lookup_free(&world->lookup, &world->memory);
+    array_free(&world->memory, &world->submersion);
     colliders_free(&world->colliders, &world->memory);
     baked_free(&world->baked, &world->memory);
     emitters_free(&world->emitters, &world->memory);

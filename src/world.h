@@ -135,6 +135,7 @@ typedef struct World {
 
     pthread_mutex_t making; /* see readers.h */
     Lookup lookup;          /* of queries; empty until the first */
+    Array submersion;       /* see submerged.c; empty until it is first asked for */
     Background *background; /* null until a step is begun in the background */
 
     Events events;

@@ -78,13 +78,7 @@ PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_colli
 /** What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
  *  sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
  *  depth.
- *
- *  A host's body of mass M follows with v += gravity * dt + linear / M, then pbmpm_collider_move(x + v * dt). Matter feels that velocity one
- *  step later. Where the matter that has to move along (the added mass A) weighs more than the body, this may oscillate and grow at
- *  any dt. Stable is v += (M * gravity * dt + linear + V * last) / (M + V), where `last` is what v changed by in the step before: a virtual mass V
- *  above (A - M) / 2 suffices, and in equilibrium it changes nothing. With V = (density of the liquid) * (volume of the body that is under)^2 /
- *  (volume of the body) boxes of 0.1 to 0.5 of the liquid's density, released under water or dropped into it, were stable at 60 and 120 Hz.
- *  With V = 0 bodies of half the density are stable, floating ones of 0.1 too; a box of 0.1 that is held under and released is not. */
+ *  pbmpm_rigid_advance() moves a rigid body by it, see rigid.h. */
 typedef struct pbmpm_impulse {
     uint32_t size;     /**< sizeof(pbmpm_impulse), set by the caller */
     double linear[3];  /**< [N s] */

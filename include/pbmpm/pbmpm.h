@@ -21,6 +21,7 @@
 #include "material.h"
 #include "particles.h"
 #include "query.h"
+#include "rigid.h"
 #include "shape.h"
 #include "sleep.h"
 #include "solid.h"

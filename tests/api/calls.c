@@ -218,6 +218,35 @@ static pbmpm_result call_get_forces(const target *ids)
     return pbmpm_world_get_forces(ids->world, found, 4, &count);
 }
 
+static pbmpm_result call_collider_submerged(const target *ids)
+{
+    pbmpm_submersion submersion = {.size = sizeof submersion};
+    return pbmpm_collider_submerged(ids->world, ids->collider, NULL, &submersion);
+}
+
+static pbmpm_result call_shape_mass(const target *ids)
+{
+    const pbmpm_shape shape = default_shape();
+    pbmpm_mass mass = {.size = sizeof mass};
+    return pbmpm_shape_mass(ids->world, &shape, 1.0f, &mass);
+}
+
+static pbmpm_result call_rigid_begin(const target *ids)
+{
+    pbmpm_rigid_def def;
+    pbmpm_rigid_state state = {.size = sizeof state};
+    OK(pbmpm_rigid_def_init(&def, sizeof def));
+    return pbmpm_rigid_begin(ids->world, ids->collider, &def, &state);
+}
+
+static pbmpm_result call_rigid_advance(const target *ids)
+{
+    pbmpm_rigid_def def;
+    pbmpm_rigid_state state = {.size = sizeof state, .position = {0.5, 0.25}, .rotation = {0, 0, 0, 1}};
+    OK(pbmpm_rigid_def_init(&def, sizeof def));
+    return pbmpm_rigid_advance(ids->world, ids->collider, &def, &state, 0.01f);
+}
+
 pbmpm_result load_triangle(pbmpm_world_id world, pbmpm_baked_id *baked)
 {
     static const float vertices[6] = {0, 0, 1, 0, 0, 1};
@@ -578,6 +607,10 @@ const world_call world_calls[] = {
     {"pbmpm_query_collider", call_query_collider, USES_COLLIDER},
     {"pbmpm_collider_impulse", call_collider_impulse, USES_COLLIDER},
     {"pbmpm_domain_impulse", call_domain_impulse, 0},
+    {"pbmpm_collider_submerged", call_collider_submerged, USES_COLLIDER},
+    {"pbmpm_shape_mass", call_shape_mass, 0},
+    {"pbmpm_rigid_begin", call_rigid_begin, USES_COLLIDER},
+    {"pbmpm_rigid_advance", call_rigid_advance, USES_COLLIDER},
     {"pbmpm_collider_destroy", call_collider_destroy, USES_COLLIDER},
     {"pbmpm_baked_create", call_baked_create, 0},
     {"pbmpm_baked_get", call_baked_get, USES_BAKED},

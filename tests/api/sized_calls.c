@@ -510,6 +510,7 @@ TAKE(collider_shape, pbmpm_collider_get(world.world, world.collider, NULL, struc
 TAKE(collider_impulse, pbmpm_collider_impulse(world.world, world.collider, structure))
 TAKE(domain_impulse, pbmpm_domain_impulse(world.world, 1, 0, structure))
 TAKE(domain_wall, pbmpm_domain_wall_get(world.world, 1, 0, structure))
+TAKE(submersion, pbmpm_collider_submerged(world.world, world.collider, NULL, structure))
 TAKE(baked_info, pbmpm_baked_get(world.world, world.baked, structure))
 TAKE(view, pbmpm_particles_view(world.world, PBMPM_VELOCITY, structure))
 TAKE(emitter, pbmpm_emitter_get(world.world, world.emitter, structure, NULL))
@@ -525,6 +526,19 @@ TAKE(bounds, pbmpm_world_get_kill_bounds(world.world, structure))
 TAKE(flow, pbmpm_world_get_flow(world.world, structure))
 TAKE(stats, pbmpm_world_get_stats(world.world, structure))
 
+static pbmpm_result take_mass(void *structure)
+{
+    const pbmpm_shape shape = default_shape();
+    return pbmpm_shape_mass(world.world, &shape, 1.0f, structure);
+}
+
+static pbmpm_result take_rigid_state(void *structure)
+{
+    pbmpm_rigid_def def;
+    OK(pbmpm_rigid_def_init(&def, sizeof def));
+    return pbmpm_rigid_begin(world.world, world.collider, &def, structure);
+}
+
 #define TAKEN(type, call, take) {#type, #call, sizeof(type), take}
 
 const sized_output sized_outputs[] = {
@@ -537,6 +551,9 @@ const sized_output sized_outputs[] = {
     TAKEN(pbmpm_impulse, pbmpm_collider_impulse, take_collider_impulse),
     TAKEN(pbmpm_domain_wall, pbmpm_domain_wall_get, take_domain_wall),
     TAKEN(pbmpm_impulse, pbmpm_domain_impulse, take_domain_impulse),
+    TAKEN(pbmpm_submersion, pbmpm_collider_submerged, take_submersion),
+    TAKEN(pbmpm_mass, pbmpm_shape_mass, take_mass),
+    TAKEN(pbmpm_rigid_state, pbmpm_rigid_begin, take_rigid_state),
     TAKEN(pbmpm_baked_info, pbmpm_baked_get, take_baked_info),
     TAKEN(pbmpm_baked_info, pbmpm_baked_inspect, take_inspected),
     TAKEN(pbmpm_view, pbmpm_particles_view, take_view),

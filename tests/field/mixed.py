@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from harness import G, SURFACE, Frame, Run, case, lattice, pool, rms, rows_of, tank
-from pbmpm import Box, Elastic, Friction, Liquid, Plane, Region, Sand, Sphere, Visco
+from pbmpm import Box, Elastic, Friction, Liquid, Plane, Region, RigidBody, Sand, Sphere, Visco
 
 FLOATS = "Archimedes; 0.4 cells"
 
@@ -112,31 +112,19 @@ def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
         pool(world, Frame(), (0, 0), (width, depth), Liquid())
         start = np.array([width / 2, depth + side])
         box = world.add_collider(Box(start.tolist(), (side / 2, side / 2), rotation=angle), friction=Friction.SLIP, kinematic=True, measures_impulse=True)
-        mass = density * side**2
-        inertia = mass * side**2 / 6
-        virtual = 1000 * side**2 * (density / 1000) ** 2  # as pbmpm_impulse in include/pbmpm/collider.h says
-        body = {"x": start, "v": np.zeros(2), "a": angle, "w": 0.0, "last": np.zeros(2)}
+        body = RigidBody(box, density=density)
         under, levels, turns = [], [], []
 
         def before(_: float) -> None:
-            body["x"] = body["x"] + run.dt * body["v"]
-            body["a"] += run.dt * body["w"]
-            reach = side / 2 * (abs(math.cos(body["a"])) + abs(math.sin(body["a"])))
-            place = min(max(body["x"][0], reach), width - reach)
-            body["v"][0] *= place == body["x"][0]
-            body["x"][0] = place
-            box.move(body["x"].tolist(), body["a"])
+            body.advance(run.dt)
 
         def after(t: float) -> None:
-            given = box.impulse
-            body["last"] = (np.array([0.0, -G * run.dt * mass]) + given.linear + virtual * body["last"]) / (mass + virtual)
-            body["v"] = body["v"] + body["last"]
-            body["w"] += given.angular[0] / inertia
             if t > 6:
-                turns.append(abs(body["w"]))
-                levels.append(_level(world, Frame(), width, body["x"][0], 0.71 * side + 2 * cell))
-                c, s = math.cos(body["a"]), math.sin(body["a"])
-                inside = lattice((-side / 2, -side / 2), (side / 2, side / 2), cell / 4) @ np.array([[c, s], [-s, c]]) + body["x"]
+                turns.append(abs(body.angular_velocity[2]))
+                levels.append(_level(world, Frame(), width, body.position[0], 0.71 * side + 2 * cell))
+                _, _, z, w = body.rotation
+                c, s = w * w - z * z, 2 * z * w
+                inside = lattice((-side / 2, -side / 2), (side / 2, side / 2), cell / 4) @ np.array([[c, s], [-s, c]]) + np.array(body.position)
                 under.append(_wet_share(inside[:, 1], levels[-1], cell / 4))
 
         run.steps(world, 8, before=before, after=after)

@@ -290,7 +290,8 @@ static void test_rotations(void)
     for (int i = 0; i < 100; i++) {
         const pbmpm_shape shape = shape_of(PBMPM_BOX, 3, &random);
         double r[9];
-        rotation_from_quaternion(shape.rotation, r);
+        const double q[4] = {shape.rotation[0], shape.rotation[1], shape.rotation[2], shape.rotation[3]};
+        rotation_from_quaternion(q, r);
         for (int c = 0; c < 3; c++) {
             const double axis[3] = {c == 0, c == 1, c == 2};
             double turned[3];

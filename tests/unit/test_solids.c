@@ -194,9 +194,11 @@ static void test_bounds_of_turned_solids(void)
         mesh_add_box(&mesh, (const double[3]){0.5, 0.25, -1}, (const double[3]){1, 0.5, 0.25});
         bake_now(16);
         Solid solid = {.kind = PBMPM_BAKED, .dimension = d, .position = {3, -2, d == 3 ? 5 : 0}, .grid = &baked.grid};
-        float turn[4];
-        memcpy(turn, turns[d - 2], sizeof turn);
-        normalise_quaternion(turn);
+        float unit[4];
+        double turn[4];
+        memcpy(unit, turns[d - 2], sizeof unit);
+        normalise_quaternion(unit);
+        for (int i = 0; i < 4; i++) turn[i] = (double)unit[i];
         rotation_from_quaternion(turn, solid.rotation);
         double low[3], high[3], least[3], most[3];
         for (int corner = 0; corner < 1 << d; corner++)

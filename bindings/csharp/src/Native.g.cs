@@ -398,6 +398,19 @@ namespace Pbmpm
         InverseSquare = 3,
     }
 
+    /// <summary>How far a body may move, or turn.</summary>
+    public enum Freedom : int
+    {
+        /// <summary>in every direction</summary>
+        All = 0,
+        /// <summary>along, or about, the axis alone</summary>
+        Axis = 1,
+        /// <summary>in every direction but along, or about, the axis</summary>
+        Plane = 2,
+        /// <summary>not at all</summary>
+        None = 3,
+    }
+
     /// <summary>What a restore does beside the usual.</summary>
     public enum RestoreFlags : int
     {
@@ -516,6 +529,24 @@ namespace Pbmpm
             X = x;
             Y = y;
             Z = z;
+        }
+    }
+
+    /// <summary>4 numbers, in C an array.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Double4
+    {
+        public double X;
+        public double Y;
+        public double Z;
+        public double W;
+
+        public Double4(double x, double y, double z, double w)
+        {
+            X = x;
+            Y = y;
+            Z = z;
+            W = w;
         }
     }
 
@@ -933,13 +964,7 @@ namespace Pbmpm
     /// <summary>What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
     /// sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
     /// depth.
-    ///
-    /// A host's body of mass M follows with v += gravity * dt + linear / M, then pbmpm_collider_move(x + v * dt). Matter feels that velocity one
-    /// step later. Where the matter that has to move along (the added mass A) weighs more than the body, this may oscillate and grow at
-    /// any dt. Stable is v += (M * gravity * dt + linear + V * last) / (M + V), where `last` is what v changed by in the step before: a virtual mass V
-    /// above (A - M) / 2 suffices, and in equilibrium it changes nothing. With V = (density of the liquid) * (volume of the body that is under)^2 /
-    /// (volume of the body) boxes of 0.1 to 0.5 of the liquid's density, released under water or dropped into it, were stable at 60 and 120 Hz.
-    /// With V = 0 bodies of half the density are stable, floating ones of 0.1 too; a box of 0.1 that is held under and released is not.</summary>
+    /// pbmpm_rigid_advance() moves a rigid body by it, see rigid.h.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Impulse
     {
@@ -1330,6 +1355,117 @@ namespace Pbmpm
         public MaterialId Material;
         /// <summary>nearest to the position of those that count there (W_p &gt; 0); of equals the first in storage order</summary>
         public ParticleId Particle;
+    }
+
+    /// <summary>Volume, mass and inertia of a shape of even density. In 2D per metre of depth.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Mass
+    {
+        /// <summary>sizeof(pbmpm_mass), set by the caller</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>[m^d]</summary>
+        public double Volume;
+        /// <summary>[kg]</summary>
+        public double Mass;
+        /// <summary>of mass [m], from the shape's position, in the shape's own frame</summary>
+        public Double3 Centre;
+        /// <summary>moments xx, yy, zz about the centre [kg m^2], in the shape's own frame; 2D: only zz, else 0</summary>
+        public Double3 Inertia;
+        /// <summary>elements xy, yz, zx of the same tensor: -(integral of x y dm) and so on</summary>
+        public Double3 Products;
+    }
+
+    /// <summary>The part of an obstacle that is under matter.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Submersion
+    {
+        /// <summary>sizeof(pbmpm_submersion), set by the caller</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>of the obstacle's volume that is under, in [0, 1]</summary>
+        public double Share;
+        /// <summary>that is under [m^d]; 2D: per metre of depth</summary>
+        public double Volume;
+        /// <summary>of that volume [m], in the world; without any: of the obstacle</summary>
+        public Double3 Centre;
+        /// <summary>of the matter around, at rest volume [kg/m^3]; 0 without any</summary>
+        public double Density;
+    }
+
+    /// <summary>What a rigid body is. Fill it with pbmpm_rigid_def_init(), then change what differs; mass, centre, inertia and products are those of a
+    /// pbmpm_mass, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
+    ///
+    /// A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct RigidDef
+    {
+        /// <summary>sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init()</summary>
+        public uint Size;
+        /// <summary>1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes.</summary>
+        public int StaysInside;
+        /// <summary>of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL</summary>
+        public Freedom Moves;
+        /// <summary>2D: NONE, or else about the third axis. Default ALL</summary>
+        public Freedom Turns;
+        /// <summary>[kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1</summary>
+        public double Mass;
+        /// <summary>of mass [m], from the shape's position, in the shape's own frame; within 1e9; default 0</summary>
+        public Double3 Centre;
+        /// <summary>see pbmpm_mass; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1</summary>
+        public Double3 Inertia;
+        /// <summary>see pbmpm_mass; default 0</summary>
+        public Double3 Products;
+        /// <summary>with `moves` NONE: the point that stays, from the shape's position, in the shape's own frame [m]; within 1e9; default 0</summary>
+        public Double3 Pivot;
+        /// <summary>of `moves`, in the world, any length from 1e-6 to 1e9; default (0, 1, 0)</summary>
+        public Double3 MoveAxis;
+        /// <summary>of `turns`, in the world, any length from 1e-6 to 1e9; not used in 2D; default (0, 0, 1)</summary>
+        public Double3 TurnAxis;
+        /// <summary>of the host, beside gravity and matter, at the centre of mass [N]; within 1e30; default 0</summary>
+        public Double3 Force;
+        /// <summary>of the host, such as a motor's or a brake's [N m]; within 1e30; default 0</summary>
+        public Double3 Torque;
+
+        /// <summary>The library's defaults.</summary>
+        public static RigidDef Default
+        {
+            get
+            {
+                Library.Check();
+                RigidDef it;
+                Library.Require(Methods.pbmpm_rigid_def_init(&it, (UIntPtr)sizeof(RigidDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>How a rigid body is and moves. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct RigidState
+    {
+        /// <summary>sizeof(pbmpm_rigid_state), set by the caller before pbmpm_rigid_begin()</summary>
+        public uint Size;
+        /// <summary>0</summary>
+        public uint Reserved;
+        /// <summary>of the shape [m], at the end of the next step; within 1e9</summary>
+        public Double3 Position;
+        /// <summary>quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0</summary>
+        public Double4 Rotation;
+        /// <summary>of the centre of mass [m/s]; within 1e9</summary>
+        public Double3 Velocity;
+        /// <summary>[rad/s], in the world; within 1e9</summary>
+        public Double3 AngularVelocity;
+        /// <summary>what the last call changed `velocity` by [m/s]: what the virtual mass goes on with</summary>
+        public Double3 VelocityChange;
+        /// <summary>the same of `angular_velocity` [rad/s]</summary>
+        public Double3 AngularVelocityChange;
+        /// <summary>where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used</summary>
+        public Double3 Point;
+        /// <summary>V of the last call [kg], to look at; never read</summary>
+        public double VirtualMass;
     }
 
     /// <summary>Figures of the last step. Times are of the whole step (all substeps); state is that at its end. Momentum and angular
@@ -2290,6 +2426,38 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_ray(WorldId world, Ray* ray, RayHit* hit);
 
+        /// <summary>Mass properties of a shape. Boxes, balls and capsules: exact. Baked solids: sums over the nodes of the grid, in which a cell that the surface
+        /// crosses counts by its share; a solid 64 cells long errs by less than 1/100. `mass-&gt;size` must be set.
+        /// `density`: [kg/m^3], in [1e-6, 1e9]. Errors: INVALID_ID, INVALID_ARGUMENT (also: a plane, which has no volume), UNSUPPORTED, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_shape_mass(WorldId world, Shape* shape, float density, Mass* mass);
+
+        /// <summary>How much of an obstacle is under matter. That is where the surface of the matter around it, continued through the obstacle as a plane, leaves it:
+        /// no gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
+        ///
+        /// Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
+        /// filling of query.h over the share that obstacles and walls leave open there; where they leave nothing, it is what stands next to it.
+        /// The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
+        /// `submersion-&gt;size` must be set. The first call of a world takes memory, later ones that need no more take none.
+        /// Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_collider_submerged(WorldId world, ColliderId collider, MaterialId* material, Submersion* submersion);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_rigid_def_init(RigidDef* def, UIntPtr size);
+
+        /// <summary>Begins a body at rest where its obstacle is, and notes what holds it there as `point`. `state-&gt;size` must be set.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (also: the obstacle is a plane, not kinematic or measures no impulse), UNSUPPORTED, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_rigid_begin(WorldId world, ColliderId collider, RigidDef* def, RigidState* state);
+
+        /// <summary>Moves a body on by a step of `dt` seconds, as pbmpm_world_step() takes it, and its obstacle by pbmpm_collider_move(). Call it once before each
+        /// step; a second call would give the last step's impulse again. Only `state` and the obstacle's target change, and nothing on failure.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT (also: as pbmpm_rigid_begin(), and a place out of range), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_rigid_advance(WorldId world, ColliderId collider, RigidDef* def, RigidState* state, float dt);
+
         /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
         /// sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
         /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world.</summary>
@@ -2395,6 +2563,10 @@ namespace Pbmpm.Native
             RegionShare(fields);
             Ray(fields);
             RayHit(fields);
+            Mass(fields);
+            Submersion(fields);
+            RigidDef(fields);
+            RigidState(fields);
             Stats(fields);
             Event(fields);
             return fields;
@@ -2899,6 +3071,66 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_ray_hit", "material", &it, &it.Material, &it.Material + 1, false));
             fields.Add(new MirrorField("pbmpm_ray_hit", "particle", &it, &it.Particle, &it.Particle + 1, false));
             fields.Add(new MirrorField("pbmpm_ray_hit", "", &it, &it, &it + 1, true));
+        }
+
+        static void Mass(List<MirrorField> fields)
+        {
+            var it = default(Mass);
+            fields.Add(new MirrorField("pbmpm_mass", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "volume", &it, &it.Volume, &it.Volume + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "mass", &it, &it.Mass, &it.Mass + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "centre", &it, &it.Centre, &it.Centre + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "inertia", &it, &it.Inertia, &it.Inertia + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "products", &it, &it.Products, &it.Products + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass", "", &it, &it, &it + 1, true));
+        }
+
+        static void Submersion(List<MirrorField> fields)
+        {
+            var it = default(Submersion);
+            fields.Add(new MirrorField("pbmpm_submersion", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "share", &it, &it.Share, &it.Share + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "volume", &it, &it.Volume, &it.Volume + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "centre", &it, &it.Centre, &it.Centre + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "density", &it, &it.Density, &it.Density + 1, false));
+            fields.Add(new MirrorField("pbmpm_submersion", "", &it, &it, &it + 1, true));
+        }
+
+        static void RigidDef(List<MirrorField> fields)
+        {
+            var it = default(RigidDef);
+            fields.Add(new MirrorField("pbmpm_rigid_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "stays_inside", &it, &it.StaysInside, &it.StaysInside + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "moves", &it, &it.Moves, &it.Moves + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "turns", &it, &it.Turns, &it.Turns + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "mass", &it, &it.Mass, &it.Mass + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "centre", &it, &it.Centre, &it.Centre + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "inertia", &it, &it.Inertia, &it.Inertia + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "products", &it, &it.Products, &it.Products + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "pivot", &it, &it.Pivot, &it.Pivot + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "move_axis", &it, &it.MoveAxis, &it.MoveAxis + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "turn_axis", &it, &it.TurnAxis, &it.TurnAxis + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "force", &it, &it.Force, &it.Force + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "torque", &it, &it.Torque, &it.Torque + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void RigidState(List<MirrorField> fields)
+        {
+            var it = default(RigidState);
+            fields.Add(new MirrorField("pbmpm_rigid_state", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "position", &it, &it.Position, &it.Position + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "rotation", &it, &it.Rotation, &it.Rotation + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "angular_velocity", &it, &it.AngularVelocity, &it.AngularVelocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "velocity_change", &it, &it.VelocityChange, &it.VelocityChange + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "angular_velocity_change", &it, &it.AngularVelocityChange, &it.AngularVelocityChange + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "point", &it, &it.Point, &it.Point + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "virtual_mass", &it, &it.VirtualMass, &it.VirtualMass + 1, false));
+            fields.Add(new MirrorField("pbmpm_rigid_state", "", &it, &it, &it + 1, true));
         }
 
         static void Stats(List<MirrorField> fields)

@@ -38,6 +38,7 @@ from .flow import Drain, DrainStatus, Emitter, EmitterStatus, Flow, Region
 from .forces import Falloff, Force, ForceKind
 from .materials import Effective, Elastic, ElasticModel, Liquid, Material, Sand, StrainPolicy, Visco, built_materials
 from .queries import PointFields, RayHit, RegionShare
+from .rigid import Freedom, Mass, RigidBody, Submersion
 from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
 from .solids import BakedSolid, Impulse, LoadedSolid, SolidInfo, bake_heights, bake_hull, bake_mesh
@@ -90,6 +91,7 @@ __all__ = [
     "ForceKind",
     "ForeignError",
     "ForkedError",
+    "Freedom",
     "Friction",
     "Impulse",
     "InUseError",
@@ -99,6 +101,7 @@ __all__ = [
     "LibraryError",
     "Liquid",
     "LoadedSolid",
+    "Mass",
     "Material",
     "OutOfMemoryError",
     "PbmpmError",
@@ -109,6 +112,7 @@ __all__ = [
     "RECORD",
     "Region",
     "RegionShare",
+    "RigidBody",
     "Sand",
     "Shape",
     "SolidInfo",
@@ -117,6 +121,7 @@ __all__ = [
     "Stats",
     "StepStats",
     "Stop",
+    "Submersion",
     "StrainPolicy",
     "ThreadError",
     "Touch",

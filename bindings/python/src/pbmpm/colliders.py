@@ -16,6 +16,7 @@ from ._library import lib
 from ._member import Member
 from ._setters import choice, flag, number
 from .materials import Material
+from .rigid import Mass, Submersion, mass_from_c, submersion_from_c
 from .shapes import Baked, Shape, from_c, to_c
 from .solids import Impulse, LoadedSolid, impulse_from_c
 
@@ -153,6 +154,23 @@ class Collider(Member):
         }
         definition = fill(self._definition(), values)
         self._apply("set", definition, ffi.NULL if shape is None else to_c(shape, self._world.dimension))
+
+    def mass(self, density: float) -> Mass:
+        """The mass properties of its shape at a density [kg/m^3]."""
+        out = sized("pbmpm_mass")
+        self._world._call(lib.pbmpm_shape_mass, self._form(), density, out)
+        return mass_from_c(out)
+
+    def submerged(self, material: Material | None = None) -> Submersion:
+        """The part of it that is under matter, or under one material."""
+        out = sized("pbmpm_submersion")
+        only = ffi.NULL if material is None else ffi.new("pbmpm_material_id *", material._id)
+        self._apply("submerged", only, out)
+        return submersion_from_c(out, self._world.dimension)
+
+    def _body(self, verb: str, *arguments: Any) -> None:
+        """Calls a function of rigid bodies."""
+        self._world._call(getattr(lib, f"pbmpm_rigid_{verb}"), self._id, *arguments)
 
     def move(self, position: Vector, rotation: Rotation | None = None) -> None:
         """Sets the pose that a kinematic obstacle shall have at the end of the next step; its velocity follows.

@@ -243,13 +243,15 @@ class BodyPart(_Part):
     density: Positive | None = None
     """[kg/m^3], instead of the mass"""
     moves: bool = True
-    """False: its position is a hinge, and it only turns."""
+    """False: it hangs on a hinge, and only turns."""
+    pivot: Vector | None = None
+    """Where the hinge is; the position of the shape when it is not told."""
+    slides: Vector | None = None
+    """Its centre of mass moves along this direction alone."""
     turns: bool = True
     axis: Annotated[list[Finite], Field(min_length=3, max_length=3)] | None = None
     """In 3D: it turns about this axis alone."""
     velocity: Vector | None = None
-    virtual_mass: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
-    """[kg], for bodies much lighter than the liquid that holds them; see ``pbmpm_impulse``"""
 
     @model_validator(mode="after")
     def _is_one_body(self) -> BodyPart:
@@ -257,8 +259,13 @@ class BodyPart(_Part):
             raise ValueError("a body needs either a mass or a density")
         if not self.moves and (not self.turns or self.velocity is not None):
             raise ValueError("a body that does not move has to turn, and has no velocity")
-        if self.axis is not None and math.hypot(*self.axis) < 1e-6:
-            raise ValueError("axis: must not be zero")
+        if not self.moves and self.slides is not None:
+            raise ValueError("a body that does not move does not slide")
+        if self.moves and self.pivot is not None:
+            raise ValueError("a body with a pivot does not move: set moves to false")
+        for name in ("axis", "slides"):
+            if getattr(self, name) is not None and math.hypot(*getattr(self, name)) < 1e-6:
+                raise ValueError(f"{name}: must not be zero")
         return self
 
 
@@ -275,8 +282,8 @@ class ColliderPart(_Part):
     def _moves_one_way(self) -> ColliderPart:
         if self.body is not None and self.motion is not None:
             raise ValueError("an obstacle has a motion or a body, not both")
-        if self.body is not None and self.shape.kind not in ("box", "sphere", "mesh"):
-            raise ValueError("body: only boxes, spheres and meshes can be bodies")
+        if self.body is not None and self.shape.kind == "plane":
+            raise ValueError("body: a plane cannot be one")
         return self
 
 

@@ -217,8 +217,6 @@ class Simulation:
         for body in self._bodies.values():
             body.before_step(self.settings.dt)
         self.advance(self.settings.dt)
-        for body in self._bodies.values():
-            body.after_step(self.settings.dt)
         self.steps += 1
 
     def advance(self, dt: float) -> None:

@@ -1,0 +1,127 @@
+/* pbmpm: rigid bodies, which matter pushes and which push matter.
+ *
+ * A rigid body is a kinematic obstacle that measures impulses, with a mass. The host owns what is known of it: a definition and a state. Before each step
+ *
+ *     pbmpm_rigid_advance(world, collider, &def, &state, dt);
+ *     pbmpm_world_step(world, dt);
+ *
+ * gives the body what matter gave in the last step, gravity and the host's forces, and sends the obstacle where it will be. Bodies know
+ * matter, the walls of the domain and what holds them, not each other and not other obstacles: for that there are physics engines, which take
+ * pbmpm_collider_impulse() and pbmpm_collider_submerged() instead.
+ *
+ * Motion. Velocities change first, then poses, each with the new velocities: first order in dt. A fall from rest is at g dt^2 n (n + 1) / 2 after n
+ * steps, its velocity is exact. Turning keeps the angular momentum whatever dt is, so that no spin grows by itself; its energy errs by the
+ * fourth power of the angle of a part, and a step has as many parts as keep that below 1/8 rad, at most 64.
+ *
+ * Light bodies. Matter feels the body's velocity one step later than the body feels matter. Where the matter that has to move along weighs more
+ * than the body, that oscillates and grows at any dt. So all changes of velocity go through
+ *
+ *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume under * share under,
+ *
+ * of the matter around it, see pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Turning has the same b. Matter
+ * whose added mass is A needs V above (A - mass) / 2. */
+#ifndef PBMPM_RIGID_H
+#define PBMPM_RIGID_H
+
+#include "collider.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** How far a body may move, or turn. */
+typedef enum pbmpm_freedom {
+    PBMPM_FREEDOM_ALL = 0,   /**< in every direction */
+    PBMPM_FREEDOM_AXIS = 1,  /**< along, or about, the axis alone */
+    PBMPM_FREEDOM_PLANE = 2, /**< in every direction but along, or about, the axis */
+    PBMPM_FREEDOM_NONE = 3,  /**< not at all */
+    PBMPM_FREEDOM_FORCE32 = 0x7fffffff
+} pbmpm_freedom;
+
+/** Volume, mass and inertia of a shape of even density. In 2D per metre of depth. */
+typedef struct pbmpm_mass {
+    uint32_t size;      /**< sizeof(pbmpm_mass), set by the caller */
+    uint32_t reserved;  /**< 0 */
+    double volume;      /**< [m^d] */
+    double mass;        /**< [kg] */
+    double centre[3];   /**< of mass [m], from the shape's position, in the shape's own frame */
+    double inertia[3];  /**< moments xx, yy, zz about the centre [kg m^2], in the shape's own frame; 2D: only zz, else 0 */
+    double products[3]; /**< elements xy, yz, zx of the same tensor: -(integral of x y dm) and so on */
+} pbmpm_mass;
+
+/** Mass properties of a shape. Boxes, balls and capsules: exact. Baked solids: sums over the nodes of the grid, in which a cell that the surface
+ *  crosses counts by its share; a solid 64 cells long errs by less than 1/100. `mass->size` must be set.
+ *  `density`: [kg/m^3], in [1e-6, 1e9]. Errors: INVALID_ID, INVALID_ARGUMENT (also: a plane, which has no volume), UNSUPPORTED, BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass *mass);
+
+/** The part of an obstacle that is under matter. */
+typedef struct pbmpm_submersion {
+    uint32_t size;     /**< sizeof(pbmpm_submersion), set by the caller */
+    uint32_t reserved; /**< 0 */
+    double share;      /**< of the obstacle's volume that is under, in [0, 1] */
+    double volume;     /**< that is under [m^d]; 2D: per metre of depth */
+    double centre[3];  /**< of that volume [m], in the world; without any: of the obstacle */
+    double density;    /**< of the matter around, at rest volume [kg/m^3]; 0 without any */
+} pbmpm_submersion;
+
+/** How much of an obstacle is under matter. That is where the surface of the matter around it, continued through the obstacle as a plane, leaves it:
+ *  no gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
+ *
+ *  Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
+ *  filling of query.h over the share that obstacles and walls leave open there; where they leave nothing, it is what stands next to it.
+ *  The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
+ *  `submersion->size` must be set. The first call of a world takes memory, later ones that need no more take none.
+ *  Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_material_id *material,
+                                                pbmpm_submersion *submersion);
+
+/** What a rigid body is. Fill it with pbmpm_rigid_def_init(), then change what differs; mass, centre, inertia and products are those of a
+ *  pbmpm_mass, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
+ *
+ *  A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE. */
+typedef struct pbmpm_rigid_def {
+    uint32_t size;         /**< sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init() */
+    int32_t stays_inside;  /**< 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes. */
+    pbmpm_freedom moves;   /**< of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL */
+    pbmpm_freedom turns;   /**< 2D: NONE, or else about the third axis. Default ALL */
+    double mass;           /**< [kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1 */
+    double centre[3];      /**< of mass [m], from the shape's position, in the shape's own frame; within 1e9; default 0 */
+    double inertia[3];     /**< see pbmpm_mass; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1 */
+    double products[3];    /**< see pbmpm_mass; default 0 */
+    double pivot[3];       /**< with `moves` NONE: the point that stays, from the shape's position, in the shape's own frame [m]; within 1e9; default 0 */
+    double move_axis[3];   /**< of `moves`, in the world, any length from 1e-6 to 1e9; default (0, 1, 0) */
+    double turn_axis[3];   /**< of `turns`, in the world, any length from 1e-6 to 1e9; not used in 2D; default (0, 0, 1) */
+    double force[3];       /**< of the host, beside gravity and matter, at the centre of mass [N]; within 1e30; default 0 */
+    double torque[3];      /**< of the host, such as a motor's or a brake's [N m]; within 1e30; default 0 */
+} pbmpm_rigid_def;
+
+/** How a rigid body is and moves. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it. */
+typedef struct pbmpm_rigid_state {
+    uint32_t size;                     /**< sizeof(pbmpm_rigid_state), set by the caller before pbmpm_rigid_begin() */
+    uint32_t reserved;                 /**< 0 */
+    double position[3];                /**< of the shape [m], at the end of the next step; within 1e9 */
+    double rotation[4];                /**< quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0 */
+    double velocity[3];                /**< of the centre of mass [m/s]; within 1e9 */
+    double angular_velocity[3];        /**< [rad/s], in the world; within 1e9 */
+    double velocity_change[3];         /**< what the last call changed `velocity` by [m/s]: what the virtual mass goes on with */
+    double angular_velocity_change[3]; /**< the same of `angular_velocity` [rad/s] */
+    double point[3];                   /**< where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
+    double virtual_mass;               /**< V of the last call [kg], to look at; never read */
+} pbmpm_rigid_state;
+
+/** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
+PBMPM_API pbmpm_result pbmpm_rigid_def_init(pbmpm_rigid_def *def, size_t size);
+
+/** Begins a body at rest where its obstacle is, and notes what holds it there as `point`. `state->size` must be set.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (also: the obstacle is a plane, not kinematic or measures no impulse), UNSUPPORTED, BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_rigid_def *def, pbmpm_rigid_state *state);
+
+/** Moves a body on by a step of `dt` seconds, as pbmpm_world_step() takes it, and its obstacle by pbmpm_collider_move(). Call it once before each
+ *  step; a second call would give the last step's impulse again. Only `state` and the obstacle's target change, and nothing on failure.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT (also: as pbmpm_rigid_begin(), and a place out of range), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED. */
+PBMPM_API pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_rigid_def *def, pbmpm_rigid_state *state, float dt);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

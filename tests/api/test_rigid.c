@@ -1,0 +1,552 @@
+/* Rigid bodies through the public interface: mass properties, what is under matter, and motion. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "scenes.h"
+#include "solids.h"
+
+static const double PI = 3.14159265358979323846;
+static const float DT = 1.0f / 60, STILL[3] = {0};
+
+void setUp(void) {}
+
+void tearDown(void)
+{
+    bake_forget();
+    pbmpm_shutdown();
+}
+
+/* ---- Mass ---- */
+
+static pbmpm_mass mass_of(pbmpm_world_id world, pbmpm_shape shape, float density)
+{
+    pbmpm_mass mass = {.size = sizeof mass};
+    OK(pbmpm_shape_mass(world, &shape, density, &mass));
+    return mass;
+}
+
+static pbmpm_world_id empty_world(int32_t dimension, float dx)
+{
+    const pbmpm_world_def def = default_world(dimension, dx, 16);
+    return create_world(&def);
+}
+
+static pbmpm_shape capsule_shape(float half_length, float radius)
+{
+    pbmpm_shape shape = default_shape();
+    shape.kind = PBMPM_CAPSULE;
+    shape.half_extents[0] = half_length;
+    shape.radius = radius;
+    return shape;
+}
+
+static void test_masses_have_formulas(void)
+{
+    const pbmpm_world_id deep = empty_world(3, 0.1f), flat = empty_world(2, 0.1f);
+    const pbmpm_mass box = mass_of(deep, box_shape(1, 2, 3, 0.5f, 1.0f, 2.0f), 100.0f);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0, box.mass);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (1 + 4), box.inertia[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (0.25 + 4), box.inertia[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (0.25 + 1), box.inertia[2]);
+    const pbmpm_mass ball = mass_of(deep, sphere_shape(0, 0, 0, 0.5f), 8.0f);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 8.0 * 4 / 3 * PI / 8, ball.mass);
+    for (int a = 0; a < 3; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.4 * ball.mass / 4, ball.inertia[a]);
+    const pbmpm_mass disc = mass_of(flat, sphere_shape(0, 0, 0, 0.5f), 8.0f);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2 * PI, disc.mass);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5 * disc.mass / 4, disc.inertia[2]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, disc.inertia[0]);
+}
+
+/* Sums over a lattice, which know nothing of the formulas. */
+static void test_the_mass_of_a_capsule_is_that_of_its_points(void)
+{
+    const double a = 0.6, r = 0.4;
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        const int N = dimension == 2 ? 1000 : 120;
+        const double h = 2 * (a + r) / N;
+        const pbmpm_mass mass = mass_of(empty_world(dimension, 0.1f), capsule_shape(0.6f, 0.4f), 10.0f);
+        double volume = 0, moment[3] = {0};
+        for (int i = 0; i < N; i++)
+            for (int j = 0; j < N; j++)
+                for (int k = 0; k < (dimension == 3 ? N : 1); k++) {
+                    const double x = (i + 0.5) * h - a - r, y = (j + 0.5) * h - a - r, z = dimension == 3 ? (k + 0.5) * h - a - r : 0.0;
+                    const double over = fmax(0.0, fabs(x) - a);
+                    if (over * over + y * y + z * z > r * r) continue;
+                    const double cell = dimension == 3 ? h * h * h : h * h;
+                    volume += cell;
+                    moment[0] += cell * (y * y + z * z);
+                    moment[1] += cell * (x * x + z * z);
+                    moment[2] += cell * (x * x + y * y);
+                }
+        TEST_ASSERT_DOUBLE_WITHIN(4e-3 * volume, volume, mass.volume);
+        for (int i = dimension == 2 ? 2 : 0; i < 3; i++) TEST_ASSERT_DOUBLE_WITHIN(5e-3 * 10 * moment[i], 10 * moment[i], mass.inertia[i]);
+    }
+}
+
+static void bake_fine_ball(int32_t dimension, double radius)
+{
+    mesh_clear(&mesh, dimension);
+    mesh_add_ball(&mesh, 0, 0, 0, radius, 64);
+    bake_now(64);
+}
+
+static void test_a_baked_ball_weighs_what_a_ball_does(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        const pbmpm_world_id world = empty_world(dimension, 0.1f);
+        bake_fine_ball(dimension, 0.5);
+        const pbmpm_mass found = mass_of(world, baked_shape(load_baked(world), 3, 4, 5), 10.0f);
+        const pbmpm_mass exact = mass_of(world, sphere_shape(0, 0, 0, 0.5f), 10.0f);
+        TEST_ASSERT_DOUBLE_WITHIN(0.01 * exact.mass, exact.mass, found.mass);
+        for (int a = 0; a < 3; a++) {
+            TEST_ASSERT_DOUBLE_WITHIN(0.02 * exact.inertia[2], exact.inertia[a], found.inertia[a]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-3 * exact.inertia[2], 0.0, found.products[a]);
+            TEST_ASSERT_DOUBLE_WITHIN(1e-3, 0.0, found.centre[a]);
+        }
+        bake_forget();
+    }
+}
+
+/* ---- What is under matter ---- */
+
+enum { WIDE = 20 }; /* cells of a tank */
+static const float DX = 0.1f;
+
+/* A tank with liquid up to a level around an obstacle; `low` floor at 0. */
+static pbmpm_world_id tank_around(int32_t dimension, float level, pbmpm_shape shape, pbmpm_collider_id *collider)
+{
+    pbmpm_world_def def = default_world(dimension, DX, 60000);
+    def.domain_enabled = 1;
+    for (int a = 0; a < dimension; a++) def.domain_max[a] = WIDE * DX;
+    const pbmpm_world_id world = create_world(&def);
+    if (shape.kind == PBMPM_BAKED) {
+        bake_fine_ball(dimension, (double)shape.radius);
+        shape.baked = load_baked(world);
+        bake_forget();
+    }
+    *collider = create_collider(world, shape, true);
+    const float half = WIDE * DX / 2;
+    if (level > 0) fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(half, level / 2, half, half, level / 2, half), STILL);
+    return world;
+}
+
+static bool is_inside(const pbmpm_shape *shape, const double x[3])
+{
+    const double c = cos(2 * asin((double)shape->rotation[2])), s = sin(2 * asin((double)shape->rotation[2]));
+    const double dx = x[0] - (double)shape->position[0], dy = x[1] - (double)shape->position[1], dz = x[2] - (double)shape->position[2];
+    const double along = c * dx + s * dy, up = c * dy - s * dx;
+    if (shape->kind != PBMPM_BOX) return dx * dx + dy * dy + dz * dz < (double)shape->radius * (double)shape->radius;
+    return fabs(along) < (double)shape->half_extents[0] && fabs(up) < (double)shape->half_extents[1] && fabs(dz) < (double)shape->half_extents[2];
+}
+
+/* By counting points; `across`: the largest area of a level. */
+static double volume_below(const pbmpm_shape *shape, int32_t dimension, double level, double *across, double *height)
+{
+    enum { N = 100 };
+    const double h = WIDE * (double)DX / N;
+    double volume = 0, moment = 0;
+    *across = 0;
+    for (int j = 0; j < N; j++) {
+        double row = 0;
+        const double y = (j + 0.5) * h;
+        for (int i = 0; i < N; i++)
+            for (int k = 0; k < (dimension == 3 ? N : 1); k++) {
+                const double x[3] = {(i + 0.5) * h, y, dimension == 3 ? (k + 0.5) * h : 0.0};
+                row += is_inside(shape, x) ? pow(h, dimension) : 0.0;
+            }
+        volume += y < level ? row : 0.0;
+        moment += y < level ? row * y : 0.0;
+        *across = fmax(*across, row / h);
+    }
+    *height = volume > 0 ? moment / volume : 0.0;
+    return volume;
+}
+
+static pbmpm_submersion under(pbmpm_world_id world, pbmpm_collider_id collider)
+{
+    pbmpm_submersion found = {.size = sizeof found};
+    OK(pbmpm_collider_submerged(world, collider, NULL, &found));
+    return found;
+}
+
+static void expect_submerged(int32_t dimension, pbmpm_shape shape, float level, double cells)
+{
+    pbmpm_collider_id collider;
+    if (dimension == 2) shape.position[2] = 0;
+    pbmpm_shape same = shape;
+    if (shape.kind == PBMPM_BAKED) same.kind = PBMPM_SPHERE;
+    double across, height;
+    const pbmpm_world_id world = tank_around(dimension, level, shape, &collider);
+    const double exact = volume_below(&same, dimension, (double)level, &across, &height), all = volume_below(&same, dimension, 1e9, &(double){0}, &(double){0});
+    const pbmpm_submersion found = under(world, collider);
+    char label[160];
+    snprintf(label, sizeof label, "%dD, kind %d, level %g: %g, not %g; centre at %g, not %g", (int)dimension, (int)shape.kind, (double)level, found.volume, exact,
+             found.centre[1], height);
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(cells * (double)DX * across, exact, found.volume, label);
+    if (exact > 0.3 * all) {
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(cells * (double)DX, height, found.centre[1], label);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.4 * (double)DX, (double)shape.position[0], found.centre[0], label);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-3, 1000.0, found.density, label);
+    }
+    OK(pbmpm_world_destroy(world));
+}
+
+static void test_what_is_under_matter(void)
+{
+    static const float levels[] = {0.2f, 0.7f, 0.85f, 1.0f, 1.15f, 1.3f, 1.9f}; /* the shapes reach from 0.6 to 1.4 or so */
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (size_t i = 0; i < sizeof levels / sizeof *levels; i++) {
+            const pbmpm_shape box = box_shape(1.03f, 1, 1, 0.4f, 0.4f, 0.4f);
+            pbmpm_shape turned = box, baked_one = sphere_shape(1, 1.02f, 1, 0.4f);
+            turned.rotation[2] = sinf(0.3f);
+            turned.rotation[3] = cosf(0.3f);
+            baked_one.kind = PBMPM_BAKED;
+            expect_submerged(dimension, box, levels[i], 0.4);
+            expect_submerged(dimension, turned, levels[i], 0.4);
+            expect_submerged(dimension, sphere_shape(1.03f, 1, 1, 0.4f), levels[i], 0.4);
+            expect_submerged(dimension, baked_one, levels[i], 0.4);
+            expect_submerged(dimension, box_shape(1.03f, 0.4f, 1, 0.4f, 0.4f, 0.4f), levels[i], 0.8); /* on the floor */
+        }
+}
+
+static void test_a_material_alone_counts(void)
+{
+    pbmpm_collider_id collider;
+    const pbmpm_world_id world = tank_around(2, 1.0f, box_shape(1, 1, 0, 0.4f, 0.4f, 0.4f), &collider);
+    const pbmpm_material_id other = create_material(world, PBMPM_ELASTIC);
+    pbmpm_submersion found = {.size = sizeof found};
+    OK(pbmpm_collider_submerged(world, collider, &other, &found));
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, found.share);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, found.density);
+    TEST_ASSERT_TRUE(under(world, collider).share > 0.4);
+    EXPECT(PBMPM_ERROR_INVALID_ID, pbmpm_collider_submerged(world, collider, &(pbmpm_material_id){7, 7}, &found));
+}
+
+static void test_planes_have_no_inside(void)
+{
+    const pbmpm_world_id world = empty_world(2, 0.1f);
+    const pbmpm_collider_id plane = create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+    const pbmpm_shape shape = plane_shape(0, 0, 0, 0, 1, 0);
+    pbmpm_submersion found = {.size = sizeof found};
+    pbmpm_mass mass = {.size = sizeof mass};
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_submerged(world, plane, NULL, &found));
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_shape_mass(world, &shape, 1.0f, &mass));
+}
+
+/* ---- Motion without matter ---- */
+
+typedef struct rigid {
+    pbmpm_world_id world;
+    pbmpm_collider_id collider;
+    pbmpm_rigid_def def;
+    pbmpm_rigid_state state;
+} rigid;
+
+static pbmpm_collider_id add_body(pbmpm_world_id world, pbmpm_shape shape)
+{
+    pbmpm_collider_def def = default_collider();
+    pbmpm_collider_id collider;
+    def.kinematic = def.measures_impulse = 1;
+    def.friction = PBMPM_FRICTION_SLIP;
+    OK(pbmpm_collider_create(world, &def, &shape, &collider));
+    return collider;
+}
+
+/* Of a density, at rest; `hold` may be null. */
+static rigid make_rigid(pbmpm_world_id world, pbmpm_shape shape, float density, void (*hold)(pbmpm_rigid_def *def))
+{
+    rigid body = {.world = world, .collider = add_body(world, shape), .state = {.size = sizeof body.state}};
+    const pbmpm_mass mass = mass_of(world, shape, density);
+    OK(pbmpm_rigid_def_init(&body.def, sizeof body.def));
+    body.def.mass = mass.mass;
+    memcpy(body.def.centre, mass.centre, sizeof mass.centre);
+    memcpy(body.def.inertia, mass.inertia, sizeof mass.inertia);
+    memcpy(body.def.products, mass.products, sizeof mass.products);
+    if (hold) hold(&body.def);
+    OK(pbmpm_rigid_begin(world, body.collider, &body.def, &body.state));
+    return body;
+}
+
+static void advance(rigid *body) { OK(pbmpm_rigid_advance(body->world, body->collider, &body->def, &body->state, DT)); }
+
+static void step(rigid *body)
+{
+    advance(body);
+    OK(pbmpm_world_step(body->world, DT));
+}
+
+static void test_a_fall_is_as_stated(void)
+{
+    enum { STEPS = 60 };
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 100, 0, 0.2f, 0.2f, 0.2f), 500, NULL);
+    set_gravity(body.world, 1, -10, 0);
+    body.state.velocity[2] = 3;
+    for (int n = 0; n < STEPS; n++) step(&body);
+    const double dt = (double)DT, fallen = dt * dt * STEPS * (STEPS + 1) / 2;
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, fallen, body.state.position[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 100 - 10 * fallen, body.state.position[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 3 * dt * STEPS, body.state.position[2]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, -10 * dt * STEPS, body.state.velocity[1]);
+    pbmpm_shape shape = {.size = sizeof shape};
+    OK(pbmpm_collider_get(body.world, body.collider, NULL, &shape));
+    TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)body.state.position[1], shape.position[1]);
+}
+
+/* The inertia in the world, times a vector. */
+static void momentum_of(const rigid *body, double momentum[3], double *energy)
+{
+    const double *q = body->state.rotation, x = q[0], y = q[1], z = q[2], w = q[3];
+    const double turn[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
+                               {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
+                               {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}};
+    *energy = 0;
+    momentum[0] = momentum[1] = momentum[2] = 0;
+    for (int c = 0; c < 3; c++) {
+        double own = 0;
+        for (int r = 0; r < 3; r++) own += turn[r][c] * body->state.angular_velocity[r];
+        *energy += 0.5 * body->def.inertia[c] * own * own;
+        for (int r = 0; r < 3; r++) momentum[r] += turn[r][c] * body->def.inertia[c] * own;
+    }
+}
+
+/* About its middle axis, where the smallest push makes it tumble (L. Poinsot; V. Dzhanibekov). */
+static void test_an_asymmetric_top_keeps_its_momentum(void)
+{
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 0, 0, 0.1f, 0.2f, 0.4f), 500, NULL);
+    body.state.angular_velocity[1] = 12.0;
+    body.state.angular_velocity[0] = 0.05;
+    double first[3], now[3], energy, before, least = 12.0;
+    momentum_of(&body, first, &before);
+    for (int n = 0; n < 3000; n++) {
+        step(&body);
+        momentum_of(&body, now, &energy);
+        for (int a = 0; a < 3; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9 * first[1], first[a], now[a]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-3 * before, before, energy);
+        const double *q = body.state.rotation;
+        least = fmin(least, 1 - 2 * (q[0] * q[0] + q[2] * q[2]));
+    }
+    TEST_ASSERT_TRUE_MESSAGE(least < -0.9, "it turns over");
+}
+
+static void hang_on_a_hinge(pbmpm_rigid_def *def)
+{
+    def->moves = PBMPM_FREEDOM_NONE;
+    def->turns = PBMPM_FREEDOM_AXIS;
+    def->turn_axis[0] = 0.3;
+    def->pivot[0] = 0.4;
+    def->pivot[1] = 0.1;
+}
+
+/* Where a point of the body is. */
+static void place_of(const rigid *body, const double own[3], double place[3])
+{
+    const double *q = body->state.rotation;
+    double twice[3], turned[3];
+    for (int a = 0; a < 3; a++) twice[a] = 2 * (q[(a + 1) % 3] * own[(a + 2) % 3] - q[(a + 2) % 3] * own[(a + 1) % 3]);
+    for (int a = 0; a < 3; a++) turned[a] = q[(a + 1) % 3] * twice[(a + 2) % 3] - q[(a + 2) % 3] * twice[(a + 1) % 3];
+    for (int a = 0; a < 3; a++) place[a] = body->state.position[a] + own[a] + q[3] * twice[a] + turned[a];
+}
+
+static void test_a_hinge_keeps_its_point_and_axis(void)
+{
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 1, 0, 0.4f, 0.1f, 0.2f), 500, hang_on_a_hinge);
+    set_gravity(body.world, 0, -9.81f, 0);
+    double place[3], lowest = 0;
+    for (int n = 0; n < 1000; n++) {
+        step(&body);
+        place_of(&body, body.def.pivot, place);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.4, place[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.1, place[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, 0.0, place[2]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.3 * body.state.angular_velocity[2], body.state.angular_velocity[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, body.state.angular_velocity[1]);
+        lowest = fmin(lowest, body.state.position[1] - 1);
+    }
+    TEST_ASSERT_TRUE_MESSAGE(lowest < -0.25, "it swings");
+}
+
+static void short_pendulum(pbmpm_rigid_def *def)
+{
+    hang_on_a_hinge(def);
+    def->turn_axis[0] = 0;
+    def->pivot[0] = 0;
+    def->pivot[1] = 0.5;
+}
+
+/* Small swings last 2 pi sqrt(I / (m g l)). */
+static void test_a_pendulum_keeps_time(void)
+{
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 1, 0, 0.1f, 0.5f, 0.1f), 500, short_pendulum);
+    set_gravity(body.world, 0, -9.81f, 0);
+    body.state.angular_velocity[2] = 0.1;
+    const double inertia = body.def.inertia[2] + body.def.mass * 0.25, period = 2 * PI * sqrt(inertia / (body.def.mass * 9.81 * 0.5));
+    int turns = 0;
+    double last = 0, first_time = 0, last_time = 0;
+    for (int n = 1; n <= 1200; n++) {
+        const double before = last;
+        step(&body);
+        last = body.state.position[0];
+        if (!(before < 0 && last >= 0)) continue;
+        last_time = (n - last / (last - before)) * (double)DT;
+        if (turns++ == 0) first_time = last_time;
+    }
+    TEST_ASSERT_TRUE(turns > 5);
+    TEST_ASSERT_DOUBLE_WITHIN(0.01 * period, period, (last_time - first_time) / (turns - 1));
+}
+
+static void slide(pbmpm_rigid_def *def)
+{
+    def->moves = PBMPM_FREEDOM_AXIS;
+    def->turns = PBMPM_FREEDOM_NONE;
+    def->move_axis[0] = 1;
+    def->torque[2] = 5;
+}
+
+static void test_a_slider_keeps_its_line(void)
+{
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 0, 0.5f, 0.1f, 0.1f, 0.1f), 500, slide);
+    set_gravity(body.world, 0, -10, 3);
+    for (int n = 0; n < 1000; n++) {
+        step(&body);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9 * n, body.state.position[0], body.state.position[1]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5, body.state.position[2]);
+        TEST_ASSERT_EQUAL_DOUBLE(1.0, body.state.rotation[3]);
+    }
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, -5.0 * (double)DT * 1000, body.state.velocity[1]);
+}
+
+static void roll_in_a_plane(pbmpm_rigid_def *def)
+{
+    def->moves = def->turns = PBMPM_FREEDOM_PLANE; /* not along y, and not about z */
+    def->torque[0] = def->torque[1] = def->torque[2] = 0.1;
+}
+
+static void test_a_plane_locks_one_axis(void)
+{
+    rigid body = make_rigid(empty_world(3, 0.1f), box_shape(0, 2, 0, 0.1f, 0.3f, 0.2f), 500, roll_in_a_plane);
+    set_gravity(body.world, 1, -10, 2);
+    for (int n = 0; n < 200; n++) step(&body);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2.0, body.state.position[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-9, 200 * (double)DT, body.state.velocity[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-12, 0.0, body.state.angular_velocity[2]);
+    TEST_ASSERT_TRUE(fabs(body.state.angular_velocity[0]) > 1e-3 && fabs(body.state.angular_velocity[1]) > 1e-3);
+}
+
+static void test_walls_stop_a_body(void)
+{
+    pbmpm_world_def def = default_world(2, 0.1f, 16);
+    def.domain_enabled = 1;
+    def.domain_max[0] = def.domain_max[1] = 4;
+    rigid body = make_rigid(create_world(&def), box_shape(1, 1, 0, 0.2f, 0.1f, 0), 500, NULL);
+    set_gravity(body.world, 0, -10, 0);
+    body.state.velocity[0] = 30;
+    for (int n = 0; n < 100; n++) step(&body);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3.8, body.state.position[0]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, body.state.position[1]);
+    TEST_ASSERT_EQUAL_DOUBLE(0.0, body.state.velocity[0]);
+    body.def.stays_inside = 0;
+    for (int n = 0; n < 100; n++) step(&body);
+    TEST_ASSERT_TRUE(body.state.position[1] < -1);
+}
+
+/* ---- In water ---- */
+
+/* Of 0.1 of the liquid's density, held under and let go: it comes up and lies still. */
+static void test_a_light_box_let_go_under_water_is_stable(void)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 20000);
+    def.domain_enabled = 1;
+    def.domain_max[0] = 1.6f;
+    def.domain_max[1] = 3.0f;
+    const pbmpm_world_id world = create_world(&def);
+    set_gravity(world, 0, -9.81f, 0);
+    set_rate(world, 1, 5);
+    rigid body = make_rigid(world, box_shape(0.8f, 0.4f, 0, 0.2f, 0.2f, 0), 100, NULL);
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.8f, 0.4f, 0, 0.8f, 0.4f, 0), STILL);
+    double low = 9, high = 0, sum = 0;
+    for (int n = 0; n < 60; n++) OK(pbmpm_world_step(world, DT));
+    for (int n = 0; n < 480; n++) {
+        step(&body);
+        TEST_ASSERT_TRUE(body.state.position[1] < 1.3); /* it does not leap */
+        if (n < 240) continue;
+        low = fmin(low, body.state.position[1]);
+        high = fmax(high, body.state.position[1]);
+        sum += body.state.position[1] / 240;
+    }
+    const double level = (1.6 * 0.8 - 0.16 + 0.016) / 1.6; /* of the liquid and what the box displaces */
+    TEST_ASSERT_DOUBLE_WITHIN(0.4 * 0.05, level + 0.2 - 0.04, sum);
+    TEST_ASSERT_TRUE(high - low < 0.15);
+}
+
+/* ---- Refusals ---- */
+
+static void test_bodies_that_cannot_be(void)
+{
+    const pbmpm_world_id world = empty_world(3, 0.1f);
+    const rigid body = make_rigid(world, box_shape(0, 0, 0, 1, 1, 1), 1, NULL);
+    pbmpm_rigid_state state = body.state;
+    const pbmpm_collider_id still = create_collider(world, box_shape(5, 0, 0, 1, 1, 1), false);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_begin(world, still, &body.def, &state));
+#define BAD_DEF(change)                                                                                                                          \
+    do {                                                                                                                                         \
+        pbmpm_rigid_def bad = body.def;                                                                                                          \
+        bad.change;                                                                                                                              \
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_begin(world, body.collider, &bad, &state));                                             \
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_advance(world, body.collider, &bad, &state, DT));                                       \
+    } while (0)
+    BAD_DEF(mass = 0);
+    BAD_DEF(mass = NAN);
+    BAD_DEF(stays_inside = 2);
+    BAD_DEF(moves = (pbmpm_freedom)4);
+    BAD_DEF(turns = (pbmpm_freedom)-1);
+    BAD_DEF(inertia[1] = 0);
+    BAD_DEF(products[2] = 1e9);
+    BAD_DEF(centre[0] = INFINITY);
+    BAD_DEF(pivot[2] = 2e9);
+    BAD_DEF(force[1] = NAN);
+    BAD_DEF(torque[1] = 1e31);
+    BAD_DEF(move_axis[1] = 0);
+    BAD_DEF(turn_axis[2] = 1e-7);
+#define BAD_STATE(change)                                                                                                                        \
+    do {                                                                                                                                         \
+        pbmpm_rigid_state bad = body.state;                                                                                                      \
+        bad.change;                                                                                                                              \
+        EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_advance(world, body.collider, &body.def, &bad, DT));                                    \
+    } while (0)
+    BAD_STATE(position[0] = NAN);
+    BAD_STATE(point[0] = 2e9);
+    BAD_STATE(rotation[3] = 0);
+    BAD_STATE(velocity[1] = INFINITY);
+    BAD_STATE(angular_velocity[1] = 1e10);
+    BAD_STATE(velocity_change[1] = NAN);
+    BAD_STATE(reserved = 1);
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_advance(world, body.collider, &body.def, &state, 0.0f));
+    state.position[0] = 9.99e8;
+    state.velocity[0] = 9e8;
+    const pbmpm_rigid_state before = state;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_rigid_advance(world, body.collider, &body.def, &state, 1.0f));
+    TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
+}
+
+int main(void)
+{
+    support_skip_without_isa();
+    UNITY_BEGIN();
+    RUN_TEST(test_masses_have_formulas);
+    RUN_TEST(test_the_mass_of_a_capsule_is_that_of_its_points);
+    RUN_TEST(test_a_baked_ball_weighs_what_a_ball_does);
+    RUN_TEST(test_what_is_under_matter);
+    RUN_TEST(test_a_material_alone_counts);
+    RUN_TEST(test_planes_have_no_inside);
+    RUN_TEST(test_a_fall_is_as_stated);
+    RUN_TEST(test_an_asymmetric_top_keeps_its_momentum);
+    RUN_TEST(test_a_hinge_keeps_its_point_and_axis);
+    RUN_TEST(test_a_pendulum_keeps_time);
+    RUN_TEST(test_a_slider_keeps_its_line);
+    RUN_TEST(test_a_plane_locks_one_axis);
+    RUN_TEST(test_walls_stop_a_body);
+    RUN_TEST(test_bodies_that_cannot_be);
+    RUN_TEST(test_a_light_box_let_go_under_water_is_stable);
+    return UNITY_END();
+}

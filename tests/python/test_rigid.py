@@ -1,0 +1,129 @@
+"""Rigid bodies in Python and in scene files: they float where Archimedes says, whatever their form, and wheels turn in a jet."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import pbmpm
+from pbmpm.app.scene import load_scene, parse_scene
+from pbmpm.app.simulation import RunSettings, Simulation
+
+SCENES = Path(__file__).parents[2] / "samples" / "scenes"
+DX, DT, SIDE, DEPTH = 0.05, 1 / 60, 1.6, 0.8
+
+
+def _float(shape: Any, density: float, seconds: float = 8.0, **holds: Any) -> tuple[list[tuple[float, ...]], list[float]]:
+    """Positions and shares under of a body in a pool, at 60 Hz and five iterations, over the last half of a run."""
+    places, shares = [], []
+    with pbmpm.World(2, DX, gravity=(0, -9.81), domain=((0, 0), (SIDE, 3)), iterations=5, capacity=8000) as world:
+        world.fill(pbmpm.Box((SIDE / 2, DEPTH / 2), (SIDE / 2, DEPTH / 2)), world.add_material(pbmpm.Liquid()))
+        form = shape(world) if callable(shape) else shape
+        collider = world.add_collider(form, friction=pbmpm.Friction.SLIP, kinematic=True, measures_impulse=True)
+        body = pbmpm.RigidBody(collider, density=density, **holds)
+        steps = round(seconds / DT)
+        for step in range(steps):
+            body.advance(DT)
+            world.step(DT)
+            if step >= steps // 2:
+                places.append(body.position)
+                shares.append(collider.submerged().share)
+    return places, shares
+
+
+def _level(area: float, density: float) -> float:
+    return DEPTH + area * density / 1000 / SIDE  # what it displaces stands beside it
+
+
+def test_a_box_floats_where_archimedes_says() -> None:
+    places, shares = _float(pbmpm.Box((0.8, 1.1), (0.2, 0.2)), 500)
+    bottom = np.mean([y for _, y in places]) - 0.2
+    assert _level(0.16, 500) - bottom == pytest.approx(0.2, abs=0.4 * DX)
+    assert np.mean(shares) == pytest.approx(0.5, abs=0.4 * DX / 0.4)
+
+
+def test_a_capsule_floats() -> None:
+    _, shares = _float(pbmpm.Capsule((0.8, 1.1), 0.2, 0.2), 600)
+    assert np.mean(shares) == pytest.approx(0.6, abs=0.4 * DX / 0.4)
+
+
+def test_a_convex_hull_floats() -> None:
+    corners = np.array([(-0.4, 0.2), (0.4, 0.2), (0.4, 0), (0.25, -0.2), (-0.25, -0.2), (-0.4, 0)])
+    _, shares = _float(lambda world: pbmpm.Baked((0.8, 1.1), world.load_solid(pbmpm.bake_hull(corners))), 500)
+    assert np.mean(shares) == pytest.approx(0.5, abs=0.4 * DX / 0.4)
+
+
+def test_a_slider_in_water_keeps_its_line() -> None:
+    places, _ = _float(pbmpm.Box((0.5, 1.1), (0.2, 0.2)), 500, 3.0, moves=pbmpm.Freedom.AXIS, move_axis=(0, 1), turns=pbmpm.Freedom.NONE)
+    assert max(abs(x - 0.5) for x, _ in places) < 1e-5
+    assert 0.6 < np.mean([y for _, y in places]) < 1.2
+
+
+def test_a_motor_turns_what_hangs_on_a_hinge() -> None:
+    with pbmpm.World(3, 0.1, capacity=10) as world:
+        collider = world.add_collider(pbmpm.Box((0, 0, 0), (0.5, 0.1, 0.1)), kinematic=True, measures_impulse=True)
+        body = pbmpm.RigidBody(collider, mass=2, moves=pbmpm.Freedom.NONE, turns=pbmpm.Freedom.AXIS, pivot=(0.5, 0, 0), turn_axis=(0, 2, 0))
+        body.push(torque=(1, 3, 1))
+        for _ in range(30):
+            body.advance(DT)
+            world.step(DT)
+        inertia = 2 * ((0.5**2 + 0.1**2) / 3 + 0.5**2)
+        assert body.angular_velocity == pytest.approx((0, 3 * 30 * DT / inertia, 0))
+        assert np.hypot(*(np.array(body.position) - (0.5, 0, 0))[[0, 2]]) == pytest.approx(0.5)
+        kept = body.state
+        body.advance(DT)
+        body.state = kept
+        assert collider.shape.position == pytest.approx(body.position)
+
+
+def test_a_body_needs_one_weight() -> None:
+    with pbmpm.World(2, 0.1, capacity=10) as world:
+        collider = world.add_collider(pbmpm.Sphere((0, 0), 1), kinematic=True, measures_impulse=True)
+        for weights in ({}, {"mass": 1.0, "density": 1.0}):
+            with pytest.raises(TypeError, match="either"):
+                pbmpm.RigidBody(collider, **weights)
+        still = world.add_collider(pbmpm.Sphere((0, 0), 1))
+        with pytest.raises(pbmpm.InvalidArgumentError, match="kinematic"):
+            pbmpm.RigidBody(still, mass=1.0)
+
+
+def _angle(rotation: list[float]) -> float:
+    return 2 * math.atan2(rotation[2], rotation[3])
+
+
+def test_a_jet_turns_a_wheel_on_a_hinge() -> None:
+    scene = load_scene(SCENES / "water_wheel_2d.json")
+    turned = 0.0
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        last = 0.0
+        for _ in range(150):
+            simulation.step()
+            position, rotation = simulation.frame().body_poses[0]
+            turned += (_angle(rotation) - last + math.pi) % (2 * math.pi) - math.pi
+            last = _angle(rotation)
+            assert position[:2] == pytest.approx(scene.colliders[0].shape.position, abs=1e-5)
+    assert abs(turned) > 2.0
+
+
+def test_a_pivot_of_a_scene_stays() -> None:
+    box = {"kind": "box", "position": [0, 0], "half_extents": [0.4, 0.1], "rotation": 0.2}
+    body = {"density": 500, "moves": False, "pivot": [0.3, 0.1]}
+    data = {
+        "format": "pbmpm-scene", "version": 1, "name": "flap", "dimension": 2, "cell_size": 0.1, "gravity": [0, -9.81], "seconds": 1,
+        "rate_hz": 60, "materials": {"water": {"kind": "liquid"}},
+        "fills": [{"shape": {"kind": "box", "position": [5, 0], "half_extents": [0.2, 0.2]}, "material": "water"}],
+        "colliders": [{"shape": box, "body": body}],
+    }  # fmt: skip
+    scene = parse_scene(data)
+    with Simulation(scene, RunSettings.of(scene)) as simulation:
+        lowest = 0.0
+        for _ in range(60):
+            simulation.step()
+            position, rotation = simulation.frame().body_poses[0]
+            assert math.hypot(position[0] - 0.3, position[1] - 0.1) == pytest.approx(math.hypot(0.3, 0.1), abs=1e-5)
+            lowest = min(lowest, position[1])
+    assert lowest < -0.1
