@@ -11,18 +11,18 @@
 
 static pbmpm_result no_volume(void) { return api_invalid("a plane has no volume"); }
 
-pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass *mass)
+pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass_properties *mass)
 {
     READ(pbmpm_shape, own, shape, shape_defaults());
-    REQUIRE_SIZE(pbmpm_mass, mass);
+    REQUIRE_SIZE(pbmpm_mass_properties, mass);
     HOLD(world);
     const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (!problem && !in_range(density, 1e-6, 1e9)) problem = "density must be in [1e-6, 1e9]";
     if (problem) LET_GO(api_invalid(problem));
     if (own.kind == PBMPM_PLANE) LET_GO(no_volume());
     const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
-    const pbmpm_mass found = solid_mass(&solid, (double)density);
-    WRITE(pbmpm_mass, mass, &found);
+    const pbmpm_mass_properties found = solid_mass(&solid, (double)density);
+    WRITE(pbmpm_mass_properties, mass, &found);
     LET_GO(PBMPM_OK);
 }
 

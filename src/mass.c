@@ -32,10 +32,10 @@ static Moments moments_of(const Solid *s)
 
 double solid_volume(const Solid *s) { return moments_of(s).volume; }
 
-pbmpm_mass solid_mass(const Solid *s, double density)
+pbmpm_mass_properties solid_mass(const Solid *s, double density)
 {
     const Moments m = moments_of(s);
-    pbmpm_mass mass = {.size = sizeof mass, .volume = m.volume, .mass = density * m.volume};
+    pbmpm_mass_properties mass = {.size = sizeof mass, .volume = m.volume, .mass = density * m.volume};
     for (int a = 0; a < 3; a++) {
         mass.centre[a] = m.centre[a];
         if (s->dimension == 2 && a < 2) continue;

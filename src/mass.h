@@ -9,6 +9,6 @@
 double solid_volume(const Solid *solid);
 
 /* Of a bounded solid of even density [kg/m^3], in its own frame. */
-pbmpm_mass solid_mass(const Solid *solid, double density);
+pbmpm_mass_properties solid_mass(const Solid *solid, double density);
 
 #endif

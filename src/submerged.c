@@ -268,6 +268,7 @@ static void find_wet(Sounding *s)
 typedef struct Waterline {
     double place[3], up[3]; /* [m]; of length 1 */
     double area;            /* [nodes] */
+    double end;             /* how much surface stands where wet ends */
     double wet;             /* share of the solid's surface */
 } Waterline;
 
@@ -290,25 +291,52 @@ static void sight_of(const Sounding *s, size_t node, double point[3])
     for (int a = 0; a < s->dimension && sum > 0.0; a++) point[a] += s->spacing * moment[a] / sum;
 }
 
+/* Whether a node at the surface can tell where wet ends. */
+static bool sees(const Sounding *s, size_t node, double *area)
+{
+    double out[3];
+    if ((double)s->open[node] < OPEN_WIDE || !outward(s, node, out)) return false;
+    *area = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
+    return true;
+}
+
+/* Where wet ends between a node and the next ones. Returns how much surface stands there. */
+static double add_end(const Sounding *s, size_t node, double place[3])
+{
+    double area, of_next, weight = 0.0;
+    if (!sees(s, node, &area)) return 0.0;
+    for (int a = 0; a < s->dimension; a++) {
+        const size_t next = node + s->stride[a];
+        const int32_t at = (int32_t)(node / s->stride[a] % (size_t)s->count[a]);
+        if (at + 1 == s->count[a] || !sees(s, next, &of_next)) continue;
+        const double wet = (double)s->wet[node] - 0.5, wet_next = (double)s->wet[next] - 0.5;
+        if ((wet > 0.0) == (wet_next > 0.0)) continue;
+        double here[3], there[3];
+        sight_of(s, node, here);
+        sight_of(s, next, there);
+        const double share = wet / (wet - wet_next), both = area + of_next;
+        for (int b = 0; b < 3; b++) place[b] += both * (here[b] + share * (there[b] - here[b]));
+        weight += both;
+    }
+    return weight;
+}
+
 static Waterline find_waterline(const Sounding *s)
 {
     Waterline line = {.area = 0.0};
-    double weight = 1e-9, whole = 0.0;
+    double whole = 0.0;
     for (size_t node = 0; node < s->nodes; node++) {
-        double out[3], point[3];
+        double out[3];
         if (!outward(s, node, out) || s->wet[node] == UNKNOWN) continue;
         const double wet = (double)s->wet[node], area = sqrt(out[0] * out[0] + out[1] * out[1] + out[2] * out[2]);
         whole += area;
         line.wet += wet * area;
         for (int a = 0; a < 3; a++) line.up[a] -= wet * out[a];
-        if ((double)s->open[node] < OPEN_WIDE || wet == 0.0 || wet == 1.0) continue;
-        sight_of(s, node, point);
-        weight += wet * (1.0 - wet) * area;
-        for (int a = 0; a < 3; a++) line.place[a] += wet * (1.0 - wet) * area * point[a];
+        line.end += add_end(s, node, line.place);
     }
     line.area = sqrt(line.up[0] * line.up[0] + line.up[1] * line.up[1] + line.up[2] * line.up[2]);
     if (whole > 0.0) line.wet /= whole;
-    for (int a = 0; a < 3; a++) line.place[a] /= weight;
+    for (int a = 0; a < 3 && line.end > 0.0; a++) line.place[a] /= line.end;
     for (int a = 0; a < 3 && line.area > 0.0; a++) line.up[a] /= line.area;
     return line;
 }
@@ -322,7 +350,7 @@ static void add_up(const Sounding *s, pbmpm_submersion *submersion)
     const int d = s->dimension;
     double whole = 0.0, under = 0.0, first[3] = {0};
     for (size_t node = 0; node < s->nodes; node++) whole += (double)s->inside[node];
-    const bool cut = line.area > LEAST_CUT * pow(whole, (d - 1.0) / d);
+    const bool cut = line.end > 0.0 && line.area > LEAST_CUT * pow(whole, (d - 1.0) / d);
     if (!(whole > 0.0) || (!cut && line.wet < 0.5)) return;
     for (size_t node = 0; node < s->nodes; node++) {
         double point[3], above = 0.0;

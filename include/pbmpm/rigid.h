@@ -39,20 +39,20 @@ typedef enum pbmpm_freedom {
 } pbmpm_freedom;
 
 /** Volume, mass and inertia of a shape of even density. In 2D per metre of depth. */
-typedef struct pbmpm_mass {
-    uint32_t size;      /**< sizeof(pbmpm_mass), set by the caller */
+typedef struct pbmpm_mass_properties {
+    uint32_t size;      /**< sizeof(pbmpm_mass_properties), set by the caller */
     uint32_t reserved;  /**< 0 */
     double volume;      /**< [m^d] */
     double mass;        /**< [kg] */
     double centre[3];   /**< of mass [m], from the shape's position, in the shape's own frame */
     double inertia[3];  /**< moments xx, yy, zz about the centre [kg m^2], in the shape's own frame; 2D: only zz, else 0 */
     double products[3]; /**< elements xy, yz, zx of the same tensor: -(integral of x y dm) and so on */
-} pbmpm_mass;
+} pbmpm_mass_properties;
 
 /** Mass properties of a shape. Boxes, balls and capsules: exact. Baked solids: sums over the nodes of the grid, in which a cell that the surface
  *  crosses counts by its share; a solid 64 cells long errs by less than 1/100. `mass->size` must be set.
  *  `density`: [kg/m^3], in [1e-6, 1e9]. Errors: INVALID_ID, INVALID_ARGUMENT (also: a plane, which has no volume), UNSUPPORTED, BUSY, FORKED. */
-PBMPM_API pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass *mass);
+PBMPM_API pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass_properties *mass);
 
 /** The part of an obstacle that is under matter. */
 typedef struct pbmpm_submersion {
@@ -76,7 +76,7 @@ PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_coll
                                                 pbmpm_submersion *submersion);
 
 /** What a rigid body is. Fill it with pbmpm_rigid_def_init(), then change what differs; mass, centre, inertia and products are those of a
- *  pbmpm_mass, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
+ *  pbmpm_mass_properties, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
  *
  *  A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE. */
 typedef struct pbmpm_rigid_def {
@@ -86,8 +86,8 @@ typedef struct pbmpm_rigid_def {
     pbmpm_freedom turns;   /**< 2D: NONE, or else about the third axis. Default ALL */
     double mass;           /**< [kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1 */
     double centre[3];      /**< of mass [m], from the shape's position, in the shape's own frame; within 1e9; default 0 */
-    double inertia[3];     /**< see pbmpm_mass; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1 */
-    double products[3];    /**< see pbmpm_mass; default 0 */
+    double inertia[3];     /**< see pbmpm_mass_properties; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1 */
+    double products[3];    /**< see pbmpm_mass_properties; default 0 */
     double pivot[3];       /**< with `moves` NONE: the point that stays, from the shape's position, in the shape's own frame [m]; within 1e9; default 0 */
     double move_axis[3];   /**< of `moves`, in the world, any length from 1e-6 to 1e9; default (0, 1, 0) */
     double turn_axis[3];   /**< of `turns`, in the world, any length from 1e-6 to 1e9; not used in 2D; default (0, 0, 1) */

@@ -227,7 +227,7 @@ static pbmpm_result call_collider_submerged(const target *ids)
 static pbmpm_result call_shape_mass(const target *ids)
 {
     const pbmpm_shape shape = default_shape();
-    pbmpm_mass mass = {.size = sizeof mass};
+    pbmpm_mass_properties mass = {.size = sizeof mass};
     return pbmpm_shape_mass(ids->world, &shape, 1.0f, &mass);
 }
 

@@ -552,7 +552,7 @@ const sized_output sized_outputs[] = {
     TAKEN(pbmpm_domain_wall, pbmpm_domain_wall_get, take_domain_wall),
     TAKEN(pbmpm_impulse, pbmpm_domain_impulse, take_domain_impulse),
     TAKEN(pbmpm_submersion, pbmpm_collider_submerged, take_submersion),
-    TAKEN(pbmpm_mass, pbmpm_shape_mass, take_mass),
+    TAKEN(pbmpm_mass_properties, pbmpm_shape_mass, take_mass),
     TAKEN(pbmpm_rigid_state, pbmpm_rigid_begin, take_rigid_state),
     TAKEN(pbmpm_baked_info, pbmpm_baked_get, take_baked_info),
     TAKEN(pbmpm_baked_info, pbmpm_baked_inspect, take_inspected),

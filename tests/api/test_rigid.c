@@ -19,9 +19,9 @@ void tearDown(void)
 
 /* ---- Mass ---- */
 
-static pbmpm_mass mass_of(pbmpm_world_id world, pbmpm_shape shape, float density)
+static pbmpm_mass_properties mass_of(pbmpm_world_id world, pbmpm_shape shape, float density)
 {
-    pbmpm_mass mass = {.size = sizeof mass};
+    pbmpm_mass_properties mass = {.size = sizeof mass};
     OK(pbmpm_shape_mass(world, &shape, density, &mass));
     return mass;
 }
@@ -44,15 +44,15 @@ static pbmpm_shape capsule_shape(float half_length, float radius)
 static void test_masses_have_formulas(void)
 {
     const pbmpm_world_id deep = empty_world(3, 0.1f), flat = empty_world(2, 0.1f);
-    const pbmpm_mass box = mass_of(deep, box_shape(1, 2, 3, 0.5f, 1.0f, 2.0f), 100.0f);
+    const pbmpm_mass_properties box = mass_of(deep, box_shape(1, 2, 3, 0.5f, 1.0f, 2.0f), 100.0f);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0, box.mass);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (1 + 4), box.inertia[0]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (0.25 + 4), box.inertia[1]);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 800.0 / 3 * (0.25 + 1), box.inertia[2]);
-    const pbmpm_mass ball = mass_of(deep, sphere_shape(0, 0, 0, 0.5f), 8.0f);
+    const pbmpm_mass_properties ball = mass_of(deep, sphere_shape(0, 0, 0, 0.5f), 8.0f);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 8.0 * 4 / 3 * PI / 8, ball.mass);
     for (int a = 0; a < 3; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.4 * ball.mass / 4, ball.inertia[a]);
-    const pbmpm_mass disc = mass_of(flat, sphere_shape(0, 0, 0, 0.5f), 8.0f);
+    const pbmpm_mass_properties disc = mass_of(flat, sphere_shape(0, 0, 0, 0.5f), 8.0f);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 2 * PI, disc.mass);
     TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.5 * disc.mass / 4, disc.inertia[2]);
     TEST_ASSERT_EQUAL_DOUBLE(0.0, disc.inertia[0]);
@@ -65,7 +65,7 @@ static void test_the_mass_of_a_capsule_is_that_of_its_points(void)
     for (int32_t dimension = 2; dimension <= 3; dimension++) {
         const int N = dimension == 2 ? 1000 : 120;
         const double h = 2 * (a + r) / N;
-        const pbmpm_mass mass = mass_of(empty_world(dimension, 0.1f), capsule_shape(0.6f, 0.4f), 10.0f);
+        const pbmpm_mass_properties mass = mass_of(empty_world(dimension, 0.1f), capsule_shape(0.6f, 0.4f), 10.0f);
         double volume = 0, moment[3] = {0};
         for (int i = 0; i < N; i++)
             for (int j = 0; j < N; j++)
@@ -96,8 +96,8 @@ static void test_a_baked_ball_weighs_what_a_ball_does(void)
     for (int32_t dimension = 2; dimension <= 3; dimension++) {
         const pbmpm_world_id world = empty_world(dimension, 0.1f);
         bake_fine_ball(dimension, 0.5);
-        const pbmpm_mass found = mass_of(world, baked_shape(load_baked(world), 3, 4, 5), 10.0f);
-        const pbmpm_mass exact = mass_of(world, sphere_shape(0, 0, 0, 0.5f), 10.0f);
+        const pbmpm_mass_properties found = mass_of(world, baked_shape(load_baked(world), 3, 4, 5), 10.0f);
+        const pbmpm_mass_properties exact = mass_of(world, sphere_shape(0, 0, 0, 0.5f), 10.0f);
         TEST_ASSERT_DOUBLE_WITHIN(0.01 * exact.mass, exact.mass, found.mass);
         for (int a = 0; a < 3; a++) {
             TEST_ASSERT_DOUBLE_WITHIN(0.02 * exact.inertia[2], exact.inertia[a], found.inertia[a]);
@@ -229,7 +229,7 @@ static void test_planes_have_no_inside(void)
     const pbmpm_collider_id plane = create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
     const pbmpm_shape shape = plane_shape(0, 0, 0, 0, 1, 0);
     pbmpm_submersion found = {.size = sizeof found};
-    pbmpm_mass mass = {.size = sizeof mass};
+    pbmpm_mass_properties mass = {.size = sizeof mass};
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_collider_submerged(world, plane, NULL, &found));
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_shape_mass(world, &shape, 1.0f, &mass));
 }
@@ -257,7 +257,7 @@ static pbmpm_collider_id add_body(pbmpm_world_id world, pbmpm_shape shape)
 static rigid make_rigid(pbmpm_world_id world, pbmpm_shape shape, float density, void (*hold)(pbmpm_rigid_def *def))
 {
     rigid body = {.world = world, .collider = add_body(world, shape), .state = {.size = sizeof body.state}};
-    const pbmpm_mass mass = mass_of(world, shape, density);
+    const pbmpm_mass_properties mass = mass_of(world, shape, density);
     OK(pbmpm_rigid_def_init(&body.def, sizeof body.def));
     body.def.mass = mass.mass;
     memcpy(body.def.centre, mass.centre, sizeof mass.centre);

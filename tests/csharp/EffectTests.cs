@@ -132,6 +132,34 @@ static class EffectTests
     }
 
     [Test]
+    static void ARigidBodyHangsOnAHinge()
+    {
+        using (var world = Scenes.Box(2))
+        {
+            var shape = Shape.Box(new Float3(1, 1, 0), new Float3(0.2f, 0.1f, 0));
+            var definition = ColliderDef.Default;
+            definition.MeasuresImpulse = definition.Kinematic = 1;
+            var collider = world.AddCollider(definition, shape);
+            var rigid = RigidBody.Of(world.MassOf(shape, 500));
+            Expect.Near(500 * 0.08, rigid.Mass, 1e-4, "mass");
+            rigid.Moves = Freedom.None;
+            rigid.Pivot.X = 0.2;
+            var body = new RigidBody(world, collider, rigid);
+            body.Definition.Torque.Z = 3;
+            for (var step = 0; step < 10; step++)
+            {
+                body.Advance(Scenes.Frame);
+                Run(world, 1);
+            }
+            Expect.True(body.State.AngularVelocity.Z > 0, "it turns");
+            var x = body.State.Position.X - 1.2;
+            var y = body.State.Position.Y - 1;
+            Expect.Near(0.2, Math.Sqrt(x * x + y * y), 1e-5, "distance from the hinge");
+            Expect.Near(0, world.SubmersionOf(collider).Share, 0, "share under");
+        }
+    }
+
+    [Test]
     static void TerrainIsBakedFromHeights()
     {
         var count = new Uint2 { X = 3 };

@@ -1359,9 +1359,9 @@ namespace Pbmpm
 
     /// <summary>Volume, mass and inertia of a shape of even density. In 2D per metre of depth.</summary>
     [StructLayout(LayoutKind.Sequential)]
-    public partial struct Mass
+    public partial struct MassProperties
     {
-        /// <summary>sizeof(pbmpm_mass), set by the caller</summary>
+        /// <summary>sizeof(pbmpm_mass_properties), set by the caller</summary>
         public uint Size;
         /// <summary>0</summary>
         public uint Reserved;
@@ -1396,7 +1396,7 @@ namespace Pbmpm
     }
 
     /// <summary>What a rigid body is. Fill it with pbmpm_rigid_def_init(), then change what differs; mass, centre, inertia and products are those of a
-    /// pbmpm_mass, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
+    /// pbmpm_mass_properties, or the host's own. It may change from call to call. In 2D the third components of places and the first two of turns are not used.
     ///
     /// A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE.</summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -1414,9 +1414,9 @@ namespace Pbmpm
         public double Mass;
         /// <summary>of mass [m], from the shape's position, in the shape's own frame; within 1e9; default 0</summary>
         public Double3 Centre;
-        /// <summary>see pbmpm_mass; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1</summary>
+        /// <summary>see pbmpm_mass_properties; the tensor must be positive, its elements within 1e30. 2D: zz alone counts. Default 1, 1, 1</summary>
         public Double3 Inertia;
-        /// <summary>see pbmpm_mass; default 0</summary>
+        /// <summary>see pbmpm_mass_properties; default 0</summary>
         public Double3 Products;
         /// <summary>with `moves` NONE: the point that stays, from the shape's position, in the shape's own frame [m]; within 1e9; default 0</summary>
         public Double3 Pivot;
@@ -2430,7 +2430,7 @@ namespace Pbmpm.Native
         /// crosses counts by its share; a solid 64 cells long errs by less than 1/100. `mass-&gt;size` must be set.
         /// `density`: [kg/m^3], in [1e-6, 1e9]. Errors: INVALID_ID, INVALID_ARGUMENT (also: a plane, which has no volume), UNSUPPORTED, BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
-        public static extern Result pbmpm_shape_mass(WorldId world, Shape* shape, float density, Mass* mass);
+        public static extern Result pbmpm_shape_mass(WorldId world, Shape* shape, float density, MassProperties* mass);
 
         /// <summary>How much of an obstacle is under matter. That is where the surface of the matter around it, continued through the obstacle as a plane, leaves it:
         /// no gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
@@ -2563,7 +2563,7 @@ namespace Pbmpm.Native
             RegionShare(fields);
             Ray(fields);
             RayHit(fields);
-            Mass(fields);
+            MassProperties(fields);
             Submersion(fields);
             RigidDef(fields);
             RigidState(fields);
@@ -3073,17 +3073,17 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_ray_hit", "", &it, &it, &it + 1, true));
         }
 
-        static void Mass(List<MirrorField> fields)
+        static void MassProperties(List<MirrorField> fields)
         {
-            var it = default(Mass);
-            fields.Add(new MirrorField("pbmpm_mass", "size", &it, &it.Size, &it.Size + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "volume", &it, &it.Volume, &it.Volume + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "mass", &it, &it.Mass, &it.Mass + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "centre", &it, &it.Centre, &it.Centre + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "inertia", &it, &it.Inertia, &it.Inertia + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "products", &it, &it.Products, &it.Products + 1, false));
-            fields.Add(new MirrorField("pbmpm_mass", "", &it, &it, &it + 1, true));
+            var it = default(MassProperties);
+            fields.Add(new MirrorField("pbmpm_mass_properties", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "volume", &it, &it.Volume, &it.Volume + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "mass", &it, &it.Mass, &it.Mass + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "centre", &it, &it.Centre, &it.Centre + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "inertia", &it, &it.Inertia, &it.Inertia + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "products", &it, &it.Products, &it.Products + 1, false));
+            fields.Add(new MirrorField("pbmpm_mass_properties", "", &it, &it, &it + 1, true));
         }
 
         static void Submersion(List<MirrorField> fields)

@@ -34,10 +34,10 @@ namespace Pbmpm
         }
 
         /// <summary>A definition with the mass properties of a shape.</summary>
-        public static RigidDef Of(Mass mass)
+        public static RigidDef Of(MassProperties mass)
         {
             var definition = RigidDef.Default;
-            definition.Mass = mass.MassValue;
+            definition.Mass = mass.Mass;
             definition.Centre = mass.Centre;
             definition.Inertia = mass.Inertia;
             definition.Products = mass.Products;
@@ -48,9 +48,9 @@ namespace Pbmpm
     public sealed unsafe partial class World
     {
         /// <summary>The mass properties of a shape at a density [kg/m^3].</summary>
-        public Mass MassOf(Shape shape, float density)
+        public MassProperties MassOf(Shape shape, float density)
         {
-            var found = new Mass { Size = (uint)sizeof(Mass) };
+            var found = new MassProperties { Size = (uint)sizeof(MassProperties) };
             Done(Methods.pbmpm_shape_mass(Id, &shape, density, &found));
             return found;
         }

@@ -252,6 +252,27 @@ static void add_flow(pbmpm_world_id world, pbmpm_material_id material)
     DELETE(shape);
 }
 
+static void ride(pbmpm_world_id world, pbmpm_collider_id collider)
+{
+    pbmpm_shape *shape = new_box(1.5f, 1.5f, 0.5f, 0.25f);
+    pbmpm_mass_properties *mass = NEW(pbmpm_mass_properties);
+    pbmpm_submersion *submersion = NEW(pbmpm_submersion);
+    pbmpm_rigid_def *rigid = NEW(pbmpm_rigid_def);
+    pbmpm_rigid_state *state = NEW(pbmpm_rigid_state);
+    OK(pbmpm_shape_mass(world, shape, 500.0f, mass));
+    OK(pbmpm_collider_submerged(world, collider, NULL, submersion));
+    OK(pbmpm_rigid_def_init(rigid, sizeof *rigid));
+    rigid->mass = mass->mass;
+    OK(pbmpm_rigid_begin(world, collider, rigid, state));
+    OK(pbmpm_rigid_advance(world, collider, rigid, state, 0.01f));
+    printf("rigid: %.9g kg, %.9g under, at %.9g\n", mass->mass, submersion->share, state->position[1]);
+    DELETE(shape);
+    DELETE(mass);
+    DELETE(submersion);
+    DELETE(rigid);
+    DELETE(state);
+}
+
 static void ask(pbmpm_world_id world, pbmpm_collider_id collider)
 {
     pbmpm_stats *stats = NEW(pbmpm_stats);

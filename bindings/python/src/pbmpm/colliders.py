@@ -157,7 +157,7 @@ class Collider(Member):
 
     def mass(self, density: float) -> Mass:
         """The mass properties of its shape at a density [kg/m^3]."""
-        out = sized("pbmpm_mass")
+        out = sized("pbmpm_mass_properties")
         self._world._call(lib.pbmpm_shape_mass, self._form(), density, out)
         return mass_from_c(out)
 

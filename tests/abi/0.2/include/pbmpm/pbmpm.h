@@ -209,8 +209,8 @@ typedef struct pbmpm_ray_hit { uint32_t size; int32_t hit; float distance; float
 pbmpm_result pbmpm_ray_init(pbmpm_ray *ray, size_t size);
 pbmpm_result pbmpm_query_ray(pbmpm_world_id world, const pbmpm_ray *ray, pbmpm_ray_hit *hit);
 typedef enum pbmpm_freedom { PBMPM_FREEDOM_ALL = 0, PBMPM_FREEDOM_AXIS = 1, PBMPM_FREEDOM_PLANE = 2, PBMPM_FREEDOM_NONE = 3, PBMPM_FREEDOM_FORCE32 = 2147483647 } pbmpm_freedom;
-typedef struct pbmpm_mass { uint32_t size; uint32_t reserved; double volume; double mass; double centre[3]; double inertia[3]; double products[3]; } pbmpm_mass;
-pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass *mass);
+typedef struct pbmpm_mass_properties { uint32_t size; uint32_t reserved; double volume; double mass; double centre[3]; double inertia[3]; double products[3]; } pbmpm_mass_properties;
+pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass_properties *mass);
 typedef struct pbmpm_submersion { uint32_t size; uint32_t reserved; double share; double volume; double centre[3]; double density; } pbmpm_submersion;
 pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_material_id *material, pbmpm_submersion *submersion);
 typedef struct pbmpm_rigid_def { uint32_t size; int32_t stays_inside; pbmpm_freedom moves; pbmpm_freedom turns; double mass; double centre[3]; double inertia[3]; double products[3]; double pivot[3]; double move_axis[3]; double turn_axis[3]; double force[3]; double torque[3]; } pbmpm_rigid_def;
