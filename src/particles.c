@@ -413,14 +413,15 @@ void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count)
 
 void particles_find_rows(Particles *p)
 {
-    for (uint32_t i = 0; i < p->count && !p->rows_valid; i++) p->slot_row[p->id[i].index] = i;
+    if (p->rows_valid) return; /* and not even that is written: readers look at it */
+    for (uint32_t i = 0; i < p->count; i++) p->slot_row[p->id[i].index] = i;
     p->rows_valid = true;
 }
 
 bool particles_row(Particles *p, pbmpm_particle_id id, uint32_t *row)
 {
     if (id.index >= p->capacity || id.generation == 0 || p->slot_generation[id.index] != id.generation) return false;
-    if (!p->rows_valid) particles_find_rows(p);
+    particles_find_rows(p);
     *row = p->slot_row[id.index];
     return true;
 }

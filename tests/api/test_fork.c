@@ -137,28 +137,51 @@ static void *step_once(void *user)
     return pbmpm_world_step(ids->world, 0.001f) == PBMPM_OK ? NULL : user;
 }
 
-/* The fork froze a step in the child; it goes on in the parent. */
+static void *query_once(void *user)
+{
+    const target *ids = user;
+    const float point[2] = {1, 1};
+    float filling;
+    return pbmpm_query_points(ids->world, point, 1, &filling, NULL, NULL) == PBMPM_OK ? NULL : user;
+}
+
+/* The fork froze a call in the child; it goes on in the parent. The call takes memory. */
+static void check_fork_inside(void *(*call)(void *), target *ids)
+{
+    pthread_t thread;
+    void *failed = NULL;
+    atomic_store(&held, 0);
+    atomic_store(&released, 0);
+    atomic_store(&armed, 1);
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread, NULL, call, ids));
+    while (!atomic_load(&held))
+        usleep(100);
+    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids->world));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(every_call_but_destroy, ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(destroy_twice, ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(shut_down, ids));
+    TEST_ASSERT_EQUAL_INT(0, answer_of(make_a_world_of_its_own, ids));
+    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids->world)); /* nothing of that was felt here */
+    atomic_store(&released, 1);
+    pthread_join(thread, &failed);
+    atomic_store(&armed, 0);
+    TEST_ASSERT_NULL(failed);
+    OK(pbmpm_world_destroy(ids->world));
+}
+
 static void test_fork_while_another_thread_steps(void)
 {
     target ids = target_create(use_slow_memory, NULL);
-    pthread_t thread;
-    void *failed = NULL;
     OK(pbmpm_world_step(ids.world, 0.001f));
     set_solver(ids.world, PBMPM_SOLVER_DUAL); /* which takes memory in its first step */
-    atomic_store(&armed, 1);
-    TEST_ASSERT_EQUAL_INT(0, pthread_create(&thread, NULL, step_once, &ids));
-    while (!atomic_load(&held))
-        usleep(100);
-    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids.world));
-    TEST_ASSERT_EQUAL_INT(0, answer_of(every_call_but_destroy, &ids));
-    TEST_ASSERT_EQUAL_INT(0, answer_of(destroy_twice, &ids));
-    TEST_ASSERT_EQUAL_INT(0, answer_of(shut_down, &ids));
-    TEST_ASSERT_EQUAL_INT(0, answer_of(make_a_world_of_its_own, &ids));
-    EXPECT(PBMPM_ERROR_BUSY, pbmpm_world_destroy(ids.world)); /* nothing of that was felt here */
-    atomic_store(&released, 1);
-    pthread_join(thread, &failed);
-    TEST_ASSERT_NULL(failed);
-    OK(pbmpm_world_destroy(ids.world));
+    check_fork_inside(step_once, &ids);
+}
+
+static void test_fork_while_another_thread_reads(void)
+{
+    target ids = target_create(use_slow_memory, NULL);
+    OK(pbmpm_world_step(ids.world, 0.001f));
+    check_fork_inside(query_once, &ids); /* the first query takes memory */
 }
 
 static atomic_int enough;
@@ -214,6 +237,7 @@ int main(void)
     RUN_TEST(test_fork_with_one_thread);
     RUN_TEST(test_fork_with_threads);
     RUN_TEST(test_fork_while_another_thread_steps);
+    RUN_TEST(test_fork_while_another_thread_reads);
     RUN_TEST(test_forks_while_other_threads_create_worlds);
     return UNITY_END();
 }
