@@ -424,6 +424,27 @@ static pbmpm_result give_ray(const void *structure, void *outcome)
     return PBMPM_OK;
 }
 
+static void sound_rigid(void *structure)
+{
+    pbmpm_rigid_def *def = structure;
+    OK(pbmpm_rigid_def_init(def, sizeof *def));
+    def->moves = PBMPM_FREEDOM_AXIS;
+    def->force[1] = 3;
+}
+
+static pbmpm_rigid_state moving_state(void)
+{
+    return (pbmpm_rigid_state){.size = sizeof(pbmpm_rigid_state), .position = {1, 1}, .rotation = {0, 0, 0, 1}, .velocity = {0, 2}};
+}
+
+static pbmpm_result give_rigid(const void *structure, void *outcome)
+{
+    pbmpm_rigid_state state = moving_state();
+    const pbmpm_result result = pbmpm_rigid_advance(world.world, world.collider, structure, &state, 0.01f);
+    memcpy(outcome, &state.position[1], sizeof(float));
+    return result;
+}
+
 static void sound_copy(void *structure)
 {
     static const pbmpm_field fields[] = {PBMPM_POSITION};
@@ -479,6 +500,7 @@ const sized_input sized_inputs[] = {
     COUNTED(pbmpm_mesh_def, pbmpm_bake_hull, sound_hull, give_hull),
     COUNTED(pbmpm_heights_def, pbmpm_bake_heights, sound_heights, give_heights),
     COUNTED(pbmpm_ray, pbmpm_query_ray, sound_ray, give_ray),
+    COUNTED(pbmpm_rigid_def, pbmpm_rigid_advance, sound_rigid, give_rigid),
     COUNTED(pbmpm_copy_def, pbmpm_particles_copy, sound_copy, give_copy),
 };
 const int sized_input_count = (int)(sizeof sized_inputs / sizeof *sized_inputs);

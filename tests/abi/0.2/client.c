@@ -252,9 +252,14 @@ static void add_flow(pbmpm_world_id world, pbmpm_material_id material)
     DELETE(shape);
 }
 
-static void ride(pbmpm_world_id world, pbmpm_collider_id collider)
+static void ride(pbmpm_world_id world)
 {
-    pbmpm_shape *shape = new_box(1.5f, 1.5f, 0.5f, 0.25f);
+    pbmpm_collider_id collider;
+    pbmpm_shape *shape = new_box(1.5f, 2.5f, 0.25f, 0.125f);
+    pbmpm_collider_def *def = NEW(pbmpm_collider_def);
+    OK(pbmpm_collider_def_init(def, sizeof *def));
+    def->kinematic = def->measures_impulse = 1;
+    OK(pbmpm_collider_create(world, def, shape, &collider));
     pbmpm_mass_properties *mass = NEW(pbmpm_mass_properties);
     pbmpm_submersion *submersion = NEW(pbmpm_submersion);
     pbmpm_rigid_def *rigid = NEW(pbmpm_rigid_def);
@@ -266,7 +271,9 @@ static void ride(pbmpm_world_id world, pbmpm_collider_id collider)
     OK(pbmpm_rigid_begin(world, collider, rigid, state));
     OK(pbmpm_rigid_advance(world, collider, rigid, state, 0.01f));
     printf("rigid: %.9g kg, %.9g under, at %.9g\n", mass->mass, submersion->share, state->position[1]);
+    OK(pbmpm_collider_destroy(world, collider));
     DELETE(shape);
+    DELETE(def);
     DELETE(mass);
     DELETE(submersion);
     DELETE(rigid);
@@ -342,6 +349,7 @@ int main(void)
     fill(world, jelly, 2.0f, 1.5f, 0.2f);
     const pbmpm_collider_id box = add_colliders(world);
     add_flow(world, water);
+    ride(world);
     ask(world, box);
     save_and_restore(world);
     OK(pbmpm_world_destroy(world));
