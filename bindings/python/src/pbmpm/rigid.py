@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-import enum
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ._choice import Choice
 from ._convert import Vector, initialised, sized, vector
 from ._ffi import ffi
+from ._fixed import Bound
 
 if TYPE_CHECKING:
     from .colliders import Collider
 
 
-class Freedom(enum.Enum):
+class Freedom(Choice):
     """How far a body may move, or turn."""
 
     ALL = ffi.integer_const("PBMPM_FREEDOM_ALL")  #: in every direction
@@ -72,7 +73,7 @@ def _three(name: str, value: Vector, dimension: int) -> list[float]:
     return [*vector(name, value, dimension), 0.0][:3]
 
 
-class RigidBody:
+class RigidBody(Bound):
     """An obstacle that moves as matter, gravity and the host push it. `advance()` it before each step of its world.
 
     Args:
@@ -87,6 +88,7 @@ class RigidBody:
     """
 
     __slots__ = ("_collider", "_definition", "_state")
+    _instead = "its `state` can be kept and set again"
 
     def __init__(
         self,
@@ -94,8 +96,8 @@ class RigidBody:
         *,
         density: float | None = None,
         mass: float | None = None,
-        moves: Freedom = Freedom.ALL,
-        turns: Freedom = Freedom.ALL,
+        moves: Freedom | str = Freedom.ALL,
+        turns: Freedom | str = Freedom.ALL,
         pivot: Vector | None = None,
         move_axis: Vector | None = None,
         turn_axis: Vector | None = None,

@@ -75,7 +75,7 @@ class World(
     Arguments left at None take the C library's defaults.
     """
 
-    __slots__ = ("_handle", "_dimension", "__weakref__")
+    __slots__ = ("_handle", "_dimension", "_published", "__weakref__")
     _instead = "snapshot() keeps its state, and restore() brings it into a world that was made by the same calls"
 
     def __init__(
