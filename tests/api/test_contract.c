@@ -95,6 +95,24 @@ static void test_last_error_belongs_to_the_thread(void)
     TEST_ASSERT_EQUAL_STRING(before, pbmpm_last_error());
 }
 
+/* A message tells the figures that it is about. */
+static void test_last_error_tells_figures(void)
+{
+    static const float positions[2 * 23];
+    const pbmpm_world_def def = default_world(2, 0.1f, 17);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particles_def particles;
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    particles.material = create_material(world, PBMPM_LIQUID);
+    particles.positions = positions;
+    particles.count = 5;
+    OK(pbmpm_particles_add(world, &particles, NULL));
+    particles.count = 23;
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world, &particles, NULL));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), "23"), pbmpm_last_error());
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), "5 of 17"), pbmpm_last_error());
+}
+
 static void remember_line(const char *line, void *user)
 {
     snprintf(seen_line, sizeof seen_line, "%s", line);
@@ -490,6 +508,7 @@ int main(void)
     RUN_TEST(test_instruction_sets_have_names);
     RUN_TEST(test_all_materials_are_built);
     RUN_TEST(test_last_error_belongs_to_the_thread);
+    RUN_TEST(test_last_error_tells_figures);
     RUN_TEST(test_log_callback_gets_refused_calls);
     RUN_TEST(test_shutdown_destroys_worlds_and_allows_a_new_start);
     RUN_TEST(test_world_def_has_the_documented_defaults);

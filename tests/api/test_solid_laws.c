@@ -165,6 +165,41 @@ static void test_bodies_slide_and_stick(void)
         }
 }
 
+/* ---- Clay ---- */
+
+/* So soft that nothing moves it, it forgets what it is strained by beyond its yield strain as fast as its flow rate says, and keeps the rest. */
+static void test_clay_flows_as_fast_as_it_says(void)
+{
+    enum { ROOM = 256 };
+    static float strained[4 * ROOM];
+    const double yield = 0.1, rate = 20, h = 0.4;
+    const pbmpm_world_def def = default_world(2, 0.1f, ROOM);
+    pbmpm_material_def clay = default_material(PBMPM_VISCO);
+    pbmpm_material_id id;
+    const pbmpm_world_id world = create_world(&def);
+    clay.young_modulus = 1e-3f;
+    clay.yield_strain = (float)yield;
+    clay.flow_rate = (float)rate;
+    OK(pbmpm_material_create(world, &clay, &id));
+    use_way(world, &primal);
+    const uint32_t count = fill_shape(world, id, box_shape(0, 0, 0, SIDE, SIDE, SIDE), (const float[3]){0, 0, 0});
+    TEST_ASSERT_TRUE(count > 100 && count <= ROOM);
+    for (uint32_t i = 0; i < count; i++) {
+        strained[4 * i] = (float)exp(h);
+        strained[4 * i + 3] = (float)exp(-h);
+    }
+    OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, NULL, count, strained));
+    for (int step = 0; step <= 12; step++) {
+        const double norm = yield + (sqrt(2.0) * h - yield) * exp(-rate * (double)DT * step);
+        const pbmpm_view F = view_of(world, PBMPM_DEFORMATION);
+        for (uint32_t i = 0; i < count; i++) {
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4, norm, sqrt(2.0) * log((double)view_float(&F, i, 0)));
+            TEST_ASSERT_DOUBLE_WITHIN(1e-4, norm, -sqrt(2.0) * log((double)view_float(&F, i, 3)));
+        }
+        OK(pbmpm_world_step(world, DT));
+    }
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -172,5 +207,6 @@ int main(void)
     RUN_TEST(test_bodies_in_flight_keep_what_they_have);
     RUN_TEST(test_bdf2_hardly_damps_a_spin);
     RUN_TEST(test_bodies_slide_and_stick);
+    RUN_TEST(test_clay_flows_as_fast_as_it_says);
     return UNITY_END();
 }

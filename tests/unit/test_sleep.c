@@ -1,7 +1,9 @@
 /* Where sleeping particles stand: blocks by place, and rows that are parted when some of them wake; and who falls asleep. */
+#include <math.h>
 #include <string.h>
 #include <unity.h>
 
+#include "crowd.h"
 #include "random.h"
 #include "sleep.h"
 #include "step.h"
@@ -251,6 +253,42 @@ static void test_rows_that_are_wrong_wake_all(void)
     }
 }
 
+/* ---- What others see of it ---- */
+
+/* Matter that sleeps fills the surroundings of an emitter as if it were awake, wherever the borders of its blocks are. */
+static void test_matter_fills_as_much_asleep(void)
+{
+    enum { SIZE = 9, NODES = SIZE * SIZE * SIZE, REGIONS = 200 };
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        static float awake[REGIONS][NODES], asleep[NODES];
+        double held[REGIONS], most = 0.0;
+        Random random = {11};
+        World *world = open_world(dimension);
+        Crowd crowd = {.size = {SIZE, SIZE, dimension == 3 ? SIZE : 1}};
+        fill_blocks(world, &random);
+        world->materials.kernel[0].inverse_density = 1.0f;
+        TEST_ASSERT_TRUE(sleep_reserve(&world->sleep, &world->memory, BLOCKS, 0));
+        for (int lie = 0; lie < 2; lie++) {
+            Random same = {12};
+            for (int i = 0; i < REGIONS; i++) {
+                int32_t place[3];
+                place_of((int)random_below(&same, BLOCKS), place);
+                for (int a = 0; a < dimension; a++) crowd.low[a] = place[a] * K_BLOCK_AXIS + (int32_t)random_below(&same, 20) - 12;
+                crowd.volume = lie ? asleep : awake[i];
+                crowd_measure(world, &crowd);
+                if (lie) TEST_ASSERT_DOUBLE_WITHIN(1e-3, held[i], crowd.held);
+                for (int n = 0; n < NODES && lie; n++) TEST_ASSERT_FLOAT_WITHIN(1e-3f, awake[i][n], asleep[n]);
+                held[i] = crowd.held;
+                most = fmax(most, crowd.held);
+            }
+            make_leaving(world);
+            sleep_settle(world);
+        }
+        TEST_ASSERT_TRUE(most > 0.0 && world->sleep.rows == world->particles.count);
+        world_destroy(world);
+    }
+}
+
 /* ---- Falling asleep ---- */
 
 /* A particle at rest, and one that moves `offset` blocks from it for longer than it takes to fall asleep. Returns how many sleep then. */
@@ -296,6 +334,7 @@ int main(void)
     RUN_TEST(test_blocks_are_found_by_their_place);
     RUN_TEST(test_rows_are_parted_and_nobody_is_lost);
     RUN_TEST(test_rows_that_are_wrong_wake_all);
+    RUN_TEST(test_matter_fills_as_much_asleep);
     RUN_TEST(test_only_what_has_quiet_neighbours_falls_asleep);
     return UNITY_END();
 }
