@@ -158,6 +158,7 @@ static bool live_with(const life_plan *plan, uint64_t place, bool sticky, life *
     const life_watch watch = {look, judge, (void *)(uintptr_t)plan};
     book = (ledger){.fail_at = place, .sticky = sticky};
     done_in_part = false;
+    snprintf(refusal, sizeof refusal, "%s, nothing refused", plan->name);
     it->world = it->twin = (pbmpm_world_id){0, 0};
     const bool ended = live(plan, ledger_allocator(&book), &watch, it);
     if (it->world.generation) OK(pbmpm_world_destroy(it->world));

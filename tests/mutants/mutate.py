@@ -109,6 +109,8 @@ class Workplace:
 
     def holds_sources(self, test: Test) -> bool:
         """Whether a test is made of objects besides its own and the libraries: of sources of the library, or of kernels."""
+        if re.search(r'#include "[^"]*/src/\w+\.c"', test.text):
+            return True
         target = Path(test.command[0]).name
         rule = re.search(rf"^build \S*/{target}: \w+ ([^|]*)", self.rules, re.MULTILINE)
         return rule is not None and any(f"/{target}.dir/" not in it or "/src/" in it for it in rule[1].split())

@@ -75,6 +75,20 @@ static void test_moduli_of_liquids(void)
     }
 }
 
+/* What yields answers to a deviator by the share beta of what it answers to a volume strain in the paper's solver. */
+static void test_what_yields_is_softer_to_shear(void)
+{
+    for (int kind = PBMPM_SAND; kind <= PBMPM_VISCO; kind++)
+        for (int i = 1; i <= 8; i++) {
+            World *world = open_world(2 + i % 2, 0.1f);
+            pbmpm_material_def def = material_defaults();
+            def.kind = (pbmpm_material_kind)kind;
+            def.elasticity_ratio = 0.125f * (float)i;
+            NEAR(8.0 / i, bound_material(world, &def, PBMPM_SOLVER_PAPER, 0.01f)->bulk_over_shear);
+            world_destroy(world);
+        }
+}
+
 static void test_an_incompressible_liquid(void)
 {
     World *world = open_world(3, 0.1f);
@@ -615,6 +629,7 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_moduli_of_liquids);
     RUN_TEST(test_an_incompressible_liquid);
+    RUN_TEST(test_what_yields_is_softer_to_shear);
     RUN_TEST(test_lightness);
     RUN_TEST(test_feedback_of_calm_liquid);
     RUN_TEST(test_moduli_stay_finite);
