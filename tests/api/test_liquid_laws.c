@@ -1,5 +1,5 @@
 /* What a liquid that is let go in a tank does with every solver: it gains no energy, keeps its volume, pays for all that the walls get, and comes to
- * lie level. Tanks are small, so that the whole takes seconds. */
+ * lie level. And how viscosity slows it. Tanks are small, so that the whole takes seconds. */
 #include <math.h>
 #include <stdio.h>
 
@@ -84,11 +84,65 @@ static void test_a_dam_breaks_in_3d(void)
         if (ways[i].integrator == PBMPM_INTEGRATOR_EULER && ways[i].solver != PBMPM_SOLVER_EXPLICIT) check_tank(3, &ways[i], 30, 0.3);
 }
 
+/* ---- Viscosity ---- */
+
+/* What is left of a shear flow v = sin(k y) between two free surfaces, half a wave apart, in the middle of a long layer. */
+static double shear_left(const way *chosen, float viscosity, int steps)
+{
+    enum { ROOM = 2048 };
+    static float velocities[2 * ROOM], gradients[4 * ROOM];
+    const double height = 1.2, k = 3.14159265358979 / height, speed = 0.2;
+    const pbmpm_world_def def = default_world(2, 0.1f, ROOM);
+    pbmpm_material_def syrup = default_material(PBMPM_LIQUID);
+    pbmpm_material_id id;
+    double held = 0, all = 0;
+    const pbmpm_world_id world = create_world(&def);
+    syrup.bulk_modulus = chosen->solver == PBMPM_SOLVER_PAPER ? 0 : 1e5f;
+    syrup.kinematic_viscosity = viscosity;
+    OK(pbmpm_material_create(world, &syrup, &id));
+    use_way(world, chosen);
+    set_rate(world, chosen->solver == PBMPM_SOLVER_EXPLICIT ? 8 : 1, 10);
+    fill_shape(world, id, box_shape(0, 0, 0, 1.2f, 0.5f * (float)height, 0), (const float[3]){0, 0, 0});
+    pbmpm_view x = view_of(world, PBMPM_POSITION);
+    TEST_ASSERT_TRUE(x.count <= ROOM);
+    for (uint32_t i = 0; i < x.count; i++) {
+        const double y = (double)view_float(&x, i, 1);
+        velocities[2 * i] = (float)(speed * sin(k * y));
+        gradients[4 * i + 1] = (float)(speed * k * cos(k * y));
+    }
+    OK(pbmpm_particles_set(world, PBMPM_VELOCITY, NULL, x.count, velocities));
+    OK(pbmpm_particles_set(world, PBMPM_AFFINE_VELOCITY, NULL, x.count, gradients));
+    for (int step = 0; step < steps; step++) OK(pbmpm_world_step(world, DT));
+    x = view_of(world, PBMPM_POSITION);
+    const pbmpm_view v = view_of(world, PBMPM_VELOCITY);
+    for (uint32_t i = 0; i < x.count; i++) {
+        if (fabs((double)view_float(&x, i, 0)) > 0.6) continue;
+        const double wave = sin(k * (double)view_float(&x, i, 1));
+        held += wave * (double)view_float(&v, i, 0);
+        all += wave * wave * speed;
+    }
+    OK(pbmpm_world_destroy(world));
+    return held / all;
+}
+
+/* It fades by exp(-nu k^2 t), and without viscosity hardly. */
+static void test_shear_fades_as_viscosity_says(void)
+{
+    enum { STEPS = 24 };
+    const double k = 3.14159265358979 / 1.2, viscosity = 0.1, fading = exp(-viscosity * k * k * STEPS * (double)DT);
+    for (int i = 0; i < way_count; i++) {
+        const double without = shear_left(&ways[i], 0, STEPS), with = shear_left(&ways[i], (float)viscosity, STEPS);
+        TEST_ASSERT_TRUE_MESSAGE(without > 0.96 && without < 1.001, ways[i].name);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.015, fading, with / without, ways[i].name);
+    }
+}
+
 int main(void)
 {
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_a_dam_breaks_in_2d);
     RUN_TEST(test_a_dam_breaks_in_3d);
+    RUN_TEST(test_shear_fades_as_viscosity_says);
     return UNITY_END();
 }
