@@ -452,6 +452,9 @@ static void test_meshes_without_volume(void)
         mesh_turn_over(&mesh, mesh.elements / 2);
         refuse_mesh("no volume");
     }
+    small_ball(3); /* each element has a corner twice */
+    for (uint32_t i = 0; i < mesh.elements; i++) mesh.element[3 * i + 1] = mesh.element[3 * i];
+    refuse_mesh("all elements of the mesh are degenerate");
     mesh_clear(&mesh, 3); /* thinner than a cell */
     mesh_add_box(&mesh, (const double[3]){0, 0, 0}, (const double[3]){1, 1e-3, 1});
     refuse_mesh("thinner than a grid cell");
