@@ -310,7 +310,7 @@ static uint32_t sleepers_beside(int dimension, const int offset[3])
     particle.velocity[0] = 0.1f;
     particles_append(&world->particles, &particle, 2);
     for (int step = 0; step < 6; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
-    const uint32_t sleepers = world->sleep.rows;
+    const uint32_t sleepers = world->sleep.rows + world->sleep.still_rows;
     world_destroy(world);
     return sleepers;
 }
