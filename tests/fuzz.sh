@@ -34,7 +34,7 @@ run_target() {
     done
 }
 
-# What reaches code that neither seeds nor kept inputs do, the smallest first, while there is room.
+# What reaches code that neither seeds nor kept inputs do, the largest first, which do most, while there is room.
 keep_some() {
     work=build/fuzz/work/$1 kept=tests/fuzz/corpus/$1 room=90000
     rm -rf "$work/merged" && mkdir -p "$kept" "$work/merged" "$work/corpus" "$work/seeds"
@@ -42,7 +42,7 @@ keep_some() {
     find "$kept" "$work/seeds" -type f -exec cp -t "$work/merged" {} +
     build/fuzz/tests/fuzz/"$1" -set_cover_merge=1 "$work/merged" "$work/corpus" 2>&1 | tail -n 1
     room=$((room - $(cat "$kept"/* 2>/dev/null | wc -c)))
-    for input in $(ls -Sr "$work/merged"); do
+    for input in $(ls -S "$work/merged"); do
         size=$(wc -c <"$work/merged/$input")
         [ ! -e "$kept/$input" ] && [ ! -e "$work/seeds/$input" ] && [ "$size" -le $room ] || continue
         cp "$work/merged/$input" "$kept" && room=$((room - size))
