@@ -2,7 +2,8 @@
 # fuzz.sh [SECONDS|keep [TARGET...]] - builds the fuzz targets with Clang's libFuzzer and the sanitizers for addresses and undefined behaviour, and runs
 # each for so long (60); several at once where there are cores. What they find stays in build/fuzz/work; the corpus grows there from run to run. The last
 # lines count the executions. Inputs that broke something belong into tests/fuzz/corpus/TARGET, where every test run tries them; "keep" puts there what of
-# the corpus reaches code that nothing else in the tree does, and is small. What it holds of snapshots and calls means less once their layout changes.
+# the corpus reaches code that nothing else in the tree does, up to 90 kB per target. What it holds of snapshots and calls means less once their layout
+# changes.
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
@@ -33,11 +34,24 @@ run_target() {
     done
 }
 
-if [ "$seconds" = keep ]; then
-    for target in "$@"; do
-        mkdir -p "tests/fuzz/corpus/$target"
-        build/fuzz/tests/fuzz/"$target" -merge=1 -max_len=512 "tests/fuzz/corpus/$target" "build/fuzz/work/$target/corpus" 2>&1 | tail -n 1
+# What reaches code that neither seeds nor kept inputs do, the largest first, which do most, while there is room.
+keep_some() {
+    work=build/fuzz/work/$1 kept=tests/fuzz/corpus/$1 room=90000
+    rm -rf "$work/merged" && mkdir -p "$kept" "$work/merged" "$work/corpus" "$work/seeds"
+    build/fuzz/tests/fuzz/"$1" --seeds "$work/seeds"
+    find "$kept" "$work/seeds" -type f -exec cp -t "$work/merged" {} +
+    build/fuzz/tests/fuzz/"$1" -set_cover_merge=1 "$work/merged" "$work/corpus" 2>&1 | tail -n 1
+    room=$((room - $(cat "$kept"/* 2>/dev/null | wc -c)))
+    for input in $(ls -S "$work/merged"); do
+        size=$(wc -c <"$work/merged/$input")
+        [ ! -e "$kept/$input" ] && [ ! -e "$work/seeds/$input" ] && [ "$size" -le $room ] || continue
+        cp "$work/merged/$input" "$kept" && room=$((room - size))
     done
+    echo "$1: $(ls "$kept" | wc -l) inputs of $(cat "$kept"/* | wc -c) bytes are kept"
+}
+
+if [ "$seconds" = keep ]; then
+    for target in "$@"; do keep_some "$target"; done
     exit 0
 fi
 stage "Fuzzing for $seconds s: $*"

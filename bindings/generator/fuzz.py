@@ -61,7 +61,7 @@ def _maker(item: Structure, has_defaults: bool) -> str:
 
 def _change(name: str, type_: Type) -> str:
     if name == "size":
-        return "it->size = odd_size(in, it->size);"
+        return "it->size = odd_size(in, sizeof *it);"
     if type_.pointers:
         if type_.kind is Kind.STRUCT:
             own = f"static {type_.name} {name}; make_{type_.name}(in, &{name});"

@@ -152,7 +152,8 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
  *  substep at least 1e-25 s and 1e-25 s/m times the cell size.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
  *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
- *  was set from outside is brought into its material's range.
+ *  was set from outside is brought into its material's range. With PBMPM_SOLVER_CONVERGENT islands that were solved before
+ *  those that lacked memory stay where they went. With sleeping, what was at rest may have fallen asleep.
  *  Any thread, alone in its world; different worlds step at the same time. */
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 

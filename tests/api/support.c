@@ -69,17 +69,21 @@ static void note_thread(ledger *book)
     book->wrong_threads += book->thread != self;
 }
 
+bool ledger_refuses(ledger *book)
+{
+    book->calls++;
+    const bool refuses = book->fail_at && (book->calls == book->fail_at || (book->sticky && book->calls > book->fail_at));
+    book->failures += refuses;
+    return refuses;
+}
+
 /* Layout of a block: one header of MAX_ALIGNMENT bytes that holds the size, the caller's bytes, the guard. */
 static void *ledger_allocate(size_t size, size_t alignment, void *user)
 {
     ledger *book = user;
     note_thread(book);
-    book->calls++;
     book->bad_alignments += alignment == 0 || (alignment & (alignment - 1)) != 0 || alignment > MAX_ALIGNMENT;
-    if (book->fail_at && (book->calls == book->fail_at || (book->sticky && book->calls > book->fail_at))) {
-        book->failures++;
-        return NULL;
-    }
+    if (ledger_refuses(book)) return NULL;
     unsigned char *block = aligned_alloc(MAX_ALIGNMENT, rounded_up(MAX_ALIGNMENT + size + GUARD_BYTES));
     if (!block)
         return NULL;

@@ -49,6 +49,9 @@ typedef struct ledger {
 /** For pbmpm_world_def; part of the book. */
 const pbmpm_allocator *ledger_allocator(ledger *book);
 
+/** Counts an allocation; whether it is to be refused. For memory that is asked for in another way. */
+bool ledger_refuses(ledger *book);
+
 /** Fails unless everything was given back, with the right sizes and intact guards. */
 void ledger_expect_clean(const ledger *book, const char *label);
 

@@ -1,4 +1,4 @@
-/* Hard limits: capacities, the memory budget, and an allocator that fails at any one call. */
+/* Hard limits: capacities and the memory budget. */
 #include <stdio.h>
 #include <string.h>
 
@@ -205,104 +205,6 @@ static void test_a_budget_too_small_for_the_world(void)
     OK(pbmpm_world_create(&def, &world));
 }
 
-/* ---- failing allocations ---- */
-
-enum { STORY_STEPS = 6 };
-
-/* Repeats a call that was refused for want of memory, once: the failure was a single one. */
-#define TRY(call)                                                                                                                            \
-    do {                                                                                                                                     \
-        result = (call);                                                                                                                     \
-        if (result == PBMPM_ERROR_OUT_OF_MEMORY && !book->sticky)                                                                            \
-            result = (call);                                                                                                                 \
-        if (result != PBMPM_OK)                                                                                                              \
-            return result;                                                                                                                   \
-    } while (0)
-
-/* The life of a world, with every call that may allocate. The hash at the end goes to *hash. */
-static pbmpm_result live(ledger *book, int32_t thread_count, pbmpm_world_id *world, uint64_t *hash)
-{
-    pbmpm_world_def def = default_world(2, 0.1f, 4096);
-    pbmpm_material_def liquid = default_material(PBMPM_LIQUID), elastic = default_material(PBMPM_ELASTIC);
-    const pbmpm_collider_def ground = default_collider();
-    const pbmpm_shape below = plane_shape(0, -0.5f, 0, 0, 1, 0);
-    pbmpm_collider_id collider;
-    pbmpm_particles_def arrays;
-    pbmpm_fill_def fill = default_fill((pbmpm_material_id){0, 0});
-    pbmpm_shape block = default_shape();
-    pbmpm_result result;
-    const float position[2] = {0, 2};
-    def.allocator = ledger_allocator(book);
-    def.thread_count = thread_count;
-    OK(pbmpm_particles_def_init(&arrays, sizeof arrays));
-    TRY(pbmpm_world_create(&def, world));
-    TRY(pbmpm_material_create(*world, &liquid, &fill.material));
-    TRY(pbmpm_particles_fill(*world, &fill, &block, NULL));
-    TRY(pbmpm_world_step(*world, 0.01f));
-    TRY(pbmpm_material_create(*world, &elastic, &arrays.material));
-    TRY(pbmpm_collider_create(*world, &ground, &below, &collider));
-    arrays.count = 1;
-    arrays.positions = position;
-    TRY(pbmpm_particles_add(*world, &arrays, NULL));
-    for (int i = 0; i < STORY_STEPS; i++) {
-        TRY(pbmpm_world_step(*world, 0.02f));
-        block.position[0] += 1.5f; /* new blocks each time */
-        TRY(pbmpm_particles_fill(*world, &fill, &block, NULL));
-    }
-    TRY(pbmpm_particles_remove_in(*world, &block, NULL));
-    return pbmpm_world_hash(*world, hash);
-}
-#undef TRY
-
-/* Lets allocation k = 1, 2, ... fail until none is left to fail. */
-static void check_failures(bool sticky, int32_t thread_count)
-{
-    enum { BOUND = 2000 };
-    uint64_t right_hash = 0;
-    static ledger plain, book;
-    plain = (ledger){0};
-    pbmpm_world_id world = {0, 0};
-    OK(live(&plain, thread_count, &world, &right_hash));
-    OK(pbmpm_world_destroy(world));
-    ledger_expect_clean(&plain, "no failure");
-    for (uint64_t k = 1; k <= BOUND; k++) {
-        book = (ledger){.fail_at = k, .sticky = sticky};
-        char label[64];
-        uint64_t hash = 0;
-        snprintf(label, sizeof label, "allocation %u fails", (unsigned)k);
-        world = (pbmpm_world_id){0, 0};
-        const pbmpm_result result = live(&book, thread_count, &world, &hash);
-        if (!sticky || result == PBMPM_OK) {
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_OK", pbmpm_result_name(result), label);
-            TEST_ASSERT_EQUAL_HEX64_MESSAGE(right_hash, hash, label);
-        } else {
-            TEST_ASSERT_EQUAL_STRING_MESSAGE("PBMPM_ERROR_OUT_OF_MEMORY", pbmpm_result_name(result), label);
-        }
-        if (world.generation)
-            OK(pbmpm_world_destroy(world));
-        ledger_expect_clean(&book, label);
-        if (book.failures == 0)
-            return;
-    }
-    TEST_FAIL_MESSAGE("the allocations do not end");
-}
-
-static void test_any_single_allocation_may_fail(void)
-{
-    check_failures(false, 1);
-}
-
-static void test_all_allocations_from_any_one_on_may_fail(void)
-{
-    check_failures(true, 1);
-}
-
-static void test_allocations_fail_in_a_world_with_threads(void)
-{
-    check_failures(false, 3);
-    check_failures(true, 3);
-}
-
 /* The substep that lacks memory is not begun, but those before it stay done: the state is that of a world that was asked for
  * just as many. */
 static void test_earlier_substeps_stay_done(void)
@@ -347,9 +249,6 @@ int main(void)
     RUN_TEST(test_a_small_world_is_small);
     RUN_TEST(test_the_budget_is_never_exceeded);
     RUN_TEST(test_a_budget_too_small_for_the_world);
-    RUN_TEST(test_any_single_allocation_may_fail);
-    RUN_TEST(test_all_allocations_from_any_one_on_may_fail);
-    RUN_TEST(test_allocations_fail_in_a_world_with_threads);
     RUN_TEST(test_earlier_substeps_stay_done);
     return UNITY_END();
 }

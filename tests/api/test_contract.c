@@ -2,7 +2,9 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <xmmintrin.h>
 
 #include "scenes.h"
 
@@ -95,6 +97,24 @@ static void test_last_error_belongs_to_the_thread(void)
     TEST_ASSERT_EQUAL_STRING(before, pbmpm_last_error());
 }
 
+/* A message tells the figures that it is about. */
+static void test_last_error_tells_figures(void)
+{
+    static const float positions[2 * 23];
+    const pbmpm_world_def def = default_world(2, 0.1f, 17);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_particles_def particles;
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    particles.material = create_material(world, PBMPM_LIQUID);
+    particles.positions = positions;
+    particles.count = 5;
+    OK(pbmpm_particles_add(world, &particles, NULL));
+    particles.count = 23;
+    EXPECT(PBMPM_ERROR_CAPACITY, pbmpm_particles_add(world, &particles, NULL));
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), "23"), pbmpm_last_error());
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), "5 of 17"), pbmpm_last_error());
+}
+
 static pbmpm_log_level seen_level;
 
 static void remember_line(pbmpm_log_level level, const char *line, void *user)
@@ -121,6 +141,83 @@ static void test_log_callback_gets_refused_calls(void)
     seen_count = 0;
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(NULL, NULL));
     TEST_ASSERT_EQUAL_INT(0, seen_count);
+}
+
+/* What happens in a step is told with its figures: here three particles are strained beyond what their material bears. */
+static void test_log_callback_gets_what_a_step_deletes(void)
+{
+    const float positions[6] = {0, 0, 5, 0, 0, 5}, torn[12] = {5000, 0, 0, 1e-3f, 5000, 0, 0, 1e-3f, 5000, 0, 0, 1e-3f};
+    const pbmpm_world_def def = default_world(2, 1.0f, 10);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_material_def jelly = default_material(PBMPM_ELASTIC);
+    pbmpm_particles_def particles;
+    int step = 1;
+    jelly.strain_policy = PBMPM_STRAIN_DELETE;
+    set_solver(world, PBMPM_SOLVER_DUAL);
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    OK(pbmpm_material_create(world, &jelly, &particles.material));
+    particles.positions = positions;
+    particles.count = 3;
+    OK(pbmpm_particles_add(world, &particles, NULL));
+    OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, NULL, 3, torn));
+    OK(pbmpm_set_log_callback(remember_line, &step));
+    OK(pbmpm_world_step(world, 1.0f / 60));
+    TEST_ASSERT_EQUAL_UINT32(0, world_count(world));
+    TEST_ASSERT_EQUAL_INT(1, seen_count);
+    TEST_ASSERT_EQUAL_INT(PBMPM_LOG_WARNING, seen_level);
+    TEST_ASSERT_NOT_NULL_MESSAGE(strstr(seen_line, "3 particles"), seen_line);
+}
+
+/* Functions of the host run in the floating-point mode that the host has, and find it again afterwards. */
+static uint32_t mode_seen;
+
+static void *allocate_and_look(size_t size, size_t alignment, void *user)
+{
+    (void)user;
+    mode_seen = _mm_getcsr() & ~0x3fu;
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void release_and_look(void *memory, size_t size, void *user)
+{
+    (void)size;
+    (void)user;
+    mode_seen = _mm_getcsr() & ~0x3fu;
+    free(memory);
+}
+
+static void look_at_line(pbmpm_log_level level, const char *line, void *user)
+{
+    (void)level;
+    (void)line;
+    (void)user;
+    mode_seen = _mm_getcsr() & ~0x3fu;
+}
+
+static void test_functions_of_the_host_keep_its_float_mode(void)
+{
+    enum { UPWARD = 0x5f80 }; /* rounds up, all exceptions masked, subnormal numbers kept */
+    const uint32_t own = _mm_getcsr();
+    const pbmpm_allocator allocator = {sizeof allocator, allocate_and_look, release_and_look, NULL};
+    pbmpm_world_def def = default_world(2, 0.1f, 10);
+    pbmpm_world_id world;
+    uint32_t seen[3];
+    def.allocator = &allocator;
+    _mm_setcsr(UPWARD);
+    const pbmpm_result created = pbmpm_world_create(&def, &world);
+    seen[0] = mode_seen;
+    mode_seen = 0;
+    pbmpm_set_log_callback(look_at_line, NULL);
+    pbmpm_world_step(world, -1.0f);
+    seen[1] = mode_seen;
+    mode_seen = 0;
+    pbmpm_world_destroy(world);
+    seen[2] = mode_seen;
+    const uint32_t left = _mm_getcsr();
+    _mm_setcsr(own);
+    OK(created);
+    for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_HEX32(UPWARD, seen[i]);
+    TEST_ASSERT_EQUAL_HEX32(UPWARD, left & ~0x3fu);
 }
 
 static void test_shutdown_destroys_worlds_and_allows_a_new_start(void)
@@ -499,7 +596,10 @@ int main(void)
     RUN_TEST(test_instruction_sets_have_names);
     RUN_TEST(test_all_materials_are_built);
     RUN_TEST(test_last_error_belongs_to_the_thread);
+    RUN_TEST(test_last_error_tells_figures);
     RUN_TEST(test_log_callback_gets_refused_calls);
+    RUN_TEST(test_log_callback_gets_what_a_step_deletes);
+    RUN_TEST(test_functions_of_the_host_keep_its_float_mode);
     RUN_TEST(test_shutdown_destroys_worlds_and_allows_a_new_start);
     RUN_TEST(test_world_def_has_the_documented_defaults);
     RUN_TEST(test_settings_have_the_documented_defaults);

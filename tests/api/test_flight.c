@@ -272,6 +272,37 @@ static void test_guards_hold_in_flight(void)
     TEST_ASSERT_EQUAL_UINT64(SPRAY, world_stats(world).deleted_total);
 }
 
+/* Who flies looks out for obstacles that come from any side: a wide one that passes where it is takes it along, and it is in the grid. */
+static void test_obstacles_that_come_meet_what_flies(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (int side = 0; side < 2 * dimension; side++) {
+            const float dt = 1.0f / 60, toward = side % 2 ? -1.0f : 1.0f, still[3] = {0};
+            const pbmpm_world_def def = default_world(dimension, 0.1f, 4);
+            const pbmpm_world_id world = create_world(&def);
+            const int axis = side / 2;
+            float half[3] = {0.5f, 0.5f, 0.5f}, from[3] = {0}, to[3] = {0};
+            pbmpm_particles_def particles;
+            half[axis] = 0.1f;
+            from[axis] = -toward * 1.2f;
+            to[axis] = -toward * 0.05f; /* its face passes by 0.05 m */
+            OK(pbmpm_particles_def_init(&particles, sizeof particles));
+            particles.material = create_material(world, PBMPM_LIQUID);
+            particles.positions = still;
+            particles.count = 1;
+            OK(pbmpm_particles_add(world, &particles, NULL));
+            const pbmpm_collider_id paddle = create_collider(world, box_shape(from[0], from[1], from[2], half[0], half[1], half[2]), true);
+            OK(pbmpm_world_step(world, dt));
+            TEST_ASSERT_EQUAL_UINT32(0, world_stats(world).particle_blocks); /* 11 cells away it flies */
+            OK(pbmpm_collider_move(world, paddle, to, NULL));
+            OK(pbmpm_world_step(world, dt));
+            TEST_ASSERT_EQUAL_UINT32(1, world_stats(world).particle_blocks);
+            const pbmpm_view x = view_of(world, PBMPM_POSITION);
+            TEST_ASSERT_TRUE(toward * view_float(&x, 0, (uint32_t)axis) > 0.04f);
+            OK(pbmpm_world_destroy(world));
+        }
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -284,5 +315,6 @@ int main(void)
     RUN_TEST(test_spray_lands_on_an_obstacle);
     RUN_TEST(test_kill_bounds_and_drains_take_what_flies);
     RUN_TEST(test_guards_hold_in_flight);
+    RUN_TEST(test_obstacles_that_come_meet_what_flies);
     return UNITY_END();
 }

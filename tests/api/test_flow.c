@@ -575,6 +575,32 @@ static void test_a_step_without_memory_is_made_up_for(void)
     TEST_ASSERT_EQUAL_UINT64(hash[0], hash[1]);
 }
 
+/* What a drain takes and what the library deletes in the same step are both gone. */
+static void test_a_drain_beside_a_deletion(void)
+{
+    const float positions[8] = {0, 0, 5, 0, 0, 5, 5, 5}, torn[4] = {5000, 0, 0, 1e-3f};
+    const pbmpm_world_def def = default_world(2, 1.0f, 10);
+    const pbmpm_world_id world = create_world(&def);
+    pbmpm_material_def jelly = default_material(PBMPM_ELASTIC);
+    pbmpm_particles_def particles;
+    pbmpm_particle_id ids[4];
+    pbmpm_flow flow = {.size = sizeof flow};
+    jelly.strain_policy = PBMPM_STRAIN_DELETE;
+    set_solver(world, PBMPM_SOLVER_DUAL);
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    OK(pbmpm_material_create(world, &jelly, &particles.material));
+    particles.positions = positions;
+    particles.count = 4;
+    OK(pbmpm_particles_add(world, &particles, ids));
+    OK(pbmpm_particles_set(world, PBMPM_DEFORMATION, &ids[1], 1, torn));
+    create_drain(world, box_shape(0, 5, 0, 0.5f, 0.5f, 0.5f));
+    OK(pbmpm_world_step(world, 1.0f / 60));
+    OK(pbmpm_world_get_flow(world, &flow));
+    TEST_ASSERT_EQUAL_UINT64(1, flow.drained);
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).deleted_total);
+    TEST_ASSERT_EQUAL_UINT32(2, world_count(world));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -596,5 +622,6 @@ int main(void)
     RUN_TEST(test_a_move_across_the_world);
     RUN_TEST(test_warm_steps_take_no_memory);
     RUN_TEST(test_a_step_without_memory_is_made_up_for);
+    RUN_TEST(test_a_drain_beside_a_deletion);
     return UNITY_END();
 }

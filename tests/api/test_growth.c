@@ -255,6 +255,7 @@ static void test_sizes_that_no_version_had_are_not_read(void)
             unsigned char *given = given_of(&sized_inputs[i], (uint32_t)sized_inputs[i].size, 0);
             set_size(given, size);
             expect_refused(&sized_inputs[i], given, label_of(sized_inputs[i].call, sized_inputs[i].structure, size));
+            TEST_ASSERT_NOT_NULL_MESSAGE(strstr(pbmpm_last_error(), size ? "which no version" : "size is 0: "), pbmpm_last_error()); /* 0 is one that was forgotten */
             free(given);
         }
 }

@@ -107,6 +107,25 @@ static void test_foreign_identifiers(void)
     OK(pbmpm_world_destroy(other.world));
 }
 
+/* The first index that no object can have, one more, and the last number: a sanitizer sees who looks behind a table. */
+static void test_identifiers_behind_tables(void)
+{
+    for (uint32_t k = 0; k < 3; k++) {
+        target behind = good;
+        behind.material.index = behind.spare.index = k == 2 ? UINT32_MAX : PBMPM_MAX_MATERIALS + k;
+        behind.collider.index = k == 2 ? UINT32_MAX : PBMPM_MAX_COLLIDERS + k;
+        behind.emitter.index = k == 2 ? UINT32_MAX : PBMPM_MAX_EMITTERS + k;
+        behind.drain.index = k == 2 ? UINT32_MAX : PBMPM_MAX_DRAINS + k;
+        behind.force.index = k == 2 ? UINT32_MAX : PBMPM_MAX_FORCES + k;
+        behind.baked.index = k == 2 ? UINT32_MAX : PBMPM_MAX_BAKED + k;
+        behind.particle.index = k == 2 ? UINT32_MAX : 2048 + k; /* the capacity */
+        refuse_parts(&behind, "a made-up");
+        pbmpm_world_id world = good.world;
+        world.index = k == 2 ? UINT32_MAX : PBMPM_MAX_WORLDS + k;
+        refuse_world(world, "a made-up world");
+    }
+}
+
 /* Random numbers, half of them small as real ones are; those whose generation is one of a living object are left out. */
 static void test_random_identifiers(void)
 {
@@ -312,6 +331,7 @@ int main(void)
     RUN_TEST(test_null_identifiers);
     RUN_TEST(test_stale_identifiers);
     RUN_TEST(test_foreign_identifiers);
+    RUN_TEST(test_identifiers_behind_tables);
     RUN_TEST(test_random_identifiers);
     RUN_TEST(test_one_bad_particle_spoils_the_call);
     RUN_TEST(test_a_particle_listed_twice);

@@ -242,6 +242,43 @@ static void test_the_worlds_parameters_stay(void)
 }
 
 /* Materials that particles have must be there. */
+/* What emitters, drains and forces are defined by is the save's, or on request the world's own; where they stand is the save's. */
+static void test_effects_are_the_saves_or_ones_own(void)
+{
+    const pbmpm_shape wide = box_shape(0.7f, 1.1f, 0, 0.15f, 0.25f, 0.1f);
+    const game old = saved_game(&before);
+    OK(pbmpm_world_destroy(old.world));
+    for (uint32_t keeps = 0; keeps < 2; keeps++) {
+        const game made = make_game(&before);
+        pbmpm_emitter_def tap = {.size = sizeof tap};
+        pbmpm_drain_def sink = {.size = sizeof sink};
+        pbmpm_force_def wind = {.size = sizeof wind};
+        pbmpm_shape shape[3] = {{.size = sizeof *shape}, {.size = sizeof *shape}, {.size = sizeof *shape}};
+        OK(pbmpm_emitter_get(made.world, made.tap, &tap, NULL));
+        OK(pbmpm_drain_get(made.world, made.sink, &sink, NULL));
+        OK(pbmpm_force_get(made.world, made.wind, &wind, NULL));
+        const float usual = wind.strength;
+        tap.speed = 3;
+        sink.material = made.jelly;
+        wind.strength = 7;
+        OK(pbmpm_emitter_set(made.world, made.tap, &tap, &wide));
+        OK(pbmpm_drain_set(made.world, made.sink, &sink, &wide));
+        OK(pbmpm_force_set(made.world, made.wind, &wind, &wide));
+        OK(pbmpm_snapshot_restore(made.world, saved, saved_bytes, keeps ? PBMPM_RESTORE_KEEP_PARAMETERS : 0));
+        OK(pbmpm_emitter_get(made.world, made.tap, &tap, &shape[0]));
+        OK(pbmpm_drain_get(made.world, made.sink, &sink, &shape[1]));
+        OK(pbmpm_force_get(made.world, made.wind, &wind, &shape[2]));
+        TEST_ASSERT_EQUAL_FLOAT(keeps ? 3 : 0, tap.speed);
+        TEST_ASSERT_EQUAL_UINT32(keeps ? made.jelly.generation : 0, sink.material.generation);
+        TEST_ASSERT_EQUAL_FLOAT(keeps ? 7 : usual, wind.strength);
+        for (int i = 0; i < 3; i++) {
+            TEST_ASSERT_EQUAL_FLOAT(keeps ? 0.15f : i == 0 ? 0.2f : 0.1f, shape[i].half_extents[0]);
+            TEST_ASSERT_EQUAL_FLOAT(i == 0 ? 0.5f : 2.9f, shape[i].position[0]);
+        }
+        OK(pbmpm_world_destroy(made.world));
+    }
+}
+
 static void test_matter_without_material(void)
 {
     const game old = saved_game(&before);
@@ -323,6 +360,7 @@ int main(int argc, char **argv)
     RUN_TEST(test_without_keys_places_count);
     RUN_TEST(test_changed_parameters_are_kept_on_request);
     RUN_TEST(test_the_worlds_parameters_stay);
+    RUN_TEST(test_effects_are_the_saves_or_ones_own);
     RUN_TEST(test_matter_without_material);
     RUN_TEST(test_keys_are_unique);
     RUN_TEST(test_unknown_flags);

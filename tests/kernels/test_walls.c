@@ -189,6 +189,57 @@ static void test_a_full_box_has_its_density(void)
     check_report("full box");
 }
 
+/* On a single plane what is far from all other ends of the matter has its density, too. */
+static void check_layer(int dimension, double height)
+{
+    enum { WIDE = 12, MARGIN = 4 };
+    Scene scene = full_box(cpu_isa(), dimension, 0.0, 2);
+    World *world = scene.world;
+    const pbmpm_collider_def def = collider_defaults();
+    pbmpm_shape floor = shape_defaults();
+    pbmpm_collider_id id;
+    double worst = 0.0;
+    int inner = 0;
+    for (int a = 0; a < dimension; a++) {
+        world->domain.low[a] = a == 1 ? height * CELL : 0.0;
+        world->domain.high[a] = world->domain.low[a] + (a == 1 ? 6 : WIDE) * CELL;
+    }
+    world->particles.count = 0;
+    fill(world, 2);
+    world->domain.enabled = false;
+    floor.kind = PBMPM_PLANE;
+    floor.position[1] = (float)(height * CELL);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, &floor, NULL, 1, &id));
+    scene_bind(&scene, false);
+    predict(&scene);
+    RefGrid nodes = scene_nodes(&scene);
+    for (uint32_t i = 0; i < world->particles.count; i++) {
+        const RefParticle p = scene_particle(&scene, i);
+        bool far = particles_coordinate(&world->particles, i, 1) < height + 3.0;
+        for (int a = 0; a < dimension; a += 2) {
+            const double x = particles_coordinate(&world->particles, i, a);
+            far = far && x > MARGIN && x < WIDE - MARGIN;
+        }
+        if (!far) continue;
+        worst = fmax(worst, fabs(reference_compression(&nodes, &p) - 1.0));
+        inner++;
+    }
+    reference_grid_free(&nodes);
+    TEST_ASSERT_GREATER_THAN_INT(20, inner);
+    check_near(0.0, worst, 0.045, "density off by", (int)(10.0 * height));
+    scene_close(&scene);
+}
+
+static void test_a_layer_on_a_plane_has_its_density(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int shift = 0; shift < 10; shift++) {
+            check_subject("layer", cpu_isa(), dimension);
+            check_layer(dimension, 0.1 * shift);
+        }
+    check_report("layer");
+}
+
 /* ---- Edges ---- */
 
 /* A box of one cell at `place` [cells] on all axes. */
@@ -374,11 +425,30 @@ static void shake(Scene *scene, Random *random)
             node[i * K_NODE_WIDTH + (size_t)a] = (float)random_in(random, -1.0, 1.0);
 }
 
+/* A plane that cuts a corner off the box, askew to all axes. */
+static void add_slope(World *world)
+{
+    const double half[4] = {0.15, -0.2, 0.35, 0.0}, in_plane[4] = {0.0, 0.0, 0.35, 0.0}, *turn = world->def.dimension == 3 ? half : in_plane;
+    const pbmpm_collider_def def = collider_defaults();
+    pbmpm_shape shape = shape_defaults();
+    pbmpm_collider_id id;
+    double rest = 1.0;
+    shape.kind = PBMPM_PLANE;
+    for (int a = 0; a < 3; a++) {
+        shape.position[a] = (float)((a - 2.0) * CELL);
+        shape.rotation[a] = (float)turn[a];
+        rest -= turn[a] * turn[a];
+    }
+    shape.rotation[3] = (float)sqrt(rest);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, &shape, NULL, 1, &id));
+}
+
 /* Random masses and motions, and the motion that the walls make of themselves most of. */
-static void check_norm(int dimension, int shift)
+static void check_norm(int dimension, int shift, bool sloped)
 {
     Random random = {5};
     Scene scene = full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    if (sloped) add_slope(scene.world);
     for (uint32_t i = 0; i < scene.world->particles.count; i++) scene.world->particles.mass[i] *= (float)random_in(&random, 0.2, 2.0);
     ContactFrame frame = find_walls(&scene);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
@@ -464,7 +534,8 @@ static void test_the_value_of_a_push(void)
 static void test_walls_are_symmetric_and_never_add_motion(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int shift = 0; shift < 10; shift++) check_norm(dimension, shift);
+        for (int shift = 0; shift < 10; shift++)
+            for (int sloped = 0; sloped < 2; sloped++) check_norm(dimension, shift, sloped);
     check_report("walls");
 }
 
@@ -475,6 +546,7 @@ int main(void)
     RUN_TEST(test_the_open_share_ends_at_the_support);
     RUN_TEST(test_surfaces_that_lie_on_each_other_count_once);
     RUN_TEST(test_a_full_box_has_its_density);
+    RUN_TEST(test_a_layer_on_a_plane_has_its_density);
     RUN_TEST(test_blocks_near_edges_are_marked);
     RUN_TEST(test_marks_go_with_the_obstacle);
     RUN_TEST(test_walls_are_symmetric_and_never_add_motion);

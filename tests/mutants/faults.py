@@ -31,6 +31,10 @@ class Fault:
         """The same as long as the line is the same, wherever it stands; two faults of equal lines are told apart by their places."""
         return hashlib.sha1(f"{self.file}\0{self.line}\0{self.before}\0{self.after}".encode()).hexdigest()[:12]
 
+    @property
+    def key(self) -> tuple[str, str, str]:
+        return self.file, self.before.strip(), self.after.strip()
+
     def diff(self) -> str:
         return f"{self.file}:{self.line} ({self.kind})\n  - {self.before.strip()}\n  + {self.after.strip()}"
 
@@ -128,26 +132,47 @@ def faults_of(root: Path, file: str) -> Iterator[Fault]:
 
 
 def choose(root: Path, files: list[str], seed: int) -> Iterator[Fault]:
-    """Faults in an order that the seed decides: folders and kinds in turn, of each a place at random; no line twice."""
+    """Faults in an order that the seed decides: files in turn, in each the kinds in turn, of each a place at random; no line twice."""
     chance = random.Random(seed)
-    heaps: dict[tuple[str, str], list[Fault]] = {}
-    for kind in KINDS:
-        for folder in sorted({Path(file).parent.as_posix() for file in files}, reverse=True):
-            heaps[kind, folder] = []
+    heaps: dict[str, dict[str, list[Fault]]] = {}
     for file in sorted(files):
+        heaps[file] = {kind: [] for kind in chance.sample(list(KINDS), len(KINDS))}
         for fault in faults_of(root, file):
-            heaps[fault.kind, Path(file).parent.as_posix()].append(fault)
-    for faults in heaps.values():
-        chance.shuffle(faults)
-    turns = [key for key in heaps for _ in range(3 if key[1] == "src" else 1)]
+            heaps[file][fault.kind].append(fault)
+        for faults in heaps[file].values():
+            chance.shuffle(faults)
     used: set[tuple[str, int]] = set()
-    while any(heaps.values()):
+    turns = sorted(heaps)
+    while turns:
         chance.shuffle(turns)
-        for key in turns:
-            faults = heaps[key]
-            while faults:
-                fault = faults.pop()
-                if (fault.file, fault.line) not in used:
-                    used.add((fault.file, fault.line))
-                    yield fault
-                    break
+        turns.sort(key=lambda file: Path(file).parent.as_posix(), reverse=True)  # kernels are built once less if one fault of them follows another
+        for file in list(turns):
+            fault = _next_of(heaps[file], used)
+            if fault:
+                yield fault
+            else:
+                turns.remove(file)
+
+
+def _next_of(kinds: dict[str, list[Fault]], used: set[tuple[str, int]]) -> Fault | None:
+    """Takes one of the kind whose turn it is, which goes to the end of the queue."""
+    for kind in list(kinds):
+        faults = kinds.pop(kind)
+        while faults:
+            fault = faults.pop()
+            if (fault.file, fault.line) not in used:
+                used.add((fault.file, fault.line))
+                kinds[kind] = faults
+                return fault
+    return None
+
+
+def equivalents(file: Path) -> dict[tuple[str, str, str], str]:
+    """Faults that no test can find, with the reason: file, line before and after, without blanks at their ends."""
+    known: dict[tuple[str, str, str], str] = {}
+    for block in file.read_text(encoding="utf-8").split("\n\n"):
+        lines = [line for line in block.splitlines() if line and not line.startswith("#")]
+        if lines:
+            where, before, after, reason = lines
+            known[where, before.removeprefix("  - "), after.removeprefix("  + ")] = reason.strip()
+    return known

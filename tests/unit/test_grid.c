@@ -373,6 +373,40 @@ static void test_failing_init_leaves_nothing_behind(void)
     }
 }
 
+/* ---- Flight ---- */
+
+static bool always(const void *context, uint32_t row)
+{
+    (void)context;
+    (void)row;
+    return true;
+}
+
+/* Particles fly that share no node with another one: where cells are more than two apart along some axis, wherever the borders of blocks are. */
+static void test_only_lone_particles_fly(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int n = 0; n < 4 * (dimension == 2 ? 81 : 729); n++) {
+            const int way = n / 4, deep = dimension == 3;
+            const int32_t corner[3] = {-20, -20, deep ? -20 : 0}, from[3] = {n % 4, (n + 2) % 4, deep * (n + 1) % 4};
+            const int32_t offset[3] = {way % 9 - 4, way / 9 % 9 - 4, deep ? way / 81 - 4 : 0};
+            int32_t to[3];
+            bool touch = true;
+            for (int a = 0; a < 3; a++) to[a] = from[a] + offset[a];
+            for (int a = 0; a < 3; a++) touch = touch && abs(offset[a]) <= 2;
+            Sorted s = {0};
+            sorted_open(&s, dimension, 1);
+            s.grid.flies = always;
+            add_at(&s, corner, 0); /* blocks are counted from it; it flies */
+            add_at(&s, from, 0);
+            add_at(&s, to, 0);
+            sorted_build(&s, false);
+            TEST_ASSERT_EQUAL_UINT32(touch ? 2 : 0, s.grid.flight_row);
+            TEST_ASSERT_EQUAL_INT32(1, s.grid.flights);
+            sorted_close(&s);
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -383,5 +417,6 @@ int main(void)
     RUN_TEST(test_single_particle);
     RUN_TEST(test_failing_build_leaves_particles_alone);
     RUN_TEST(test_failing_init_leaves_nothing_behind);
+    RUN_TEST(test_only_lone_particles_fly);
     return UNITY_END();
 }

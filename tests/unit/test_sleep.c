@@ -1,9 +1,12 @@
-/* Where sleeping particles stand: blocks by place, and rows that are parted when some of them wake. */
+/* Where sleeping particles stand: blocks by place, and rows that are parted when some of them wake; and who falls asleep. */
+#include <math.h>
 #include <string.h>
 #include <unity.h>
 
+#include "crowd.h"
 #include "random.h"
 #include "sleep.h"
+#include "step.h"
 #include "world.h"
 
 void setUp(void) {}
@@ -250,6 +253,80 @@ static void test_rows_that_are_wrong_wake_all(void)
     }
 }
 
+/* ---- What others see of it ---- */
+
+/* Matter that sleeps fills the surroundings of an emitter as if it were awake, wherever the borders of its blocks are. */
+static void test_matter_fills_as_much_asleep(void)
+{
+    enum { SIZE = 9, NODES = SIZE * SIZE * SIZE, REGIONS = 200 };
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        static float awake[REGIONS][NODES], asleep[NODES];
+        double held[REGIONS], most = 0.0;
+        Random random = {11};
+        World *world = open_world(dimension);
+        Crowd crowd = {.size = {SIZE, SIZE, dimension == 3 ? SIZE : 1}};
+        fill_blocks(world, &random);
+        world->materials.kernel[0].inverse_density = 1.0f;
+        TEST_ASSERT_TRUE(sleep_reserve(&world->sleep, &world->memory, BLOCKS, 0));
+        for (int lie = 0; lie < 2; lie++) {
+            Random same = {12};
+            for (int i = 0; i < REGIONS; i++) {
+                int32_t place[3];
+                place_of((int)random_below(&same, BLOCKS), place);
+                for (int a = 0; a < dimension; a++) crowd.low[a] = place[a] * K_BLOCK_AXIS + (int32_t)random_below(&same, 20) - 12;
+                crowd.volume = lie ? asleep : awake[i];
+                crowd_measure(world, &crowd);
+                if (lie) TEST_ASSERT_DOUBLE_WITHIN(1e-3, held[i], crowd.held);
+                for (int n = 0; n < NODES && lie; n++) TEST_ASSERT_FLOAT_WITHIN(1e-3f, awake[i][n], asleep[n]);
+                held[i] = crowd.held;
+                most = fmax(most, crowd.held);
+            }
+            make_leaving(world);
+            sleep_settle(world);
+        }
+        TEST_ASSERT_TRUE(most > 0.0 && world->sleep.rows == world->particles.count);
+        world_destroy(world);
+    }
+}
+
+/* ---- Falling asleep ---- */
+
+/* A particle at rest, and one that moves `offset` blocks from it for longer than it takes to fall asleep. Returns how many sleep then. */
+static uint32_t sleepers_beside(int dimension, const int offset[3])
+{
+    World *world = open_world(dimension);
+    pbmpm_material_def def = material_defaults();
+    pbmpm_material_id id;
+    def.kind = PBMPM_ELASTIC;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &def, 1, &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_make_room_for(world, id.index));
+    world->sleep.on = world->sleep.phased = false;
+    world->settings.sleeping = 1;
+    world->settings.sleep_speed = 0.01f;
+    world->settings.sleep_time = 0.03f;
+    NewParticle particle = {.mass = 1.0f, .material = id.index};
+    particles_append(&world->particles, &particle, 1);
+    for (int a = 0; a < 3; a++) particle.position[a] = K_BLOCK_AXIS * offset[a];
+    particle.velocity[0] = 0.1f;
+    particles_append(&world->particles, &particle, 2);
+    for (int step = 0; step < 6; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
+    const uint32_t sleepers = world->sleep.rows + world->sleep.still_rows;
+    world_destroy(world);
+    return sleepers;
+}
+
+/* Matter falls asleep when its block and all blocks beside it, at corners too, were at rest for long enough. */
+static void test_only_what_has_quiet_neighbours_falls_asleep(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int n = 0; n < (dimension == 2 ? 25 : 125); n++) {
+            const int offset[3] = {n % 5 - 2, n / 5 % 5 - 2, dimension == 3 ? n / 25 - 2 : 0};
+            bool beside = true;
+            for (int a = 0; a < 3; a++) beside = beside && offset[a] >= -1 && offset[a] <= 1;
+            TEST_ASSERT_EQUAL_UINT32(beside ? 0 : 1, sleepers_beside(dimension, offset));
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -257,5 +334,7 @@ int main(void)
     RUN_TEST(test_blocks_are_found_by_their_place);
     RUN_TEST(test_rows_are_parted_and_nobody_is_lost);
     RUN_TEST(test_rows_that_are_wrong_wake_all);
+    RUN_TEST(test_matter_fills_as_much_asleep);
+    RUN_TEST(test_only_what_has_quiet_neighbours_falls_asleep);
     return UNITY_END();
 }

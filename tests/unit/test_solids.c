@@ -1,4 +1,5 @@
-/* Baked solids: distances against formulas, hulls, windings, meshes that are refused, and stored bytes that were changed. */
+/* Baked solids: distances against formulas, hulls, windings, meshes that are refused, ways that lead through, and stored
+ * bytes that were changed. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -6,6 +7,7 @@
 #include <unity.h>
 
 #include "bake.h"
+#include "concave.h"
 #include "meshes.h"
 #include "random.h"
 #include "result.h"
@@ -452,6 +454,9 @@ static void test_meshes_without_volume(void)
         mesh_turn_over(&mesh, mesh.elements / 2);
         refuse_mesh("no volume");
     }
+    small_ball(3); /* each element has a corner twice */
+    for (uint32_t i = 0; i < mesh.elements; i++) mesh.element[3 * i + 1] = mesh.element[3 * i];
+    refuse_mesh("all elements of the mesh are degenerate");
     mesh_clear(&mesh, 3); /* thinner than a cell */
     mesh_add_box(&mesh, (const double[3]){0, 0, 0}, (const double[3]){1, 1e-3, 1});
     refuse_mesh("thinner than a grid cell");
@@ -582,6 +587,63 @@ static void test_a_small_buffer_is_refused(void)
     TEST_ASSERT_TRUE(bytes > sizeof small);
 }
 
+/* ---- Ways past solids that are not convex ---- */
+
+/* From a point outside and no farther than `most` cells a way through the solid is forbidden by a plane, and no plane forbids to stay. Ways that only
+ * graze the solid, or its edges, do not count. */
+static void check_ways(int d, double most)
+{
+    enum { WAYS = 3000, PLACES = 64 };
+    const double cell = 0.25, margin = 1.0;
+    const pbmpm_shape shape = {.size = sizeof shape, .kind = PBMPM_BAKED, .rotation = {0, 0, 0, 1}};
+    Solid solid = solid_of(&shape, d);
+    Random random = {21};
+    int through = 0;
+    solid.grid = &baked.grid;
+    for (int i = 0; i < WAYS; i++) {
+        double point[3] = {0}, way[3] = {0}, normal[3], deepest = 0.0, size2 = 0.0;
+        Plane plane[PLANES_MAX];
+        for (int a = 0; a < d; a++) {
+            point[a] = random_in(&random, -2.0, 2.0);
+            way[a] = random_in(&random, -most, most);
+            size2 += way[a] * way[a];
+        }
+        const double distance = solid_distance(&solid, point, normal) / cell;
+        if (distance < 0.0 || size2 > most * most) continue;
+        for (int k = 1; k <= PLACES; k++) {
+            double there[3] = {0}, unused[3];
+            for (int a = 0; a < d; a++) there[a] = point[a] + way[a] * cell * k / PLACES;
+            deepest = fmin(deepest, solid_distance(&solid, there, unused) / cell);
+        }
+        const int planes = concave_planes(&solid, cell, point, distance, normal, way, margin, plane);
+        bool forbidden = false;
+        for (int k = 0; k < planes; k++) {
+            const double along = plane[k].normal[0] * way[0] + plane[k].normal[1] * way[1] + plane[k].normal[2] * way[2];
+            TEST_ASSERT_TRUE(plane[k].gap >= 0.0);
+            forbidden = forbidden || along < -plane[k].gap;
+        }
+        if (deepest > -0.5) continue;
+        through++;
+        TEST_ASSERT_TRUE_MESSAGE(forbidden, "a way through the solid");
+    }
+    TEST_ASSERT_TRUE(through > 20);
+}
+
+static void test_ways_through_solids_are_forbidden(void)
+{
+    const double middle[3] = {0, 0, 0}, plate[3] = {1.5, 0.15, 1.5};
+    for (int d = 2; d <= 3; d++) {
+        mesh_clear(&mesh, d);
+        mesh_add_box(&mesh, middle, plate);
+        bake_now(32);
+        check_ways(d, 6.0);
+    }
+    mesh_clear(&mesh, 3);
+    mesh_add_torus(&mesh, RING, TUBE, 12);
+    bake_now(24);
+    check_ways(3, 6.0);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -607,5 +669,6 @@ int main(void)
     RUN_TEST(test_headers_that_cannot_be);
     RUN_TEST(test_distances_that_cannot_be);
     RUN_TEST(test_a_small_buffer_is_refused);
+    RUN_TEST(test_ways_through_solids_are_forbidden);
     return UNITY_END();
 }

@@ -75,6 +75,20 @@ static void test_moduli_of_liquids(void)
     }
 }
 
+/* What yields answers to a deviator by the share beta of what it answers to a volume strain in the paper's solver. */
+static void test_what_yields_is_softer_to_shear(void)
+{
+    for (int kind = PBMPM_SAND; kind <= PBMPM_VISCO; kind++)
+        for (int i = 1; i <= 8; i++) {
+            World *world = open_world(2 + i % 2, 0.1f);
+            pbmpm_material_def def = material_defaults();
+            def.kind = (pbmpm_material_kind)kind;
+            def.elasticity_ratio = 0.125f * (float)i;
+            NEAR(8.0 / i, bound_material(world, &def, PBMPM_SOLVER_PAPER, 0.01f)->bulk_over_shear);
+            world_destroy(world);
+        }
+}
+
 static void test_an_incompressible_liquid(void)
 {
     World *world = open_world(3, 0.1f);
@@ -586,11 +600,36 @@ static void test_pressures_follow_their_particles(void)
     world_destroy(world);
 }
 
+/* How soft matter is: the softest of the liquids that are there, whatever else there is or could be. */
+static void test_modes_are_those_of_the_liquids_there_are(void)
+{
+    static const float moduli[] = {1e5f, 1e6f, 1e3f, 1e4f};
+    World *world = open_world(2, 0.1f);
+    double softness[4];
+    for (int i = 0; i < 4; i++) {
+        pbmpm_material_def def = material_defaults();
+        def.kind = i == 3 ? PBMPM_ELASTIC : PBMPM_LIQUID;
+        def.bulk_modulus = def.young_modulus = moduli[i];
+        softness[i] = (double)bound_material(world, &def, PBMPM_SOLVER_DUAL, 0.01f)->inverse_stiffness;
+    }
+    world->particles.of_material[0] = world->particles.of_material[1] = world->particles.of_material[3] = 5;
+    TEST_ASSERT_TRUE(softness[2] > softness[0] && softness[0] > softness[1] && softness[1] > 0.0);
+    TEST_ASSERT_TRUE(dual_modes_of(world, 1.5).softness == softness[0]);
+    world->particles.of_material[0] = 0;
+    TEST_ASSERT_TRUE(dual_modes_of(world, 1.5).softness == softness[1]);
+    world->particles.of_material[2] = 1;
+    TEST_ASSERT_TRUE(dual_modes_of(world, 1.5).softness == softness[2]);
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
+    TEST_ASSERT_TRUE(dual_modes_of(world, 1.5).softness == 0.0);
+    world_destroy(world);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_moduli_of_liquids);
     RUN_TEST(test_an_incompressible_liquid);
+    RUN_TEST(test_what_yields_is_softer_to_shear);
     RUN_TEST(test_lightness);
     RUN_TEST(test_feedback_of_calm_liquid);
     RUN_TEST(test_moduli_stay_finite);
@@ -610,6 +649,7 @@ int main(void)
     RUN_TEST(test_stop_rules);
     RUN_TEST(test_the_predicted_error_lies_between_its_bounds);
     RUN_TEST(test_the_predicted_error_of_one_mode);
+    RUN_TEST(test_modes_are_those_of_the_liquids_there_are);
     RUN_TEST(test_pressures_follow_their_particles);
     return UNITY_END();
 }
