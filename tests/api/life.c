@@ -33,8 +33,9 @@ static unsigned char baked[BAKED_ROOM], saved[SAVED_ROOM];
 /* The same for one that always succeeds. */
 #define TELLS(call) CALL(((void)(call), PBMPM_OK))
 
-static void ignore_line(const char *line, void *user)
+static void ignore_line(pbmpm_log_level level, const char *line, void *user)
 {
+    (void)level;
     (void)line;
     (void)user;
 }
@@ -161,6 +162,8 @@ static bool add_solids(const life_watch *watch, const life *it, pbmpm_world_id w
     def.kinematic = 0;
     CALL(pbmpm_collider_create(world, &def, &shape, &in->wedge));
     CALL(pbmpm_collider_get(world, in->ball, &def, &shape));
+    def.reports_touches = 1;
+    CALL(pbmpm_collider_set(world, in->ball, &def, &shape));
     return true;
 }
 
@@ -235,6 +238,7 @@ static bool ask_particles(const life_watch *watch, const life *it, pbmpm_particl
 {
     static float copies[MOST * 16];
     const float pressure = 10, velocity[3] = {0.1f, 0.2f, 0};
+    const uint32_t seven = 7;
     pbmpm_view view = {.size = sizeof view};
     pbmpm_copy_def copy;
     uint32_t count, row, *const ids = (uint32_t *)first;
@@ -250,6 +254,7 @@ static bool ask_particles(const life_watch *watch, const life *it, pbmpm_particl
     for (uint32_t i = 0; i < 2; i++) ids[i] = view_uint(&view, row, i);
     CALL(pbmpm_particles_set(it->world, PBMPM_PRESSURE, first, 1, &pressure));
     CALL(pbmpm_particles_set(it->world, PBMPM_VELOCITY, first, 1, velocity));
+    CALL(pbmpm_particles_set(it->world, PBMPM_USER_VALUE, first, 1, &seven));
     CALL(pbmpm_particles_find(it->world, first, 1, &row));
     return true;
 }
@@ -283,6 +288,7 @@ static bool ask_books(const life_watch *watch, const life *it, const room *in)
     pbmpm_force_status force = {.size = sizeof force};
     uint32_t count, missed;
     CALL(pbmpm_world_get_stats(it->world, &stats));
+    CALL(pbmpm_world_get_step_stats(it->world, &stats));
     CALL(pbmpm_world_events(it->world, NULL, 0, &count, &missed));
     CALL(pbmpm_world_advice(it->world, DT, NULL, 0, &count));
     CALL(pbmpm_collider_impulse(it->world, in->ball, &impulse));
@@ -293,7 +299,50 @@ static bool ask_books(const life_watch *watch, const life *it, const room *in)
     return true;
 }
 
+static bool ask_what_there_is(const life_watch *watch, const life *it, const room *in)
+{
+    pbmpm_domain_wall wall = {.size = sizeof wall};
+    uint32_t count;
+    int32_t valid;
+    CALL(pbmpm_world_is_valid(it->world, &valid));
+    CALL(pbmpm_material_is_valid(it->world, in->spare, &valid));
+    CALL(pbmpm_collider_is_valid(it->world, in->ball, &valid));
+    CALL(pbmpm_emitter_is_valid(it->world, in->emitter, &valid));
+    CALL(pbmpm_drain_is_valid(it->world, in->drain, &valid));
+    CALL(pbmpm_force_is_valid(it->world, in->force, &valid));
+    CALL(pbmpm_get_worlds(NULL, 0, &count));
+    CALL(pbmpm_world_get_materials(it->world, NULL, 0, &count));
+    CALL(pbmpm_world_get_colliders(it->world, NULL, 0, &count));
+    CALL(pbmpm_world_get_emitters(it->world, NULL, 0, &count));
+    CALL(pbmpm_world_get_drains(it->world, NULL, 0, &count));
+    CALL(pbmpm_world_get_forces(it->world, NULL, 0, &count));
+    CALL(pbmpm_world_debug_lines(it->world, PBMPM_DEBUG_ALL, NULL, 0, &count));
+    CALL(pbmpm_world_touches(it->world, NULL, 0, &count));
+    CALL(pbmpm_domain_wall_get(it->world, 0, 1, &wall));
+    wall.friction_coefficient = 0.5f;
+    CALL(pbmpm_domain_wall_set(it->world, 0, 1, &wall));
+    return true;
+}
+
 /* ---- What it does ---- */
+
+/* The ball becomes a body that falls. */
+static bool let_fall(const life_watch *watch, const life *it, const room *in)
+{
+    pbmpm_mass_properties mass = {.size = sizeof mass};
+    pbmpm_submersion under = {.size = sizeof under};
+    pbmpm_rigid_state state = {.size = sizeof state};
+    pbmpm_rigid_def def;
+    pbmpm_shape shape = {.size = sizeof shape};
+    CALL(pbmpm_collider_get(it->world, in->ball, NULL, &shape));
+    CALL(pbmpm_shape_mass(it->world, &shape, 500, &mass));
+    CALL(pbmpm_collider_submerged(it->world, in->ball, NULL, &under));
+    CALL(pbmpm_rigid_def_init(&def, sizeof def));
+    def.mass = mass.mass;
+    CALL(pbmpm_rigid_begin(it->world, in->ball, &def, &state));
+    CALL(pbmpm_rigid_advance(it->world, in->ball, &def, &state, DT));
+    return true;
+}
 
 static bool step(const life_watch *watch, const life *it, int count)
 {
@@ -356,9 +405,11 @@ static bool furnish(const life_plan *plan, const life_watch *watch, const life *
 static bool move_things(const life_watch *watch, const life *it, const room *in)
 {
     const float there[3] = {1.3f, 0.2f, 0.3f};
+    double moved[3];
     CALL(pbmpm_emitter_move(it->world, in->emitter, (const float[3]){0.7f, 1.5f, 0.3f}, NULL));
     CALL(pbmpm_collider_teleport(it->world, in->ball, there, NULL));
     CALL(pbmpm_collider_move(it->world, in->ball, (const float[3]){1.25f, 0.2f, 0.3f}, NULL));
+    CALL(pbmpm_world_shift_origin(it->world, (const double[3]){0}, moved));
     return true;
 }
 
@@ -372,6 +423,7 @@ bool live(const life_plan *plan, const pbmpm_allocator *allocator, const life_wa
     if (!set_bounds(watch, it) || !add_matter(plan, watch, it, &in) || !step(watch, it, 2)) return false;
     if (!move_things(watch, it, &in) || !step(watch, it, 1)) return false;
     if (!ask_particles(watch, it, &first) || !ask_where_matter_is(watch, it, &in) || !ask_books(watch, it, &in)) return false;
+    if (!ask_what_there_is(watch, it, &in) || !let_fall(watch, it, &in)) return false;
     if (!step_behind(watch, it) || !step(watch, it, 4)) return false;
     if (!open_world(plan, allocator, watch, it, &it->twin) || !furnish(plan, watch, it, it->twin, bytes, &twins)) return false;
     if (!save_and_restore(watch, it)) return false;
