@@ -79,7 +79,7 @@ static void middle_of(pbmpm_world_id world, const view_on *view, double middle[3
 static double tolerance_of(int32_t dimension, const way *chosen, pbmpm_material_kind kind)
 {
     const bool exact = kind == PBMPM_ELASTIC && chosen->solver != PBMPM_SOLVER_PRIMAL && chosen->solver != PBMPM_SOLVER_CONVERGENT;
-    return exact ? 2e-4 : dimension == 2 ? 0.02 : 0.004;
+    return exact ? 2e-4 : dimension == 2 ? 0.03 : 0.006;
 }
 
 static void check_views(int32_t dimension, const way *chosen, pbmpm_material_kind kind, int steps)
