@@ -189,6 +189,11 @@ static void test_a_full_box_has_its_density(void)
     check_report("full box");
 }
 
+static void open_walls(World *world)
+{
+    for (int place = 0; place < DOMAIN_WALLS; place++) world->domain.wall[place].open = 1;
+}
+
 /* On a single plane what is far from all other ends of the matter has its density, too. */
 static void check_layer(int dimension, double height)
 {
@@ -206,7 +211,7 @@ static void check_layer(int dimension, double height)
     }
     world->particles.count = 0;
     fill(world, 2);
-    world->domain.enabled = false;
+    open_walls(world);
     floor.kind = PBMPM_PLANE;
     floor.position[1] = (float)(height * CELL);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, &floor, NULL, 1, &id));
@@ -316,7 +321,7 @@ static void test_marks_go_with_the_obstacle(void)
     predict_beside(&scene, false);
     TEST_ASSERT_GREATER_THAN_INT(0, count_marked(&scene));
     box->generation = 0;
-    for (int place = 0; place < DOMAIN_WALLS; place++) scene.world->domain.wall[place].open = 1;
+    open_walls(scene.world);
     predict(&scene);
     TEST_ASSERT_EQUAL_INT(0, count_marked(&scene));
     scene_close(&scene);
