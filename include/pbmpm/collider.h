@@ -96,7 +96,8 @@ PBMPM_API pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, 
 /** A wall of the domain. Read it with pbmpm_domain_wall_get(), change what differs, and give it to pbmpm_domain_wall_set(). */
 typedef struct pbmpm_domain_wall {
     uint32_t size;              /**< sizeof(pbmpm_domain_wall), set by the caller */
-    int32_t open;               /**< 0 (default): holds matter in. 1: there is no wall. What gets out falls for ever: set kill bounds (drain.h). */
+    int32_t open;               /**< 0 (default): holds matter in. 1: there is no wall. The others are planes without end, so a
+                                     floor goes on outside. What gets out falls for ever: set kill bounds (drain.h). */
     pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default world_def.domain_friction */
 } pbmpm_domain_wall;
