@@ -109,13 +109,14 @@ static pbmpm_result create_world(const pbmpm_world_def *def, pbmpm_world_id *wor
     World *created;
     pbmpm_result result = world_create(def, &created);
     if (result != PBMPM_OK) return result;
+    const int threads = pool_thread_count(created->pool); /* afterwards another thread may destroy it */
     result = registry_add(created, world);
     if (result != PBMPM_OK) {
         world_destroy(created);
         return result;
     }
     result_log(PBMPM_LOG_INFO, "world %u: %dD, cells of %g m, room for %u particles, %s, %d threads", world->index, def->dimension, (double)def->cell_size,
-               def->particle_capacity, cpu_isa_name(cpu_isa()), pool_thread_count(created->pool));
+               def->particle_capacity, cpu_isa_name(cpu_isa()), threads);
     return PBMPM_OK;
 }
 
@@ -236,16 +237,18 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     const char *problem = material_problem(&own);
     if (!problem) problem = keyed_problem(w, KEYED_MATERIALS, own.key, -1);
     if (problem) LET_GO(api_invalid(problem));
-    LET_GO(materials_add(&w->materials, &own, registry_next_generation(), material));
+    const pbmpm_result result = materials_add(&w->materials, &own, registry_next_generation(), material);
+    if (result == PBMPM_OK) colliders_forget_material(&w->colliders, material->index);
+    LET_GO(result);
 }
 
-static pbmpm_result no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
+pbmpm_result api_no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
 
 pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def)
 {
     REQUIRE_SIZE(pbmpm_material_def, def);
     HOLD_READING(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
     WRITE(pbmpm_material_def, def, &w->materials.def[material.index]);
     LET_GO(PBMPM_OK);
 }
@@ -255,7 +258,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
     REQUIRE_SIZE(pbmpm_effective, effective);
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
-    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
     const pbmpm_effective found = effective_modulus(w, material.index, (double)dt / w->settings.substeps);
     WRITE(pbmpm_effective, effective, &found);
     LET_GO(PBMPM_OK);
@@ -264,7 +267,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
 pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
 {
     HOLD(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
     const pbmpm_material_def *old = &w->materials.def[material.index];
     READ_HELD(pbmpm_material_def, own, def, *old);
     const char *problem = material_problem(&own);
@@ -280,7 +283,7 @@ pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material
 pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material)
 {
     HOLD(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
     if (w->particles.of_material[material.index] > 0) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
     if (emitters_use(&w->emitters, material)) LET_GO(fail(PBMPM_ERROR_IN_USE, "an emitter still uses this material"));
     w->materials.generation[material.index] = 0;
@@ -333,13 +336,13 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     LET_GO(result);
 }
 
-static pbmpm_result no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
+pbmpm_result api_no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
 
 pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider)
 {
     HOLD(world);
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(no_collider());
+    if (!found) LET_GO(api_no_collider());
     wake_near_collider(w, found);
     found->generation = 0;
     LET_GO(PBMPM_OK);
@@ -351,7 +354,7 @@ pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(no_collider());
+    if (!found) LET_GO(api_no_collider());
     if (def) WRITE(pbmpm_collider_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
@@ -361,21 +364,23 @@ pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider
 {
     HOLD(world);
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(no_collider());
+    if (!found) LET_GO(api_no_collider());
     READ_OR_KEEP(pbmpm_collider_def, own, def, found->def);
     READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
     const char *problem = wrong_collider(w, &own, &form, (int32_t)collider.index);
     if (problem) LET_GO(api_invalid(problem));
-    wake_near_collider(w, found);
+    const Collider before = *found;
     const pbmpm_result result = colliders_set(&w->colliders, &w->memory, found, &own, shape ? &form : NULL, grid_of(w, &form));
+    if (result != PBMPM_OK) LET_GO(result);
+    wake_near_collider(w, &before);
     wake_near_collider(w, found);
-    LET_GO(result);
+    LET_GO(PBMPM_OK);
 }
 
 static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const float *position, const float *rotation, bool at_once)
 {
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) return no_collider();
+    if (!found) return api_no_collider();
     if (!at_once && !found->def.kinematic) return api_invalid("only kinematic colliders move");
     pbmpm_shape shape = found->shape;
     memcpy(shape.position, position, sizeof shape.position);
@@ -416,7 +421,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
     if (capacity) REQUIRE(ids);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(no_collider());
+    if (!found) LET_GO(api_no_collider());
     const Solid solid = solid_among(&found->shape, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count));
 }

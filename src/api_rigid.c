@@ -15,7 +15,7 @@ pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, fl
 {
     READ(pbmpm_shape, own, shape, shape_defaults());
     REQUIRE_SIZE(pbmpm_mass_properties, mass);
-    HOLD(world);
+    HOLD_READING(world);
     const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
     if (!problem && !in_range(density, 1e-6, 1e9)) problem = "density must be in [1e-6, 1e9]";
     if (problem) LET_GO(api_invalid(problem));
@@ -29,7 +29,7 @@ pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, fl
 static pbmpm_result find_bounded(const World *world, pbmpm_collider_id id, Collider **collider)
 {
     *collider = colliders_find(&world->colliders, id);
-    if (!*collider) return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world");
+    if (!*collider) return api_no_collider();
     return (*collider)->shape.kind == PBMPM_PLANE ? no_volume() : PBMPM_OK;
 }
 
@@ -42,7 +42,7 @@ pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id co
     pbmpm_submersion own;
     pbmpm_result result = find_bounded(w, collider, &found);
     if (result == PBMPM_OK && material && !material_is_live(&w->materials, *material))
-        result = fail(PBMPM_ERROR_INVALID_ID, "no such material in this world");
+        result = api_no_material();
     if (result != PBMPM_OK) LET_GO(result);
     result = submerged_measure(w, found, material ? (int)material->index : ANY_MATERIAL, &own);
     if (result == PBMPM_OK) WRITE(pbmpm_submersion, submersion, &own);
@@ -69,7 +69,7 @@ pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider,
 {
     READ(pbmpm_rigid_def, own, def, rigid_defaults());
     REQUIRE_SIZE(pbmpm_rigid_state, state);
-    HOLD(world);
+    HOLD_READING(world);
     Collider *found;
     const pbmpm_result result = find_body(w, collider, &own, &found);
     if (result != PBMPM_OK) LET_GO(result);
@@ -106,11 +106,19 @@ static void send(Collider *collider, const pbmpm_rigid_state *state)
     collider_place(collider, position, rotation, false);
 }
 
+/* What 2D has not. */
+static void flatten(pbmpm_rigid_state *state)
+{
+    state->position[2] = state->velocity[2] = state->velocity_change[2] = state->point[2] = 0.0;
+    for (int a = 0; a < 2; a++) state->angular_velocity[a] = state->angular_velocity_change[a] = 0.0;
+}
+
 pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_rigid_def *def, pbmpm_rigid_state *state, float dt)
 {
     READ(pbmpm_rigid_def, own, def, rigid_defaults());
     READ(pbmpm_rigid_state, next, state, (pbmpm_rigid_state){.size = sizeof next});
     HOLD(world);
+    if (w->def.dimension == 2) flatten(&next);
     Collider *found;
     RigidPush push;
     pbmpm_result result = find_body(w, collider, &own, &found);

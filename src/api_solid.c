@@ -113,7 +113,7 @@ pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id coll
     REQUIRE_SIZE(pbmpm_impulse, impulse);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"));
+    if (!found) LET_GO(api_no_collider());
     if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
     read_impulse(w, collider.index, found->shape.position, impulse);
     LET_GO(PBMPM_OK);

@@ -101,6 +101,7 @@ pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *colli
     const pbmpm_result result = begins ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
     if (result != PBMPM_OK) return result;
     if (begins) colliders->impulses.sum[collider - colliders->slot] = (ImpulseSum){{0}, {0}};
+    if (def->reports_touches && !collider->def.reports_touches) memset(collider->touched, 0, sizeof collider->touched);
     collider->def = *def;
     if (shape) {
         collider->shape = *shape;
@@ -108,6 +109,11 @@ pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *colli
     }
     if (shape || !def->kinematic) collider_place(collider, collider->shape.position, collider->shape.rotation, true);
     return PBMPM_OK;
+}
+
+void colliders_forget_material(Colliders *colliders, uint32_t material)
+{
+    for (uint32_t slot = 0; slot < colliders->used; slot++) colliders->slot[slot].touched[material / 64] &= ~((uint64_t)1 << material % 64);
 }
 
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid)

@@ -78,6 +78,8 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
 /* `shape` null: it stays, and so does its way. On failure nothing has changed. */
 pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *collider, const pbmpm_collider_def *def, const pbmpm_shape *shape,
                            const DistanceGrid *grid);
+/* A material is new: nothing has touched it. */
+void colliders_forget_material(Colliders *colliders, uint32_t material);
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);

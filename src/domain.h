@@ -26,7 +26,7 @@ const char *domain_wall_problem(const pbmpm_domain_wall *wall);
 
 void domain_set_wall(Domain *domain, const pbmpm_world_def *def, int place, const pbmpm_domain_wall *wall);
 
-/* Whether any wall is as in no definition. */
+/* Whether any wall differs from the definition. */
 bool domain_changed(const Domain *domain, const pbmpm_world_def *def);
 
 #endif

@@ -401,7 +401,7 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
 {
     Particles *p = &world->particles;
     const int d = p->dimension;
-    if (field == PBMPM_USER_VALUE) { /* no matter of the matter's */
+    if (field == PBMPM_USER_VALUE) { /* matter does not feel it */
         memcpy(&p->user_value[row], values, sizeof *p->user_value);
         return;
     }

@@ -37,6 +37,11 @@ void impulse_add(ImpulseSum *sum, const double point[3], const double gained[3])
     subtract_moment(sum->angular, point, gained);
 }
 
+void impulses_shift(Impulses *impulses, const double way[3])
+{
+    for (int place = 0; place < IMPULSE_PLACES && impulses->sum; place++) subtract_moment(impulses->sum[place].angular, way, impulses->sum[place].linear);
+}
+
 pbmpm_impulse impulse_about(const ImpulseSum *sum, const double point[3], int dimension)
 {
     pbmpm_impulse impulse = {.size = sizeof impulse};

@@ -48,6 +48,9 @@ void impulses_clear(Impulses *impulses);
 /* Takes the momentum that matter at `point` [m] gained from the obstacle's sum. */
 void impulse_add(ImpulseSum *sum, const double point[3], const double gained[3]);
 
+/* The world's origin goes by `way` [m]. */
+void impulses_shift(Impulses *impulses, const double way[3]);
+
 /* The sum of a collider (by slot) or wall about a point [m]. */
 pbmpm_impulse impulse_about(const ImpulseSum *sum, const double point[3], int dimension);
 

@@ -104,6 +104,12 @@ typedef struct Summing {
     Sums part[PARTS];
 } Summing;
 
+/* A NaN stays. */
+static void keep_largest(double *largest, double value)
+{
+    if (value > *largest || isnan(value)) *largest = value;
+}
+
 /* L = sum m (x cross v + dx^2/4 axl(C - C^T)): the affine part carries angular momentum of its own (C. Jiang et al., "The
  * Affine Particle-In-Cell Method", ACM TOG 34(4), 2015, with the quadratic spline's inertia dx^2/4). */
 static void add_angular(const Summing *summing, uint32_t row, double mass, const double x[3], const double v[3], Sums *sums)
@@ -134,9 +140,9 @@ static void add_particle(const Summing *summing, uint32_t row, Sums *sums)
     sums->mass += mass;
     sums->kinetic += 0.5 * mass * speed2;
     sums->potential -= mass * height;
-    if (!(speed2 <= sums->speed2_max)) sums->speed2_max = speed2; /* a NaN stays */
+    keep_largest(&sums->speed2_max, speed2);
     sums->volume_error2 += volume_error * volume_error;
-    if (!(volume_error <= sums->volume_error_max)) sums->volume_error_max = volume_error;
+    keep_largest(&sums->volume_error_max, volume_error);
 }
 
 static void sum_parts(void *context, int32_t begin, int32_t end)
@@ -161,8 +167,8 @@ static void add_sums(Sums *all, const Sums *part)
     all->kinetic += part->kinetic;
     all->potential += part->potential;
     all->volume_error2 += part->volume_error2;
-    if (!(part->speed2_max <= all->speed2_max)) all->speed2_max = part->speed2_max;
-    if (!(part->volume_error_max <= all->volume_error_max)) all->volume_error_max = part->volume_error_max;
+    keep_largest(&all->speed2_max, part->speed2_max);
+    keep_largest(&all->volume_error_max, part->volume_error_max);
 }
 
 static Sums sum_particles(World *world)

@@ -9,6 +9,8 @@
 /* The lattice of what sleeps moves by whole blocks too, so no particle changes its place in one. */
 enum { SHIFT_CELLS = K_BLOCK_AXIS };
 
+static const float BOUNDS_LIMIT = 1e9f; /* [m], see pbmpm_kill_bounds */
+
 typedef struct Shift {
     int dimension;
     int32_t cells[3];
@@ -43,6 +45,10 @@ static pbmpm_kill_bounds shifted_bounds(const Shift *shift, const pbmpm_kill_bou
     if (!moved.enabled) return moved;
     shift_point(shift, moved.low);
     shift_point(shift, moved.high);
+    for (int a = 0; a < shift->dimension; a++) { /* what was at the end of the range stays there */
+        moved.low[a] = fmaxf(moved.low[a], -BOUNDS_LIMIT);
+        moved.high[a] = fminf(moved.high[a], BOUNDS_LIMIT);
+    }
     return moved;
 }
 
@@ -128,6 +134,7 @@ static void move_things(World *world, const Shift *shift)
         const pbmpm_shape moved = shifted(shift, &force->shape);
         if (force->generation != 0) force_set(force, &force->def, &moved, shift->dimension);
     }
+    impulses_shift(&world->colliders.impulses, shift->by);
     for (uint32_t i = 0; i < world->events.count; i++) shift_point(shift, world->events.list[i].position);
 }
 

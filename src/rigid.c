@@ -422,6 +422,9 @@ static void box_around(const Solid *solid, double low[3], double high[3])
         }
 }
 
+/* Of a speed what goes on the way that `over` went: what leads away stays. */
+static double into_wall(double speed, double over) { return speed * over > 0.0 ? speed : 0.0; }
+
 /* Takes a body back by `over` along an axis, the way that it may go. */
 static void stop_along(const Ways *ways, pbmpm_rigid_state *state, int axis, double over)
 {
@@ -430,7 +433,7 @@ static void stop_along(const Ways *ways, pbmpm_rigid_state *state, int axis, dou
     keep_ways(ways, back);
     const double share = back[axis]; /* the square of its length, too */
     if (share < 1e-6) return;
-    const double speed = dot(state->velocity, back) / share, last = dot(state->velocity_change, back) / share;
+    const double speed = into_wall(dot(state->velocity, back), over) / share, last = into_wall(dot(state->velocity_change, back), over) / share;
     for (int a = 0; a < 3; a++) {
         state->position[a] -= over / share * back[a];
         state->velocity[a] -= speed * back[a];

@@ -333,6 +333,7 @@ static void load_counters(World *world, SnapshotIn in)
 typedef struct ColliderMotion {
     uint32_t moving;
     float target_position[3], target_rotation[4];
+    ImpulseSum impulse; /* of the last step, where it is measured: a body goes on with it */
 } ColliderMotion;
 
 typedef struct SavedCollider {
@@ -349,6 +350,7 @@ static void save_colliders(const World *world, SnapshotOut *out)
         ColliderMotion motion = {.moving = collider->moving};
         memcpy(motion.target_position, collider->target_position, sizeof motion.target_position);
         memcpy(motion.target_rotation, collider->target_rotation, sizeof motion.target_rotation);
+        if (collider->def.measures_impulse) motion.impulse = world->colliders.impulses.sum[slot];
         snapshot_put_name(out, slot, collider->def.key);
         snapshot_put_part(out, &collider->def, sizeof collider->def);
         snapshot_put_part(out, &collider->shape, sizeof collider->shape);
@@ -356,11 +358,14 @@ static void save_colliders(const World *world, SnapshotOut *out)
     }
 }
 
+static bool all_are_finite(const double vector[3]) { return isfinite(vector[0]) && isfinite(vector[1]) && isfinite(vector[2]); }
+
 static bool take_collider(SnapshotIn *in, SavedCollider *saved)
 {
     *saved = (SavedCollider){.def = collider_defaults(), .shape = shape_defaults()};
     return snapshot_take_part(in, &saved->def, sizeof saved->def) && snapshot_take_part(in, &saved->shape, sizeof saved->shape) &&
-           snapshot_take_part(in, &saved->motion, sizeof saved->motion);
+           snapshot_take_part(in, &saved->motion, sizeof saved->motion) && all_are_finite(saved->motion.impulse.linear) &&
+           all_are_finite(saved->motion.impulse.angular);
 }
 
 /* Whether it is the same but for its pose. */
@@ -418,6 +423,7 @@ static void load_colliders(World *world, SnapshotIn in)
         collider->moving = saved.motion.moving != 0 && collider->def.kinematic;
         memcpy(collider->target_position, saved.motion.target_position, sizeof saved.motion.target_position);
         memcpy(collider->target_rotation, saved.motion.target_rotation, sizeof saved.motion.target_rotation);
+        if (collider->def.measures_impulse) world->colliders.impulses.sum[place] = saved.motion.impulse;
     }
 }
 

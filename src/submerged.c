@@ -82,14 +82,15 @@ static void place_of(const Sounding *s, size_t node, double point[3])
 /* Obstacles that stand side by side leave nothing between them: their shares add up. */
 static void take(Sounding *s, size_t node, float share) { s->raw[node] = fmaxf(0.0f, s->raw[node] - share); }
 
-static void close_solid(Sounding *s, const Solid *solid, float *inside)
+/* `inside`: receives the shares, or null. */
+static void close_solid(Sounding *s, const Solid *solid, bool acts, float *inside)
 {
     for (size_t node = 0; node < s->nodes; node++) {
         double point[3], normal[3];
         place_of(s, node, point);
         const float share = (float)share_inside(solid_distance(solid, point, normal) / s->spacing);
         if (inside) inside[node] = share;
-        take(s, node, share);
+        if (acts) take(s, node, share);
     }
 }
 
@@ -130,9 +131,10 @@ static void find_open(Sounding *s)
     const Colliders *colliders = &s->world->colliders;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         const bool own = &colliders->slot[slot] == s->collider;
-        if (!collider_acts(&colliders->slot[slot])) continue;
+        const bool acts = collider_acts(&colliders->slot[slot]);
+        if (!acts && !own) continue;
         const Solid other = solid_among(&colliders->slot[slot].shape, s->dimension, &s->world->baked);
-        if (solid_least(&other, middle) < sqrt(reach2) + s->spacing) close_solid(s, &other, own ? s->inside : NULL);
+        if (solid_least(&other, middle) < sqrt(reach2) + s->spacing) close_solid(s, &other, acts, own ? s->inside : NULL);
     }
     memcpy(s->open, s->raw, s->nodes * sizeof *s->open);
     smooth(s, s->open);

@@ -41,8 +41,8 @@ extern "C" {
  * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
  * begins a step has neither.
  *
- * The allocator and the task hooks are then called from the step's thread too, by one thread at a time per world, and the log callback,
- * in the floating-point mode of the thread that began the step. Threads of the library block all signals but faults.
+ * The step's thread calls the allocator, the task hooks and the log callback too, in the floating-point mode of the thread that began the step. One
+ * thread at a time calls the allocator and the hooks of a world. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
 

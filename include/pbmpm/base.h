@@ -27,8 +27,9 @@ extern "C" {
 /* Threads. Any thread may call; different worlds know nothing of each other.
  *
  * Calls that only read share a world: any number of threads make them at once, and each gets what it would have got alone. They are
- *   those named query, get, count, find, view, copy and impulse,
+ *   those whose name has query, get, count, find, view, copy, impulse or is_valid,
  *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done(),
+ *   pbmpm_world_debug_lines(), pbmpm_shape_mass(), pbmpm_rigid_begin(),
  *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
  * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
  * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
@@ -42,7 +43,7 @@ typedef enum pbmpm_result {
     PBMPM_ERROR_INVALID_ID = 2,       /**< null, stale, foreign or made-up identifier */
     PBMPM_ERROR_OUT_OF_MEMORY = 3,    /**< the allocator returned null, or the memory budget is used up */
     PBMPM_ERROR_CAPACITY = 4,         /**< more particles, materials, colliders or worlds than there is room for */
-    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world that does not share it, or a step of it runs in the background */
+    PBMPM_ERROR_BUSY = 5,             /**< another thread is inside a call on the same world, and one of the two changes it; or a step of it runs in the background */
     PBMPM_ERROR_UNSUPPORTED_CPU = 6,  /**< the CPU has no SSE4.2 */
     PBMPM_ERROR_UNSUPPORTED = 7,      /**< a structure size, material or feature that this build does not know */
     PBMPM_ERROR_THREAD = 8,           /**< a worker thread could not be started */

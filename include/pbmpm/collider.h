@@ -33,7 +33,7 @@ typedef struct pbmpm_collider_def {
     uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
-    int32_t sensor;          /**< 1: acts on nothing, for triggers; matter passes through it. 0 (default): an obstacle */
+    int32_t sensor;          /**< 1: acts on nothing, for triggers; matter passes through it, so it measures no impulse. 0 (default): an obstacle */
     int32_t reports_touches; /**< 1: pbmpm_world_touches() tells what touches it; 0 (default): costs nothing */
 } pbmpm_collider_def;
 
@@ -52,7 +52,7 @@ PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collid
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_collider_is_valid(pbmpm_world_id world, pbmpm_collider_id collider, int32_t *valid);
 
-/** Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to colliders, which may be null with a
+/** Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to `colliders`, which may be null with a
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_colliders(pbmpm_world_id world, pbmpm_collider_id *colliders, uint32_t capacity, uint32_t *count);
 
@@ -60,8 +60,8 @@ PBMPM_API pbmpm_result pbmpm_world_get_colliders(pbmpm_world_id world, pbmpm_col
 PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape);
 
 /** Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
- *  A new shape is there at once, without velocity. A way that pbmpm_collider_move() asked for is then forgotten, as when `kinematic` becomes 0.
- *  Errors as pbmpm_collider_create(), but CAPACITY. */
+ *  A new shape is there at once, without velocity. It ends a way that pbmpm_collider_move() asked for; so does `kinematic` 0.
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED: nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_collider_def *def, const pbmpm_shape *shape);
 
 /** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
@@ -130,7 +130,8 @@ typedef struct pbmpm_touch {
 } pbmpm_touch;
 
 /** Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
- *  that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen.
+ *  that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen, nor what was left of
+ *  a destroyed collider.
  *  *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
  *  `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY. */

@@ -12,20 +12,20 @@ extern "C" {
 typedef enum pbmpm_debug_part {
     PBMPM_DEBUG_DOMAIN = 1,      /**< the walls that are closed; no end is drawn where one is open */
     PBMPM_DEBUG_COLLIDERS = 2,   /**< where they stand now */
-    PBMPM_DEBUG_EMITTERS = 4,
-    PBMPM_DEBUG_DRAINS = 8,
+    PBMPM_DEBUG_EMITTERS = 4,    /**< where they stand now, those that are switched off too */
+    PBMPM_DEBUG_DRAINS = 8,      /**< the same */
     PBMPM_DEBUG_FORCES = 16,     /**< those that are switched on */
-    PBMPM_DEBUG_KILL_BOUNDS = 32,
+    PBMPM_DEBUG_KILL_BOUNDS = 32, /**< if they are enabled */
     PBMPM_DEBUG_BLOCKS = 64,     /**< blocks of the grid that held particles in the last substep */
     PBMPM_DEBUG_ASLEEP = 128,    /**< blocks that sleep */
-    PBMPM_DEBUG_ALL = 255,
+    PBMPM_DEBUG_ALL = 255,       /**< everything */
     PBMPM_DEBUG_FORCE32 = 0x7fffffff
 } pbmpm_debug_part;
 
 /** A line to draw. This structure never grows. */
 typedef struct pbmpm_line {
     float from[3];         /**< [m], relative to the origin; 2D: z is 0 */
-    float to[3];           /**< ... */
+    float to[3];           /**< [m], as `from` */
     pbmpm_debug_part part; /**< what it shows: one of the parts, to choose a colour by */
 } pbmpm_line;
 

@@ -51,7 +51,7 @@ PBMPM_API pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id 
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_drain_is_valid(pbmpm_world_id world, pbmpm_drain_id drain, int32_t *valid);
 
-/** Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to drains, which may be null with a
+/** Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to `drains`, which may be null with a
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_drains(pbmpm_world_id world, pbmpm_drain_id *drains, uint32_t capacity, uint32_t *count);
 

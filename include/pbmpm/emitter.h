@@ -86,11 +86,11 @@ PBMPM_API pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_em
 /** Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitter);
 
-/** Whether an identifier is that of a emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of an emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_emitter_is_valid(pbmpm_world_id world, pbmpm_emitter_id emitter, int32_t *valid);
 
-/** Lists the emitters of the world. *count is how many there are; the first `capacity` of them are written to emitters, which may be null with a
+/** Lists the emitters of the world. *count is how many there are; the first `capacity` of them are written to `emitters`, which may be null with a
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_emitters(pbmpm_world_id world, pbmpm_emitter_id *emitters, uint32_t capacity, uint32_t *count);
 

@@ -86,7 +86,7 @@ PBMPM_API pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id 
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_force_is_valid(pbmpm_world_id world, pbmpm_force_id force, int32_t *valid);
 
-/** Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to forces, which may be null with a
+/** Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to `forces`, which may be null with a
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_forces(pbmpm_world_id world, pbmpm_force_id *forces, uint32_t capacity, uint32_t *count);
 

@@ -161,7 +161,7 @@ PBMPM_API pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_materi
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_material_is_valid(pbmpm_world_id world, pbmpm_material_id material, int32_t *valid);
 
-/** Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to materials, which may be null with a
+/** Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to `materials`, which may be null with a
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_materials(pbmpm_world_id world, pbmpm_material_id *materials, uint32_t capacity, uint32_t *count);
 

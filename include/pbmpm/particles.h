@@ -41,7 +41,7 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 
 /** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
- *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value for these). */
+ *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value makes room for user values). */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
@@ -76,8 +76,8 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
- *  frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that it
+ *  shows is one that the field had or has, of one particle or another, or 0; together they are no frame. Only views of AFFINE_VELOCITY and DEFORMATION may show
  *  anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {

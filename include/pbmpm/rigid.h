@@ -81,7 +81,7 @@ PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_coll
  *  A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE. */
 typedef struct pbmpm_rigid_def {
     uint32_t size;         /**< sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init() */
-    int32_t stays_inside;  /**< 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes. */
+    int32_t stays_inside;  /**< 0 or 1. 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes. */
     pbmpm_freedom moves;   /**< of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL */
     pbmpm_freedom turns;   /**< 2D: NONE, or else about the third axis. Default ALL */
     double mass;           /**< [kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1 */
@@ -95,17 +95,17 @@ typedef struct pbmpm_rigid_def {
     double torque[3];      /**< of the host, such as a motor's or a brake's [N m]; within 1e30; default 0 */
 } pbmpm_rigid_def;
 
-/** How a rigid body is and moves. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it. */
+/** How a rigid body is and moves. In 2D third components are not read, nor angular velocities but the third. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it. */
 typedef struct pbmpm_rigid_state {
     uint32_t size;                     /**< sizeof(pbmpm_rigid_state), set by the caller before pbmpm_rigid_begin() */
     uint32_t reserved;                 /**< 0 */
-    double position[3];                /**< of the shape [m], at the end of the next step; within 1e9 */
+    double position[3];                /**< of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() take `moved` from it. */
     double rotation[4];                /**< quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0 */
     double velocity[3];                /**< of the centre of mass [m/s]; within 1e9 */
     double angular_velocity[3];        /**< [rad/s], in the world; within 1e9 */
     double velocity_change[3];         /**< what the last call changed `velocity` by [m/s]: what the virtual mass goes on with */
     double angular_velocity_change[3]; /**< the same of `angular_velocity` [rad/s] */
-    double point[3];                   /**< where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
+    double point[3];                   /**< as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
     double virtual_mass;               /**< V of the last call [kg], to look at; never read */
 } pbmpm_rigid_state;
 

@@ -20,7 +20,7 @@ typedef enum pbmpm_restore_flags {
 } pbmpm_restore_flags;
 
 /* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
- * storage order and with all fields; the settings; the origin; walls of the domain; poses and targets of colliders; emitters, drains, forces and kill bounds with
+ * storage order and with all fields; the settings; the origin; walls of the domain; poses and targets of colliders, and what they were given; emitters, drains, forces and kill bounds with
  * their definitions and books; who sleeps; counters and totals. It does not hold what a world is made of: its definition, the
  * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
  * It holds no user_data.

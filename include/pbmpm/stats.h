@@ -65,7 +65,7 @@ typedef struct pbmpm_stats {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);
 
-/** The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. 0 are those of the present state:
+/** The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. These need a pass and are 0:
  *  volume_error_rms, volume_error_max, max_speed, mass, momentum, angular_momentum, kinetic_energy, potential_energy and lane_occupancy.
  *  While a step runs in the background they are those of the step before it, see async.h.
  *  Errors: as pbmpm_world_get_stats(). Any thread, together with others that read. */

@@ -137,7 +137,7 @@ PBMPM_API pbmpm_result pbmpm_world_is_valid(pbmpm_world_id world, int32_t *valid
  *  capacity of 0. Another thread may have destroyed one before the call returns. Errors: INVALID_ARGUMENT (null). Any thread. */
 PBMPM_API pbmpm_result pbmpm_get_worlds(pbmpm_world_id *worlds, uint32_t capacity, uint32_t *count);
 
-/** The definition the world was made from; its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+/** The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them; its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
 /** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
@@ -160,7 +160,8 @@ PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 /** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
  *  is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
  *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
- *  meets obstacles, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0.
+ *  meets obstacles, walls, emitters, drains, forces or bounds, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
+ *  `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3]);
 

@@ -254,6 +254,65 @@ static void test_what_sleeps_sleeps_on(void)
     TEST_ASSERT_TRUE(still > 0 && still < asleep); /* it found those that are there, and no others */
 }
 
+/* What an obstacle was given does not depend on where the origin is; a body that is moved along floats on. */
+static void test_impulses_and_bodies_stay_what_they_are(void)
+{
+    const pbmpm_world_id stays = far_scene(false), moves = far_scene(false), worlds[2] = {stays, moves};
+    pbmpm_collider_def def = default_collider();
+    pbmpm_collider_id box[2];
+    pbmpm_rigid_def body;
+    pbmpm_rigid_state state[2];
+    double moved[3] = {0};
+    const pbmpm_shape shape = box_shape(1002, 1.25f, 0, 0.25f, 0.25f, 0.25f);
+    def.kinematic = def.measures_impulse = 1;
+    OK(pbmpm_rigid_def_init(&body, sizeof body));
+    body.mass = 100;
+    for (int k = 0; k < 2; k++) {
+        state[k].size = sizeof state[k];
+        OK(pbmpm_collider_create(worlds[k], &def, &shape, &box[k]));
+        OK(pbmpm_rigid_begin(worlds[k], box[k], &body, &state[k]));
+        for (int step = 0; step < 30; step++) {
+            OK(pbmpm_rigid_advance(worlds[k], box[k], &body, &state[k], 1.0f / 60));
+            run(worlds[k], 1);
+        }
+    }
+    pbmpm_impulse before = {.size = sizeof before}, after = {.size = sizeof after};
+    OK(pbmpm_collider_impulse(moves, box[1], &before));
+    TEST_ASSERT_TRUE(before.linear[1] > 1.0);
+    OK(pbmpm_world_shift_origin(moves, (const double[3]){1000, 0, 0}, moved));
+    OK(pbmpm_collider_impulse(moves, box[1], &after));
+    TEST_ASSERT_EQUAL_DOUBLE(before.linear[1], after.linear[1]);
+    TEST_ASSERT_DOUBLE_WITHIN(1e-3 * before.linear[1], before.angular[2], after.angular[2]);
+    for (int a = 0; a < 3; a++) {
+        state[1].position[a] -= moved[a];
+        state[1].point[a] -= moved[a];
+    }
+    for (int k = 0; k < 2; k++)
+        for (int step = 0; step < 30; step++) {
+            OK(pbmpm_rigid_advance(worlds[k], box[k], &body, &state[k], 1.0f / 60));
+            run(worlds[k], 1);
+        }
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, state[0].position[0] - 1000.0, state[1].position[0]); /* floats round otherwise at 1000 m */
+    TEST_ASSERT_DOUBLE_WITHIN(0.02, state[0].position[1], state[1].position[1]);
+}
+
+static void test_bounds_at_the_end_of_the_range_stay_there(void)
+{
+    const pbmpm_world_id world = block_2d(NULL, NULL);
+    pbmpm_kill_bounds bounds;
+    double moved[3];
+    OK(pbmpm_kill_bounds_init(&bounds, sizeof bounds));
+    bounds.enabled = 1;
+    bounds.low[0] = -1e9f;
+    bounds.low[1] = -5;
+    bounds.high[0] = bounds.high[1] = 1e9f;
+    OK(pbmpm_world_set_kill_bounds(world, &bounds));
+    OK(pbmpm_world_shift_origin(world, (const double[3]){4000, 4000, 0}, moved));
+    OK(pbmpm_world_get_kill_bounds(world, &bounds));
+    TEST_ASSERT_EQUAL_FLOAT(-1e9f, bounds.low[0]);
+    TEST_ASSERT_EQUAL_FLOAT((float)(-5 - moved[1]), bounds.low[1]);
+}
+
 static void test_a_shift_that_does_not_fit_changes_nothing(void)
 {
     const pbmpm_world_id world = far_scene(false);
@@ -298,6 +357,8 @@ int main(void)
     RUN_TEST(test_a_wall_wakes_what_sleeps);
     RUN_TEST(test_a_shifted_world_goes_on_as_before);
     RUN_TEST(test_what_sleeps_sleeps_on);
+    RUN_TEST(test_impulses_and_bodies_stay_what_they_are);
+    RUN_TEST(test_bounds_at_the_end_of_the_range_stay_there);
     RUN_TEST(test_a_shift_that_does_not_fit_changes_nothing);
     RUN_TEST(test_a_save_brings_its_origin_back);
     return UNITY_END();

@@ -529,6 +529,40 @@ static void test_bodies_that_cannot_be(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &state, sizeof state);
 }
 
+/* A body that is copied with a save goes on bit for bit. */
+static void test_a_body_goes_on_from_a_save(void)
+{
+    static char saved[1 << 20];
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    pbmpm_collider_def def = default_collider();
+    pbmpm_collider_id box;
+    pbmpm_rigid_def body;
+    pbmpm_rigid_state state = {.size = sizeof state}, kept;
+    const pbmpm_shape shape = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    uint64_t bytes, hash[2];
+    def.kinematic = def.measures_impulse = 1;
+    OK(pbmpm_collider_create(world, &def, &shape, &box));
+    OK(pbmpm_rigid_def_init(&body, sizeof body));
+    body.mass = 20;
+    OK(pbmpm_rigid_begin(world, box, &body, &state));
+    for (int round = 0; round < 3; round++) { /* up to the save, then twice from there */
+        if (round == 1) {
+            OK(pbmpm_snapshot_save(world, saved, sizeof saved, &bytes));
+            kept = state;
+        }
+        if (round == 2) {
+            OK(pbmpm_snapshot_restore(world, saved, bytes, 0));
+            state = kept;
+        }
+        for (int step = 0; step < 20; step++) {
+            OK(pbmpm_rigid_advance(world, box, &body, &state, 1.0f / 60));
+            OK(pbmpm_world_step(world, 1.0f / 60));
+        }
+        if (round > 0) hash[round - 1] = world_hash(world);
+    }
+    TEST_ASSERT_EQUAL_HEX64(hash[0], hash[1]);
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -548,5 +582,6 @@ int main(void)
     RUN_TEST(test_walls_stop_a_body);
     RUN_TEST(test_bodies_that_cannot_be);
     RUN_TEST(test_a_light_box_let_go_under_water_is_stable);
+    RUN_TEST(test_a_body_goes_on_from_a_save);
     return UNITY_END();
 }

@@ -120,6 +120,47 @@ static void test_each_material_touches_for_itself(void)
     TEST_ASSERT_EQUAL_UINT32(0, touches[1].material.generation); /* it is gone */
 }
 
+/* A material in the place of another has touched nothing; nor has anything touched what begins to report. */
+static void test_what_is_new_begins(void)
+{
+    pbmpm_material_id jelly;
+    const pbmpm_world_id world = flying_block(&jelly);
+    const pbmpm_shape all = box_shape(0, 0, 0, 2, 2, 1);
+    const pbmpm_collider_id sensor = reporting(world, all, true);
+    TEST_ASSERT_EQUAL_UINT32(1, look(world));
+    OK(pbmpm_particles_remove_in(world, &all, NULL));
+    OK(pbmpm_material_destroy(world, jelly));
+    const pbmpm_material_id other = create_material(world, PBMPM_LIQUID);
+    TEST_ASSERT_EQUAL_UINT32(jelly.index, other.index);
+    fill_shape(world, other, box_shape(0, 0, 0, 0.2f, 0.2f, 0), (const float[3]){0, 0, 0});
+    TEST_ASSERT_EQUAL_UINT32(1, look(world));
+    TEST_ASSERT_EQUAL_INT(PBMPM_TOUCH_BEGAN, touches[0].state);
+    pbmpm_collider_def def = {.size = sizeof def};
+    OK(pbmpm_collider_get(world, sensor, &def, NULL));
+    def.reports_touches = 0;
+    OK(pbmpm_collider_set(world, sensor, &def, NULL));
+    TEST_ASSERT_EQUAL_UINT32(0, look(world));
+    def.reports_touches = 1;
+    OK(pbmpm_collider_set(world, sensor, &def, NULL));
+    TEST_ASSERT_EQUAL_UINT32(1, look(world));
+    TEST_ASSERT_EQUAL_INT(PBMPM_TOUCH_BEGAN, touches[0].state);
+}
+
+/* How much of a sensor is under water, whatever was asked before. */
+static void test_a_sensor_tells_how_much_of_it_is_under(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    const pbmpm_collider_id under = reporting(world, box_shape(0.5f, 0.2f, 0, 0.1f, 0.1f, 1), true);
+    const pbmpm_collider_id above = reporting(world, box_shape(0.5f, 0.9f, 0, 0.1f, 0.1f, 1), true);
+    pbmpm_submersion found = {.size = sizeof found};
+    for (int twice = 0; twice < 2; twice++) {
+        OK(pbmpm_collider_submerged(world, above, NULL, &found));
+        TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, found.share);
+        OK(pbmpm_collider_submerged(world, under, NULL, &found));
+        TEST_ASSERT_DOUBLE_WITHIN(0.05, 1.0, found.share);
+    }
+}
+
 static void test_with_too_little_room_nothing_is_forgotten(void)
 {
     const pbmpm_world_id world = tank_2d(NULL, NULL);
@@ -185,6 +226,8 @@ int main(void)
     RUN_TEST(test_an_obstacle_tells_what_it_was_given);
     RUN_TEST(test_water_at_rest_touches_its_floor);
     RUN_TEST(test_each_material_touches_for_itself);
+    RUN_TEST(test_what_is_new_begins);
+    RUN_TEST(test_a_sensor_tells_how_much_of_it_is_under);
     RUN_TEST(test_with_too_little_room_nothing_is_forgotten);
     RUN_TEST(test_definitions_of_sensors_are_checked);
     RUN_TEST(test_a_sensor_wakes_nothing);

@@ -50,7 +50,7 @@ namespace Pbmpm
         readonly EnqueueTasks enqueue;
         readonly FinishTasks finish;
 
-        /// <param name="enqueue">Called by the thread that steps, and by that of a step in the background.</param>
+        /// <param name="enqueue">Called by any thread that calls the library, and by that of a step in the background.</param>
         /// <param name="finish">Called by the same thread.</param>
         public HostTasks(EnqueueTasks enqueue, FinishTasks finish)
         {

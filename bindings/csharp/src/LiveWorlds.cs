@@ -37,7 +37,7 @@ namespace Pbmpm
             var key = KeyOf(world);
             lock (Lendings)
             {
-                if (!Lendings.TryGetValue(key, out lent)) return Result.Ok;
+                if (!Lendings.TryGetValue(key, out lent)) return Exists(world) ? Result.ErrorBusy : Result.Ok; // another thread is at it
                 Lendings.Remove(key);
             }
             var result = Methods.pbmpm_world_destroy(world); // not locked: it may call the host
@@ -45,6 +45,12 @@ namespace Pbmpm
             if (result == Result.Ok) lent.Return();
             else lock (Lendings) Lendings.Add(key, lent);
             return result;
+        }
+
+        static bool Exists(WorldId world)
+        {
+            int valid;
+            return Methods.pbmpm_world_is_valid(world, &valid) == Result.Ok && valid != 0;
         }
 
         static void DestroyAll(object sender, EventArgs nothing)

@@ -70,7 +70,7 @@ namespace Pbmpm
         ErrorOutOfMemory = 3,
         /// <summary>more particles, materials, colliders or worlds than there is room for</summary>
         ErrorCapacity = 4,
-        /// <summary>another thread is inside a call on the same world that does not share it, or a step of it runs in the background</summary>
+        /// <summary>another thread is inside a call on the same world, and one of the two changes it; or a step of it runs in the background</summary>
         ErrorBusy = 5,
         /// <summary>the CPU has no SSE4.2</summary>
         ErrorUnsupportedCpu = 6,
@@ -344,15 +344,19 @@ namespace Pbmpm
         Domain = 1,
         /// <summary>where they stand now</summary>
         Colliders = 2,
+        /// <summary>where they stand now, those that are switched off too</summary>
         Emitters = 4,
+        /// <summary>the same</summary>
         Drains = 8,
         /// <summary>those that are switched on</summary>
         Forces = 16,
+        /// <summary>if they are enabled</summary>
         KillBounds = 32,
         /// <summary>blocks of the grid that held particles in the last substep</summary>
         Blocks = 64,
         /// <summary>blocks that sleep</summary>
         Asleep = 128,
+        /// <summary>everything</summary>
         All = 255,
     }
 
@@ -943,7 +947,7 @@ namespace Pbmpm
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
-        /// <summary>1: acts on nothing, for triggers; matter passes through it. 0 (default): an obstacle</summary>
+        /// <summary>1: acts on nothing, for triggers; matter passes through it, so it measures no impulse. 0 (default): an obstacle</summary>
         public int Sensor;
         /// <summary>1: pbmpm_world_touches() tells what touches it; 0 (default): costs nothing</summary>
         public int ReportsTouches;
@@ -982,7 +986,8 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_domain_wall), set by the caller</summary>
         public uint Size;
-        /// <summary>0 (default): holds matter in. 1: there is no wall. What gets out falls for ever: set kill bounds (drain.h).</summary>
+        /// <summary>0 (default): holds matter in. 1: there is no wall. The others are planes without end, so a
+        /// floor goes on outside. What gets out falls for ever: set kill bounds (drain.h).</summary>
         public int Open;
         /// <summary>default PBMPM_FRICTION_COULOMB</summary>
         public Friction Friction;
@@ -1016,7 +1021,7 @@ namespace Pbmpm
     {
         /// <summary>[m], relative to the origin; 2D: z is 0</summary>
         public Float3 From;
-        /// <summary>...</summary>
+        /// <summary>[m], as `from`</summary>
         public Float3 To;
         /// <summary>what it shows: one of the parts, to choose a colour by</summary>
         public DebugPart Part;
@@ -1404,7 +1409,7 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init()</summary>
         public uint Size;
-        /// <summary>1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes.</summary>
+        /// <summary>0 or 1. 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes.</summary>
         public int StaysInside;
         /// <summary>of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL</summary>
         public Freedom Moves;
@@ -1442,7 +1447,7 @@ namespace Pbmpm
         }
     }
 
-    /// <summary>How a rigid body is and moves. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it.</summary>
+    /// <summary>How a rigid body is and moves. In 2D third components are not read, nor angular velocities but the third. pbmpm_rigid_begin() fills it; the host may set velocities, and copies it to go back to it.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct RigidState
     {
@@ -1450,7 +1455,7 @@ namespace Pbmpm
         public uint Size;
         /// <summary>0</summary>
         public uint Reserved;
-        /// <summary>of the shape [m], at the end of the next step; within 1e9</summary>
+        /// <summary>of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() take `moved` from it.</summary>
         public Double3 Position;
         /// <summary>quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0</summary>
         public Double4 Rotation;
@@ -1462,7 +1467,7 @@ namespace Pbmpm
         public Double3 VelocityChange;
         /// <summary>the same of `angular_velocity` [rad/s]</summary>
         public Double3 AngularVelocityChange;
-        /// <summary>where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used</summary>
+        /// <summary>as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used</summary>
         public Double3 Point;
         /// <summary>V of the last call [kg], to look at; never read</summary>
         public double VirtualMass;
@@ -1736,8 +1741,8 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. What it shows is no whole
-    /// frame, but each is a value that the field had or has, of one particle or another, or 0. Only views of AFFINE_VELOCITY and DEFORMATION may show
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that it
+    /// shows is one that the field had or has, of one particle or another, or 0; together they are no frame. Only views of AFFINE_VELOCITY and DEFORMATION may show
     /// anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -1939,7 +1944,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_is_valid(WorldId world, MaterialId material, int* valid);
 
-        /// <summary>Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to materials, which may be null with a
+        /// <summary>Lists the materials of the world. *count is how many there are; the first `capacity` of them are written to `materials`, which may be null with a
         /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_materials(WorldId world, MaterialId* materials, uint capacity, uint* count);
@@ -2017,7 +2022,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_get_worlds(WorldId* worlds, uint capacity, uint* count);
 
-        /// <summary>The definition the world was made from; its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them; its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
@@ -2044,7 +2049,8 @@ namespace Pbmpm.Native
         /// <summary>Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
         /// is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
         /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
-        /// meets obstacles, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0.
+        /// meets obstacles, walls, emitters, drains, forces or bounds, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
+        /// `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_shift_origin(WorldId world, Double3* wanted, Double3* moved);
@@ -2071,7 +2077,7 @@ namespace Pbmpm.Native
 
         /// <summary>Adds particles. All of them or none. `ids`: null or room for def-&gt;count identifiers.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
-        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value for these).</summary>
+        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value makes room for user values).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
@@ -2153,7 +2159,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_is_valid(WorldId world, ColliderId collider, int* valid);
 
-        /// <summary>Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to colliders, which may be null with a
+        /// <summary>Lists the colliders of the world. *count is how many there are; the first `capacity` of them are written to `colliders`, which may be null with a
         /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_colliders(WorldId world, ColliderId* colliders, uint capacity, uint* count);
@@ -2163,8 +2169,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
         /// <summary>Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
-        /// A new shape is there at once, without velocity. A way that pbmpm_collider_move() asked for is then forgotten, as when `kinematic` becomes 0.
-        /// Errors as pbmpm_collider_create(), but CAPACITY.</summary>
+        /// A new shape is there at once, without velocity. It ends a way that pbmpm_collider_move() asked for; so does `kinematic` 0.
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED: nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_set(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
@@ -2200,7 +2206,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_domain_wall_set(WorldId world, int axis, int upper, DomainWall* wall);
 
         /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
-        /// that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen.
+        /// that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen, nor what was left of
+        /// a destroyed collider.
         /// *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
         /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
@@ -2280,7 +2287,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_is_valid(WorldId world, DrainId drain, int* valid);
 
-        /// <summary>Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to drains, which may be null with a
+        /// <summary>Lists the drains of the world. *count is how many there are; the first `capacity` of them are written to `drains`, which may be null with a
         /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_drains(WorldId world, DrainId* drains, uint capacity, uint* count);
@@ -2327,12 +2334,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_destroy(WorldId world, EmitterId emitter);
 
-        /// <summary>Whether an identifier is that of a emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of an emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_is_valid(WorldId world, EmitterId emitter, int* valid);
 
-        /// <summary>Lists the emitters of the world. *count is how many there are; the first `capacity` of them are written to emitters, which may be null with a
+        /// <summary>Lists the emitters of the world. *count is how many there are; the first `capacity` of them are written to `emitters`, which may be null with a
         /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_emitters(WorldId world, EmitterId* emitters, uint capacity, uint* count);
@@ -2373,7 +2380,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_is_valid(WorldId world, ForceId force, int* valid);
 
-        /// <summary>Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to forces, which may be null with a
+        /// <summary>Lists the forces of the world. *count is how many there are; the first `capacity` of them are written to `forces`, which may be null with a
         /// capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_forces(WorldId world, ForceId* forces, uint capacity, uint* count);
@@ -2503,7 +2510,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_stats(WorldId world, Stats* stats);
 
-        /// <summary>The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. 0 are those of the present state:
+        /// <summary>The figures that a step leaves behind, without a pass over anything: made to be asked in each frame. These need a pass and are 0:
         /// volume_error_rms, volume_error_max, max_speed, mass, momentum, angular_momentum, kinetic_energy, potential_energy and lane_occupancy.
         /// While a step runs in the background they are those of the step before it, see async.h.
         /// Errors: as pbmpm_world_get_stats(). Any thread, together with others that read.</summary>

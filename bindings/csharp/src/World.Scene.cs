@@ -102,7 +102,7 @@ namespace Pbmpm
             return found;
         }
 
-        /// <summary>Whether the identifier is that of a emitter of this world.</summary>
+        /// <summary>Whether the identifier is that of an emitter of this world.</summary>
         public bool IsValid(EmitterId emitter)
         {
             int valid;

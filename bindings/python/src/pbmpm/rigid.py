@@ -137,6 +137,12 @@ class RigidBody(Bound):
         else:
             self._definition.torque = [0.0, 0.0, torque] if self._dimension == 2 else vector("torque", torque, 3)  # type: ignore[arg-type]
 
+    def shift(self, moved: Vector) -> None:
+        """To be called after `World.shift_origin()`, with what that returned."""
+        for a, way in enumerate(vector("moved", moved, self._dimension)):
+            self._state.position[a] -= way
+            self._state.point[a] -= way
+
     @property
     def mass(self) -> float:
         """[kg]; 2D: per metre of depth."""
