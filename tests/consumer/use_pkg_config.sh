@@ -5,8 +5,7 @@ set -eu
 prefix=$1 compiler=$2 source=$3 version=$4 built=$5
 shift 5
 command -v pkg-config >/dev/null 2>&1 || { echo "skipped: pkg-config is not installed (package pkgconf)"; exit 77; }
-library=$(find "$prefix" -name 'libpbmpm.so' -o -name 'libpbmpm.a')
-PKG_CONFIG_PATH=$(dirname "$library")/pkgconfig; export PKG_CONFIG_PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$prefix" -name pbmpm.pc)"); export PKG_CONFIG_PATH
 found=$(pkg-config --modversion pbmpm)
 [ "$found" = "$version" ] || { echo "pkg-config says version $found, not $version"; exit 1; }
 materials=$(pkg-config --variable=materials pbmpm)
@@ -14,4 +13,4 @@ materials=$(pkg-config --variable=materials pbmpm)
 program=$prefix/by-pkg-config
 flags=$(pkg-config --cflags --libs pbmpm)
 (eval "set -- $flags" && "$compiler" "$source" -o "$program" "$@" -lm) # pkg-config quotes blanks for the shell
-LD_LIBRARY_PATH=$(dirname "$library") "$program" "$@"
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") "$program" "$@"
