@@ -303,7 +303,7 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
     const double heavier = push->virtual_mass / def->mass;
     double torque[3], asked[3];
     find_torque(def, state, push, dimension, dt, torque);
-    change_spin(def, state, torque, heavier, dimension);
+    change_spin(def, state, torque, is_held(def) ? heavier : 0.0, dimension); /* free bodies turn without: see the header */
     for (int a = 0; a < 3; a++) asked[a] = dt * push->gravity[a] + (push->linear[a] + dt * def->force[a]) / def->mass;
     keep_ways(&ways, asked);
     keep_ways(&ways, state->velocity);

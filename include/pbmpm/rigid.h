@@ -18,8 +18,9 @@
  *
  *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume under * share under,
  *
- * of the matter around it, see pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Turning has the same b. Matter
- * whose added mass is A needs V above (A - mass) / 2. */
+ * of the matter around it, see pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Matter
+ * whose added mass is A needs V above (A - mass) / 2. What turns about its pivot has the same b. A free body turns without: what it turns in matter is
+ * less than itself, and b would keep it rocking (a box of a quarter of water's density: 0.55 rad/s instead of 0.28, `tests/field/run.py rigid_box`). */
 #ifndef PBMPM_RIGID_H
 #define PBMPM_RIGID_H
 

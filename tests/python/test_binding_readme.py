@@ -19,8 +19,9 @@ def test_the_examples_of_the_readme_run(root: Path, capsys: pytest.CaptureFixtur
     for example in re.findall(r"```python\n(.*?)```", text, re.DOTALL):
         exec(compile(example, "README.md", "exec"), names)
         printed.append(capsys.readouterr().out.splitlines())
-    (figures, highest), (solver,) = printed[:2]
+    (figures, highest), (under,), (solver,) = printed[:3]
     assert figures.endswith("[]") and 0 < float(highest) < 1
+    assert 0.1 < float(under) < 0.9  # the boat swims, and still bobs
     assert "Stop.ITERATIONS" in solver
 
 
