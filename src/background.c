@@ -12,8 +12,8 @@
 
 enum { FIELDS = INSPECT_FIELDS, SETS = 2 };
 
-/* What the step's thread is at. It goes from COPYING to DONE; callers do the rest. */
-typedef enum Stage { IDLE, COPYING, STEPPING, DONE } Stage;
+/* What a step that was begun is at. Whoever first needs the copies makes them: the step, or a view that is asked for before. */
+typedef enum Stage { IDLE, BEGUN, COPYING, COPIED, DONE } Stage;
 
 struct Background {
     World *world;
@@ -34,8 +34,11 @@ struct Background {
     pbmpm_result result;
     char message[256];
 
-    bool has_thread;
+    /* Who steps: a task of the host, or a thread. */
+    bool has_task, has_thread;
+    void *task; /* the host's handle */
     pthread_t thread;
+
     pthread_mutex_t lock; /* guards what follows */
     pthread_cond_t changed;
     Stage stage;
@@ -99,7 +102,7 @@ static pbmpm_result reserve_copies(World *world)
     return PBMPM_OK;
 }
 
-/* ---- The thread ---- */
+/* ---- The step ---- */
 
 static void enter_stage(Background *background, Stage stage)
 {
@@ -109,11 +112,37 @@ static void enter_stage(Background *background, Stage stage)
     pthread_mutex_unlock(&background->lock);
 }
 
-/* Returns false when the thread has to end; a step that has not started is then given up. */
+/* Returns when the copies are there; makes them unless another thread does. So nobody waits for a step that has no thread yet. */
+static void need_copies(Background *background)
+{
+    pthread_mutex_lock(&background->lock);
+    const bool mine = background->stage == BEGUN;
+    if (mine) background->stage = COPYING;
+    while (!mine && background->stage == COPYING) pthread_cond_wait(&background->changed, &background->lock);
+    pthread_mutex_unlock(&background->lock);
+    if (!mine) return;
+    copy_fields(background);
+    enter_stage(background, COPIED);
+}
+
+static void step(Background *background)
+{
+    const uint32_t own = float_mode_enter();
+    float_mode_leave(background->host_mode); /* what functions of the host find */
+    const uint32_t mode = float_mode_enter_from_host();
+    need_copies(background);
+    background->result = world_step(background->world, background->dt);
+    snprintf(background->message, sizeof background->message, "%s", background->result == PBMPM_OK ? "" : result_message());
+    float_mode_leave_to_host(mode);
+    float_mode_leave(own);
+    enter_stage(background, DONE);
+}
+
+/* Returns false when the thread has to end. */
 static bool wait_for_step(Background *background)
 {
     pthread_mutex_lock(&background->lock);
-    while (background->stage != COPYING && !background->quit) pthread_cond_wait(&background->changed, &background->lock);
+    while ((background->stage == IDLE || background->stage == DONE) && !background->quit) pthread_cond_wait(&background->changed, &background->lock);
     const bool go = !background->quit;
     pthread_mutex_unlock(&background->lock);
     return go;
@@ -122,17 +151,14 @@ static bool wait_for_step(Background *background)
 static void *thread_main(void *context)
 {
     Background *background = context;
-    while (wait_for_step(background)) {
-        float_mode_leave(background->host_mode); /* what functions of the host find */
-        const uint32_t mode = float_mode_enter_from_host();
-        copy_fields(background);
-        enter_stage(background, STEPPING);
-        background->result = world_step(background->world, background->dt);
-        snprintf(background->message, sizeof background->message, "%s", background->result == PBMPM_OK ? "" : result_message());
-        float_mode_leave_to_host(mode);
-        enter_stage(background, DONE);
-    }
+    while (wait_for_step(background)) step(background);
     return NULL;
+}
+
+static void host_step(int32_t index, void *context)
+{
+    (void)index;
+    step(context);
 }
 
 /* ---- Life ---- */
@@ -146,34 +172,48 @@ static pbmpm_result make(World *world)
     background->world = world;
     memcpy(background->wanted, usual, sizeof usual);
     background->wanted_count = sizeof usual / sizeof *usual;
+    pthread_mutex_init(&background->lock, NULL);
+    pthread_cond_init(&background->changed, NULL);
     world->background = background;
     return PBMPM_OK;
 }
 
+/* Whether the host's tasks may wait for tasks of their own, as a step does. */
+static bool runs_on_host(const World *world) { return world->def.tasks && world->def.tasks->nests; }
+
 static pbmpm_result start_thread(Background *background)
 {
-    if (background->has_thread) return PBMPM_OK;
-    pthread_mutex_init(&background->lock, NULL);
-    pthread_cond_init(&background->changed, NULL);
+    if (background->has_thread || runs_on_host(background->world)) return PBMPM_OK;
     background->has_thread = thread_start(&background->thread, thread_main, background);
-    if (background->has_thread) return PBMPM_OK;
-    pthread_cond_destroy(&background->changed);
-    pthread_mutex_destroy(&background->lock);
-    return fail(PBMPM_ERROR_THREAD, "could not start the thread of the step");
+    return background->has_thread ? PBMPM_OK : fail(PBMPM_ERROR_THREAD, "could not start the thread of the step");
+}
+
+/* Gives the host's handle back; waits if the step is not done. */
+static void finish_task(Background *background)
+{
+    const pbmpm_task_hooks *hooks = &background->world->tasks;
+    if (!background->has_task) return;
+    background->has_task = false;
+    const uint32_t mode = float_mode_lend();
+    hooks->finish(background->task, hooks->user);
+    float_mode_take_back(mode);
 }
 
 void background_stop(World *world, bool here)
 {
     Background *background = world->background;
-    if (!background || !background->has_thread || !here) return;
-    pthread_mutex_lock(&background->lock);
-    background->quit = true;
-    pthread_cond_broadcast(&background->changed);
-    pthread_mutex_unlock(&background->lock);
-    pthread_join(background->thread, NULL);
+    if (!background || !here) return;
+    finish_task(background);
+    if (background->has_thread) {
+        pthread_mutex_lock(&background->lock);
+        background->quit = true;
+        pthread_cond_broadcast(&background->changed);
+        pthread_mutex_unlock(&background->lock);
+        pthread_join(background->thread, NULL);
+        background->has_thread = false;
+    }
     pthread_cond_destroy(&background->changed);
     pthread_mutex_destroy(&background->lock);
-    background->has_thread = false;
 }
 
 void background_free(World *world)
@@ -214,7 +254,13 @@ pbmpm_result background_begin(World *world, float dt)
     background->dt = dt;
     background->host_mode = float_mode_of_host();
     background->begun = true;
-    enter_stage(background, COPYING);
+    enter_stage(background, BEGUN);
+    if (!runs_on_host(world)) return PBMPM_OK;
+    const pbmpm_task_hooks *hooks = &world->tasks;
+    const uint32_t mode = float_mode_lend();
+    background->task = hooks->enqueue(host_step, 1, background, hooks->user);
+    float_mode_take_back(mode);
+    background->has_task = true;
     return PBMPM_OK;
 }
 
@@ -234,12 +280,14 @@ pbmpm_result background_end(World *world, bool wait)
 {
     Background *background = world->background;
     if (!background_is_stepping(world)) return no_step();
+    if (wait) finish_task(background);
     pthread_mutex_lock(&background->lock);
     while (wait && background->stage != DONE) pthread_cond_wait(&background->changed, &background->lock);
     const bool done = background->stage == DONE;
     if (done) background->stage = IDLE;
     pthread_mutex_unlock(&background->lock);
     if (!done) return result_pass_on(PBMPM_ERROR_BUSY, "the step is not done yet"); /* an answer, not a failure to log */
+    finish_task(background);
     background->begun = false;
     return background->result == PBMPM_OK ? PBMPM_OK : result_pass_on(background->result, background->message);
 }
@@ -251,9 +299,7 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
     if (!inspect_is_field(field)) return inspect_no_field(field);
     for (uint32_t i = 0; i < background->wanted_count; i++) wanted |= background->wanted[i] == field;
     if (!wanted) return fail(PBMPM_ERROR_BUSY, "field %d is not published, and a step is under way", (int)field);
-    pthread_mutex_lock(&background->lock);
-    while (background->stage == COPYING) pthread_cond_wait(&background->changed, &background->lock);
-    pthread_mutex_unlock(&background->lock);
+    need_copies(background);
     if (background->view[field].size == 0) return fail(PBMPM_ERROR_UNSUPPORTED, "the world does not have field %d yet", (int)field);
     *view = background->view[field];
     return PBMPM_OK;

@@ -1,4 +1,4 @@
-/* A step on a thread of its own, and the copy of the particles that can be viewed meanwhile. */
+/* A step on a thread of its own or as a task of the host, and the copy of the particles that can be viewed meanwhile. */
 #ifndef PBMPM_SRC_BACKGROUND_H
 #define PBMPM_SRC_BACKGROUND_H
 
@@ -25,7 +25,7 @@ const pbmpm_stats *background_step_stats(const World *world);
 float background_seconds(const World *world);
 uint64_t background_generation(const World *world);
 
-/* Waits for the step and ends the thread; after a fork (`here` false) there is none. */
+/* Waits for the step and ends the thread. Nothing may be begun after. After a fork (`here` false) there is none. */
 void background_stop(World *world, bool here);
 void background_free(World *world);
 

@@ -53,6 +53,7 @@ const char *world_def_problem(const pbmpm_world_def *def)
     if (def->domain_measures_impulse != 0 && def->domain_measures_impulse != 1) return "world.domain_measures_impulse must be 0 or 1";
     if (def->allocator && (!def->allocator->allocate || !def->allocator->release)) return "world.allocator needs both functions";
     if (def->tasks && (!def->tasks->enqueue || !def->tasks->finish)) return "world.tasks needs both functions";
+    if (def->tasks && def->tasks->nests != 0 && def->tasks->nests != 1) return "world.tasks.nests must be 0 or 1";
     return def->domain_enabled ? domain_problem(def) : NULL;
 }
 

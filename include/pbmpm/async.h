@@ -9,8 +9,10 @@
 extern "C" {
 #endif
 
-/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks. It computes
- * what pbmpm_world_step() would have: results do not depend on how a step was made. From the begin to an end that did not
+/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks. If the hooks
+ * nest (base.h), it is a task of the host instead, and the world has no thread: pbmpm_world_step_begin() enqueues one task, which enqueues others and
+ * finishes them. pbmpm_world_step_end() finishes it, on whichever thread calls that. A job system in which a task may wait for tasks can do this.
+ * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. From the begin to an end that did not
  * give BUSY the world takes these calls only, and answers all others with BUSY:
  *
  *   pbmpm_world_step_end()        waits, or ends the step if it is done;
@@ -26,8 +28,8 @@ extern "C" {
  * Any thread may make them. As ever those that only read share the world; begin and end need it for themselves.
  *
  * Views of before the begin have expired: their memory is what the step works on. Views that are taken while it runs show a copy, the
- * published state. The copy is made by the step's thread before anything else: a view that is asked for right after the begin may
- * wait for it, some milliseconds for a million particles.
+ * published state. The copy is made before anything else, by the step or by the first view that is asked for: that may take
+ * some milliseconds for a million particles.
  *
  * A published state stays readable for a renderer that is a frame late. Begins take turns with two sets of memory. So what a view
  * shows stays, bit for bit, until the next begin but one or until the world is destroyed, whatever else is called. Any thread reads it,
@@ -38,11 +40,11 @@ extern "C" {
  *   pbmpm_world_step_end();            then edit the world, and begin again
  *
  * Memory: two copies of the published fields, for `particle_capacity` particles: 56 bytes per particle in 2D and 72 in 3D for the
- * fields that are published unless told otherwise. It is taken by the first begin and kept, as is the thread. A world that never
+ * fields that are published unless told otherwise. It is taken by the first begin and kept, as is a thread. A world that never
  * begins a step has neither.
  *
- * The step's thread calls the allocator, the task hooks and the log callback too, in the floating-point mode of the thread that began the step. One
- * thread at a time calls the allocator and the hooks of a world. Threads of the library block all signals but faults.
+ * The step calls the allocator, the task hooks and the log callback, in the floating-point mode of the thread that began it. One
+ * thread at a time calls the allocator of a world, and its hooks but for the finish of a step that is a task. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
 

@@ -120,11 +120,13 @@ typedef void pbmpm_task(int32_t index, void *context);
  *  of them have returned. Read at the creation of a world.
  *
  *  Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
- *  not begun; so they may as well run one after another. They neither call enqueue nor finish. A step with 5 iterations enqueues some 10 times with the
+ *  not begun; so they may as well run one after another. They neither call enqueue nor finish, but for a step in the background. A step with 5 iterations enqueues some 10 times with the
  *  paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
- *  For one world one call at a time enqueues: another reader of it meanwhile does its work alone. */
+ *  For one world one call at a time enqueues: another reader of it meanwhile does its work alone. With `nests` the step in the background does so
+ *  while another thread waits for it in `finish`. */
 typedef struct pbmpm_task_hooks {
     uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */
+    int32_t nests; /**< 1: a task may itself call enqueue and finish. Then a step in the background is one more task, see async.h. 0 (default): it may not */
     void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< not null; returns a handle */
     void (*finish)(void *handle, void *user);                                     /**< not null */
     void *user;                                                                   /**< passed on unchanged */

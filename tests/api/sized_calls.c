@@ -84,7 +84,7 @@ static void finish_nothing(void *handle, void *user) { (void)handle, (void)user;
 static void sound_task_hooks(void *structure)
 {
     pbmpm_task_hooks *hooks = structure;
-    *hooks = (pbmpm_task_hooks){sizeof *hooks, enqueue_at_once, finish_nothing, &tasks_done};
+    *hooks = (pbmpm_task_hooks){sizeof *hooks, 0, enqueue_at_once, finish_nothing, &tasks_done};
 }
 
 static pbmpm_result give_task_hooks(const void *structure, void *outcome)

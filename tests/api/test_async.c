@@ -156,7 +156,7 @@ static void finish_nothing(void *handle, void *user)
 
 static void use_hooks(pbmpm_world_def *def, void *user)
 {
-    static pbmpm_task_hooks hooks = {sizeof hooks, enqueue_at_once, finish_nothing, NULL};
+    static pbmpm_task_hooks hooks = {sizeof hooks, 0, enqueue_at_once, finish_nothing, NULL};
     hooks.user = user;
     def->tasks = &hooks;
     def->thread_count = 4;
@@ -167,6 +167,172 @@ static void test_task_hooks_do_the_work(void)
     static int enqueued;
     check_equality(3, &ways[0], use_hooks, &enqueued);
     TEST_ASSERT_TRUE(enqueued > 0);
+}
+
+/* ---- steps that are tasks of the host ---- */
+
+/* A job system that nests. It has no threads: a lone task waits until somebody finishes it, tasks of others run at once. */
+typedef struct late_host {
+    pbmpm_task *task; /* of the step; null: none waits */
+    void *context;
+    int steps, finishes, others;
+} late_host;
+
+static void nothing_left(int32_t index, void *context)
+{
+    (void)index;
+    (void)context;
+}
+
+static void *enqueue_late(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    late_host *host = user;
+    if (count > 1) {
+        host->others++;
+        return enqueue_at_once(task, count, context, &(int){0});
+    }
+    TEST_ASSERT_NULL_MESSAGE(host->task, "two steps are under way");
+    host->task = task;
+    host->context = context;
+    host->steps++;
+    return host;
+}
+
+static void finish_late(void *handle, void *user)
+{
+    late_host *host = user;
+    pbmpm_task *task = host->task;
+    if (handle != host)
+        return;
+    TEST_ASSERT_NOT_NULL_MESSAGE(task, "a step is finished twice");
+    host->finishes++;
+    host->task = NULL;
+    task(0, host->context);
+}
+
+static void use_late_host(pbmpm_world_def *def, void *user)
+{
+    static pbmpm_task_hooks hooks = {sizeof hooks, 1, enqueue_late, finish_late, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
+    def->thread_count = 4;
+}
+
+/* One that runs everything at once: the step is over when its begin returns. */
+static void use_prompt_host(pbmpm_world_def *def, void *user)
+{
+    static pbmpm_task_hooks hooks = {sizeof hooks, 1, enqueue_at_once, finish_nothing, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
+    def->thread_count = 4;
+}
+
+/* One whose tasks have threads of their own. */
+typedef struct task_thread {
+    pthread_t thread;
+    pbmpm_task *task;
+    void *context;
+    int32_t count;
+} task_thread;
+
+static void *run_tasks(void *user)
+{
+    const task_thread *own = user;
+    _mm_setcsr(0x5f80); /* a mode of its own, which the step does not take over, and leaves */
+    for (int32_t i = 0; i < own->count; i++)
+        own->task(i, own->context);
+    return _mm_getcsr() == 0x5f80 ? NULL : user;
+}
+
+static void *enqueue_on_thread(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    task_thread *made = malloc(sizeof *made);
+    (void)user;
+    *made = (task_thread){.task = task, .context = context, .count = count};
+    TEST_ASSERT_EQUAL_INT(0, pthread_create(&made->thread, NULL, run_tasks, made));
+    return made;
+}
+
+static void finish_thread(void *handle, void *user)
+{
+    task_thread *made = handle;
+    void *wrong_mode = NULL;
+    (void)user;
+    pthread_join(made->thread, &wrong_mode);
+    TEST_ASSERT_NULL_MESSAGE(wrong_mode, "a task left another floating-point mode than it found");
+    free(made);
+}
+
+static void use_threaded_host(pbmpm_world_def *def, void *user)
+{
+    static pbmpm_task_hooks hooks = {sizeof hooks, 1, enqueue_on_thread, finish_thread, NULL};
+    (void)user;
+    def->tasks = &hooks;
+    def->thread_count = 3;
+}
+
+static int threads_of_this_process(void)
+{
+    int count = 0;
+    DIR *threads = opendir("/proc/self/task");
+    TEST_ASSERT_NOT_NULL(threads);
+    for (struct dirent *entry; (entry = readdir(threads));)
+        count += entry->d_name[0] != '.';
+    closedir(threads);
+    return count;
+}
+
+static void test_steps_as_tasks_give_the_same_results(void)
+{
+    static int enqueued;
+    check_equality(2, &dual, use_threaded_host, NULL);
+    check_equality(3, &ways[0], use_threaded_host, NULL);
+    check_equality(3, &ways[0], use_prompt_host, &enqueued);
+    TEST_ASSERT_TRUE(enqueued > 0);
+}
+
+/* Nobody but who ends the step works on it, and still no call waits for ever. */
+static void test_a_step_that_no_thread_has_begun(void)
+{
+    late_host host = {0};
+    int32_t done = 1;
+    pbmpm_view view = {.size = sizeof view};
+    const int before = threads_of_this_process();
+    const pbmpm_world_id world = tank_2d(use_late_host, &host);
+    const pbmpm_view old = view_of(world, PBMPM_POSITION);
+    const float first = ((const float *)old.data)[0];
+    OK(pbmpm_world_step_begin(world, 0.01f));
+    TEST_ASSERT_EQUAL_INT(before, threads_of_this_process());
+    OK(pbmpm_world_step_done(world, &done));
+    TEST_ASSERT_EQUAL_INT32(0, done);
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_BUSY, pbmpm_world_step_end(world, 0));
+    OK(pbmpm_particles_view(world, PBMPM_POSITION, &view)); /* makes the copy, which the step then finds */
+    TEST_ASSERT_EQUAL_FLOAT(first, ((const float *)view.data)[0]);
+    OK(pbmpm_world_step_end(world, 1));
+    TEST_ASSERT_EQUAL_FLOAT(first, ((const float *)view.data)[0]);
+    TEST_ASSERT_EQUAL_INT(1, host.steps);
+    TEST_ASSERT_EQUAL_INT(1, host.finishes);
+    TEST_ASSERT_EQUAL_UINT64(1, world_stats(world).step_count);
+    OK(pbmpm_world_step_begin(world, 0.01f));
+    OK(pbmpm_world_destroy(world)); /* finishes it, too */
+    TEST_ASSERT_EQUAL_INT(2, host.finishes);
+}
+
+/* A poll that finds the step done gives its handle back. */
+static void test_polled_steps_are_finished_once(void)
+{
+    late_host host = {0};
+    const pbmpm_world_id world = tank_2d(use_late_host, &host);
+    for (int i = 1; i <= 3; i++) {
+        OK(pbmpm_world_step_begin(world, 0.01f));
+        pbmpm_task *task = host.task;
+        task(0, host.context); /* a worker of the host takes it */
+        host.task = nothing_left;
+        OK(pbmpm_world_step_end(world, 0));
+        TEST_ASSERT_EQUAL_INT(i, host.finishes);
+    }
+    OK(pbmpm_world_step(world, 0.01f)); /* no task of its own */
+    TEST_ASSERT_EQUAL_INT(3, host.steps);
 }
 
 /* ---- views ---- */
@@ -500,7 +666,7 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     const unsigned own = _mm_getcsr();
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
     def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
-    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), noting_enqueue, noting_finish, NULL};
+    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, noting_enqueue, noting_finish, NULL};
     def.thread_count = 2;
     own_thread = pthread_self();
     calls_elsewhere = wrong_modes = 0;
@@ -776,6 +942,9 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_results_are_those_of_steps_that_wait);
     RUN_TEST(test_task_hooks_do_the_work);
+    RUN_TEST(test_steps_as_tasks_give_the_same_results);
+    RUN_TEST(test_a_step_that_no_thread_has_begun);
+    RUN_TEST(test_polled_steps_are_finished_once);
     RUN_TEST(test_views_show_the_state_before_the_step);
     RUN_TEST(test_views_expire_at_the_begin_and_at_the_end);
     RUN_TEST(test_figures_of_the_step_before);

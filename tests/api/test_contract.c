@@ -316,7 +316,7 @@ static void test_world_returns_its_own_allocator_and_hooks(void)
     static ledger book;
     static pbmpm_task_hooks hooks;
     book = (ledger){0};
-    hooks = (pbmpm_task_hooks){sizeof hooks, enqueue_at_once, finish_nothing, &hooks};
+    hooks = (pbmpm_task_hooks){sizeof hooks, 0, enqueue_at_once, finish_nothing, &hooks};
     pbmpm_world_def def = default_world(2, 0.1f, 100), read = {.size = sizeof read};
     def.allocator = ledger_allocator(&book);
     def.tasks = &hooks;

@@ -224,7 +224,7 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     const unsigned own = _mm_getcsr() & ~0x3fu; /* without the sticky flags */
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
     def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
-    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), noting_enqueue, noting_finish, NULL};
+    def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, noting_enqueue, noting_finish, NULL};
     def.thread_count = 2;
     seen_in_host = 0;
     host_calls = 0;

@@ -57,7 +57,7 @@ static pbmpm_world_id make_pool(const pool_plan *plan, host *own)
         def.domain_max[a] = size;
     if (own) {
         def.thread_count = THREADS;
-        hooks = (pbmpm_task_hooks){sizeof hooks, host_enqueue, host_finish, own};
+        hooks = (pbmpm_task_hooks){sizeof hooks, 0, host_enqueue, host_finish, own};
         def.tasks = &hooks;
     }
     const pbmpm_world_id world = create_world(&def);

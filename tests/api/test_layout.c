@@ -20,7 +20,7 @@ static const pbmpm_layout_entry expected[] = {
     WHOLE(pbmpm_allocator),
     FIELD(pbmpm_allocator, size), FIELD(pbmpm_allocator, allocate), FIELD(pbmpm_allocator, release), FIELD(pbmpm_allocator, user),
     WHOLE(pbmpm_task_hooks),
-    FIELD(pbmpm_task_hooks, size), FIELD(pbmpm_task_hooks, enqueue), FIELD(pbmpm_task_hooks, finish), FIELD(pbmpm_task_hooks, user),
+    FIELD(pbmpm_task_hooks, size), FIELD(pbmpm_task_hooks, nests), FIELD(pbmpm_task_hooks, enqueue), FIELD(pbmpm_task_hooks, finish), FIELD(pbmpm_task_hooks, user),
     WHOLE(pbmpm_layout_entry),
     FIELD(pbmpm_layout_entry, structure), FIELD(pbmpm_layout_entry, field), FIELD(pbmpm_layout_entry, offset),
     FIELD(pbmpm_layout_entry, size),

@@ -92,7 +92,8 @@ static void test_half_given_callbacks(void)
     const pbmpm_allocator allocators[] = {
         {sizeof *allocators, no_memory, NULL, NULL}, {sizeof *allocators, NULL, no_release, NULL}, {.size = sizeof *allocators}};
     const pbmpm_task_hooks hooks[] = {
-        {sizeof *hooks, no_enqueue, NULL, NULL}, {sizeof *hooks, NULL, no_finish, NULL}, {.size = sizeof *hooks}};
+        {sizeof *hooks, 0, no_enqueue, NULL, NULL}, {sizeof *hooks, 1, NULL, no_finish, NULL}, {.size = sizeof *hooks},
+        {sizeof *hooks, 2, no_enqueue, no_finish, NULL}, {sizeof *hooks, -1, no_enqueue, no_finish, NULL}};
     pbmpm_world_def def = default_world(2, 0.1f, 16);
     pbmpm_world_id world;
     for (int i = 0; i < 3; i++) {
@@ -100,7 +101,7 @@ static void test_half_given_callbacks(void)
         EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
     }
     def.allocator = NULL;
-    for (int i = 0; i < 3; i++) {
+    for (size_t i = 0; i < sizeof hooks / sizeof *hooks; i++) {
         def.tasks = &hooks[i];
         EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_world_create(&def, &world));
     }

@@ -306,7 +306,7 @@ static void host_finish_nothing(void *handle, void *user)
 
 static void use_host(pbmpm_world_def *def, void *user)
 {
-    static pbmpm_task_hooks hooks = {sizeof hooks, host_enqueue, host_finish, NULL};
+    static pbmpm_task_hooks hooks = {sizeof hooks, 0, host_enqueue, host_finish, NULL};
     hooks.user = user;
     def->tasks = &hooks;
     def->thread_count = 4;
@@ -314,7 +314,7 @@ static void use_host(pbmpm_world_def *def, void *user)
 
 static void use_host_at_once(pbmpm_world_def *def, void *user)
 {
-    static pbmpm_task_hooks hooks = {sizeof hooks, host_enqueue_at_once, host_finish_nothing, NULL};
+    static pbmpm_task_hooks hooks = {sizeof hooks, 0, host_enqueue_at_once, host_finish_nothing, NULL};
     hooks.user = user;
     def->tasks = &hooks;
     def->thread_count = 7;
@@ -377,7 +377,7 @@ static void finish_held(void *handle, void *user)
 
 static void use_holding_host(pbmpm_world_def *def, void *user)
 {
-    static pbmpm_task_hooks hooks = {sizeof hooks, enqueue_and_hold, finish_held, NULL};
+    static pbmpm_task_hooks hooks = {sizeof hooks, 0, enqueue_and_hold, finish_held, NULL};
     hooks.user = user;
     def->tasks = &hooks;
     def->thread_count = 2;

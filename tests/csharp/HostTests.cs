@@ -116,6 +116,35 @@ static class HostTests
     }
 
     [Test]
+    static void ABackgroundStepIsATaskWhereTasksNest()
+    {
+        int single = 0, finished = 0;
+        var tasks = new HostTasks(batch =>
+        {
+            if (batch.Count == 1) Interlocked.Increment(ref single);
+            return Task.Run(() => Parallel.For(0, batch.Count, batch.Run));
+        }, handle =>
+        {
+            ((Task)handle).Wait();
+            Interlocked.Increment(ref finished);
+        }, true);
+        ulong alone;
+        using (var world = FullWorld(null))
+        {
+            world.Step(Scenes.Frame);
+            alone = world.StateHash;
+        }
+        using (var world = FullWorld(tasks))
+        {
+            world.BeginStep(Scenes.Frame);
+            world.EndStep();
+            Expect.Equal(alone, world.StateHash, "hash");
+            Expect.Equal(1, single, "steps that were tasks");
+            Expect.True(finished > 1, "it had tasks of its own");
+        }
+    }
+
+    [Test]
     static void AWorldKeepsWhatTheHostLentToIt()
     {
         var blocks = new Blocks();

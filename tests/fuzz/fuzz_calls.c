@@ -174,7 +174,7 @@ static void finish(void *handle, void *user)
 
 static void hooks_pbmpm_task_hooks(Bytes *in, pbmpm_task_hooks *it)
 {
-    *it = (pbmpm_task_hooks){odd_size(in, sizeof *it), enqueue, finish, NULL};
+    *it = (pbmpm_task_hooks){odd_size(in, sizeof *it), (int32_t)bytes_u8(in) % 4 - 1, enqueue, finish, NULL};
 }
 
 static size_t told;

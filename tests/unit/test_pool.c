@@ -170,7 +170,7 @@ static void test_hooks_do_the_work(void)
     Books books;
     Memory memory = books_memory(&books, 0);
     Host host = {0};
-    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), enqueue, finish, &host});
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, enqueue, finish, &host});
     for (int round = 0; round < 100; round++) {
         host.backwards = round % 2;
         check_loop(pool, &work, 10 + round * 29, 3, 3);
@@ -257,7 +257,7 @@ static void test_loops_take_one_turn_of_the_host(void)
     Books books;
     Memory memory = books_memory(&books, 0);
     Host host = {0};
-    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), enqueue, finish, &host});
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, enqueue, finish, &host});
     for (int round = 0; round < 20; round++) {
         host.backwards = round % 2;
         run_chain(pool, &chain, LOOPS_MAX, (uint64_t)round, MUCH_NS, -1);
@@ -288,7 +288,7 @@ static void test_little_work_stays_on_the_caller(void)
     Books books;
     Memory memory = books_memory(&books, 0);
     Host host = {0};
-    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), enqueue, finish, &host});
+    Pool *pool = open_pool(&memory, 5, &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, enqueue, finish, &host});
     run_chain(pool, &chain, 10, 1, 10, -1);
     TEST_ASSERT_EQUAL_INT(0, host.enqueued);
     pool_set_serial(pool, true);

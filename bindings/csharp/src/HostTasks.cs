@@ -49,20 +49,26 @@ namespace Pbmpm
 
         readonly EnqueueTasks enqueue;
         readonly FinishTasks finish;
+        readonly bool nests;
 
         /// <param name="enqueue">Called by any thread that calls the library, and by that of a step in the background.</param>
-        /// <param name="finish">Called by the same thread.</param>
-        public HostTasks(EnqueueTasks enqueue, FinishTasks finish)
+        /// <param name="finish">Called by the same thread; for a step that is a task by the one that ends it.</param>
+        /// <param name="nests">Whether a task may itself enqueue tasks and finish them. Then a step in the background is one, and
+        /// its world has no thread for it.</param>
+        public HostTasks(EnqueueTasks enqueue, FinishTasks finish, bool nests = false)
         {
+            this.nests = nests;
             this.enqueue = enqueue ?? throw new ArgumentNullException(nameof(enqueue));
             this.finish = finish ?? throw new ArgumentNullException(nameof(finish));
         }
 
-        internal static TaskHooks Hooks(IntPtr user)
+        /// <summary>`tasks` null: they are not given to the library.</summary>
+        internal static TaskHooks Hooks(HostTasks tasks, IntPtr user)
         {
             return new TaskHooks
             {
                 Size = (uint)sizeof(TaskHooks),
+                Nests = tasks != null && tasks.nests ? 1 : 0,
                 Enqueue = Marshal.GetFunctionPointerForDelegate(EnqueueEntry),
                 Finish = Marshal.GetFunctionPointerForDelegate(FinishEntry),
                 User = user,

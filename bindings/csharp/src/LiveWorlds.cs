@@ -18,7 +18,7 @@ namespace Pbmpm
         public static WorldId Create(WorldDef definition, HostTasks tasks, HostMemory memory)
         {
             var lent = new Lent(tasks, memory);
-            var hooks = HostTasks.Hooks(lent.Tasks);
+            var hooks = HostTasks.Hooks(tasks, lent.Tasks);
             var allocator = HostMemory.Hooks(lent.Memory);
             if (tasks != null) definition.Tasks = (IntPtr)(&hooks);
             if (memory != null) definition.Allocator = (IntPtr)(&allocator);

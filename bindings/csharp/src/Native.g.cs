@@ -1607,14 +1607,17 @@ namespace Pbmpm.Native
     /// of them have returned. Read at the creation of a world.
     ///
     /// Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
-    /// not begun; so they may as well run one after another. They neither call enqueue nor finish. A step with 5 iterations enqueues some 10 times with the
+    /// not begun; so they may as well run one after another. They neither call enqueue nor finish, but for a step in the background. A step with 5 iterations enqueues some 10 times with the
     /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
-    /// For one world one call at a time enqueues: another reader of it meanwhile does its work alone.</summary>
+    /// For one world one call at a time enqueues: another reader of it meanwhile does its work alone. With `nests` the step in the background does so
+    /// while another thread waits for it in `finish`.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
         /// <summary>sizeof(pbmpm_task_hooks), set by the caller</summary>
         public uint Size;
+        /// <summary>1: a task may itself call enqueue and finish. Then a step in the background is one more task, see async.h. 0 (default): it may not</summary>
+        public int Nests;
         /// <summary>not null; returns a handle</summary>
         public IntPtr Enqueue;
         /// <summary>not null</summary>
@@ -2626,6 +2629,7 @@ namespace Pbmpm.Native
         {
             var it = default(TaskHooks);
             fields.Add(new MirrorField("pbmpm_task_hooks", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_task_hooks", "nests", &it, &it.Nests, &it.Nests + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "enqueue", &it, &it.Enqueue, &it.Enqueue + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "finish", &it, &it.Finish, &it.Finish + 1, false));
             fields.Add(new MirrorField("pbmpm_task_hooks", "user", &it, &it.User, &it.User + 1, false));

@@ -73,7 +73,7 @@ static pbmpm_world_id make_world(void)
     pbmpm_settings *settings = NEW(pbmpm_settings);
     pbmpm_world_id world;
     *allocator = (pbmpm_allocator){sizeof *allocator, take, give, &blocks};
-    *tasks = (pbmpm_task_hooks){sizeof *tasks, run_all, nothing, &jobs};
+    *tasks = (pbmpm_task_hooks){sizeof *tasks, 0, run_all, nothing, &jobs};
     OK(pbmpm_world_def_init(def, sizeof *def));
     def->dimension = 2;
     def->particle_capacity = 4000;
