@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include "api_call.h"
+#include "assertion.h"
 #include "background.h"
 #include "colliders.h"
 #include "copy.h"
@@ -54,6 +55,13 @@ const char *pbmpm_last_error(void) { return result_message(); }
 pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user)
 {
     result_set_log(callback, user);
+    return PBMPM_OK;
+}
+
+pbmpm_result pbmpm_set_assert_callback(pbmpm_assert_callback *callback, void *user)
+{
+    if (!ASSERTS) return fail(PBMPM_ERROR_UNSUPPORTED, "the library was built without assertions (PBMPM_ASSERTS)");
+    assertion_set_callback(callback, user);
     return PBMPM_OK;
 }
 

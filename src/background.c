@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "assertion.h"
 #include "cpu.h"
 #include "inspect.h"
 #include "result.h"
@@ -127,6 +128,7 @@ static void need_copies(Background *background)
 
 static void step(Background *background)
 {
+    ASSERT(background->begun);
     const uint32_t own = float_mode_enter();
     float_mode_leave(background->host_mode); /* what functions of the host find */
     const uint32_t mode = float_mode_enter_from_host();
@@ -254,6 +256,7 @@ pbmpm_result background_begin(World *world, float dt)
     background->dt = dt;
     background->host_mode = float_mode_of_host();
     background->begun = true;
+    ASSERT(background->stage == IDLE && !background->has_task);
     enter_stage(background, BEGUN);
     if (!runs_on_host(world)) return PBMPM_OK;
     const pbmpm_task_hooks *hooks = &world->tasks;

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assertion.h"
 #include "concave.h"
 #include "numbers.h"
 #include "reach.h"
@@ -47,6 +48,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     array_free(memory, &colliders->contact_begin);
     array_free(memory, &colliders->solid);
     array_free(memory, &colliders->open);
+    array_free(memory, &colliders->groups);
     array_free(memory, &colliders->gap);
     impulses_free(&colliders->impulses, memory);
     *colliders = (Colliders){0};
@@ -70,7 +72,6 @@ const char *collider_problem(const pbmpm_collider_def *def)
     if (!in_range(def->friction_coefficient, 0.0, 100.0)) return "collider.friction_coefficient must be in [0, 100]";
     if (def->kinematic != 0 && def->kinematic != 1) return "collider.kinematic must be 0 or 1";
     if (def->measures_impulse != 0 && def->measures_impulse != 1) return "collider.measures_impulse must be 0 or 1";
-    if (def->reserved != 0) return "collider.reserved must be 0";
     if (def->sensor != 0 && def->sensor != 1) return "collider.sensor must be 0 or 1";
     if (def->reports_touches != 0 && def->reports_touches != 1) return "collider.reports_touches must be 0 or 1";
     if (def->sensor && def->measures_impulse) return "a collider that is a sensor gets no impulse to measure";
@@ -168,7 +169,8 @@ bool collider_moves(const Collider *collider)
 Obstacle collider_obstacle(const Collider *collider, int dimension, int part, int parts)
 {
     const pbmpm_collider_def *def = &collider->def;
-    Obstacle o = {.moves = collider->moving, .friction = def->friction, .coefficient = def->friction_coefficient, .measures = def->measures_impulse};
+    Obstacle o = {.moves = collider->moving, .friction = def->friction, .coefficient = def->friction_coefficient, .measures = def->measures_impulse,
+                  .meets = def->meets};
     if (!collider->moving) {
         o.start = o.end = solid_at(collider, &collider->shape, dimension);
         return o;
@@ -331,6 +333,18 @@ typedef struct Around {
     double reach[OBSTACLES], most;
 } Around;
 
+/* Those that act on what is at a node of the grid: `around` itself if all do, else `some`. */
+static const Around *around_node(const ContactFrame *frame, const Around *around, size_t node, Around *some)
+{
+    const uint32_t groups = contacts_node_groups(frame, node);
+    if (field_meeting(&around->near, groups, &some->near) == &around->near) return around;
+    int kept = 0;
+    some->most = around->most;
+    for (int k = 0; k < around->near.count; k++)
+        if (obstacle_meets(around->near.obstacle[k], groups)) some->reach[kept++] = around->reach[k];
+    return some;
+}
+
 /* Contacts of a node that is deeper inside than its spline reaches, or where obstacles have closed on matter: with that whose surface is nearest, or where liquid stays
  * between them with each that it is in. */
 static uint32_t contacts_deep_inside(const ContactFrame *frame, const Around *around, const double point[3], int node, Contact *out)
@@ -398,10 +412,10 @@ static uint32_t contacts_that_stay(const ContactFrame *frame, int32_t block, int
 }
 
 /* Contacts of one block's nodes; writes them if `out` is not null, and returns their number. */
-static uint32_t contacts_of_block(const ContactFrame *frame, const Around *around, int32_t block, Contact *out)
+static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, int32_t block, Contact *out)
 {
     const Grid *grid = frame->grid;
-    const Near *near = &around->near;
+    Around some;
     const float *node = (const float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
     uint32_t count = 0;
     for (int i = 0; i < grid->block_cells; i++) {
@@ -413,7 +427,9 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *aroun
             count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
             continue;
         }
-        if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > around->most) continue;
+        if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > all->most) continue;
+        const Around *around = around_node(frame, all, (size_t)block * (size_t)grid->block_cells + (size_t)i, &some);
+        const Near *near = &around->near;
         contacts_node_position(frame, block, i, point);
         count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);
         for (int k = 0; k < near->count; k++) {
@@ -493,6 +509,7 @@ static void measure_blocks(void *context, int32_t begin, int32_t end)
     const ContactFrame *frame = job->frame;
     const size_t cells = (size_t)frame->grid->block_cells;
     Around around;
+    Near some;
     for (int32_t block = begin; block < end; block++) {
         const float *node = (const float *)frame->grid->node.data + (size_t)block * cells * K_NODE_WIDTH;
         float *gap = (float *)frame->colliders->gap.data + (size_t)block * cells;
@@ -502,7 +519,7 @@ static void measure_blocks(void *context, int32_t begin, int32_t end)
             gap[i] = INFINITY;
             if (around.near.count == 0 || !(node[i * K_NODE_WIDTH + 3] > 0.0f)) continue;
             contacts_node_position(frame, block, (int)i, point);
-            gap[i] = (float)field_distance(&around.near, point);
+            gap[i] = (float)field_distance(field_meeting(&around.near, contacts_node_groups(frame, (size_t)block * cells + i), &some), point);
         }
     }
 }
@@ -519,6 +536,14 @@ pbmpm_result contacts_measure(ContactFrame *frame, Memory *memory, Pool *pool)
     pool_for(pool, frame->grid->node_blocks, 16, measure_blocks, &job);
     frame->gap = colliders->gap.data;
     return PBMPM_OK;
+}
+
+static bool contact_is_sound(const ContactFrame *frame, const Contact *contact)
+{
+    const float *n = contact->normal, length2 = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
+    const bool has_normal = contact->friction != PBMPM_FRICTION_STICK; /* others that stick need none */
+    return contact->node < frame->grid->block_cells && contact->obstacle <= frame->colliders->obstacle_count && contact->gap >= 0.0f &&
+           (!has_normal || fabsf(length2 - 1.0f) < 1e-3f);
 }
 
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool)
@@ -543,6 +568,7 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     job.write = true;
     pool_for(pool, blocks, 16, find_in_blocks, &job);
     colliders->contacts = contact_begin[blocks];
+    for (uint32_t i = 0; ASSERTS && i < colliders->contacts; i++) ASSERT(contact_is_sound(frame, (const Contact *)colliders->contact.data + i));
     if (colliders->measures && colliders->contacts) memset(colliders->impulses.contact.data, 0, 3 * colliders->contacts * sizeof(double));
     return PBMPM_OK;
 }

@@ -30,7 +30,13 @@ typedef struct Obstacle {
     float coefficient;
     bool measures;
     uint16_t place; /* of its impulse, see Impulses.sum */
+    uint32_t meets; /* groups of materials; 0: all */
 } Obstacle;
+
+/* Whether what `meets` these groups acts on matter of those; see pbmpm_collider_def. */
+static const uint32_t ALL_GROUPS = UINT32_MAX;
+static inline bool groups_meet(uint32_t meets, uint32_t groups) { return meets == 0 || (meets & groups) != 0; }
+static inline bool obstacle_meets(const Obstacle *obstacle, uint32_t groups) { return groups_meet(obstacle->meets, groups); }
 
 /* A node that an obstacle may meet in this substep. Displacements and lengths in cells. */
 typedef struct Contact {
@@ -60,6 +66,7 @@ typedef struct Colliders {
     uint32_t contacts;
     Array solid;         /* uint64_t per node block: see ContactFrame.solid */
     Array open;          /* float per node: the share that is open */
+    Array groups;        /* uint32_t per node: those of the materials there; 0: none is */
     Array gap;           /* float per node with mass: how far [cells] the next surface is, negative inside; infinite where none is near */
 
     Impulses impulses;
@@ -117,8 +124,22 @@ typedef struct ContactFrame {
     bool apart;                  /* walls leave those nodes to contacts: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
     const float *gap;            /* Colliders.gap once it is measured; null before */
+    const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
+    const uint32_t *groups;             /* Colliders.groups, likewise */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
+
+/* The groups of the matter at a node of the grid, and of a particle; all where that does not matter. */
+static inline uint32_t contacts_node_groups(const ContactFrame *frame, size_t node)
+{
+    return frame->groups && frame->groups[node] ? frame->groups[node] : ALL_GROUPS;
+}
+
+static inline uint32_t contacts_row_groups(const ContactFrame *frame, const Particles *particles, uint32_t row)
+{
+    return frame->material ? frame->material[particles->material[row]].groups : ALL_GROUPS;
+}
+
 /* Finds frame->gap, which the others need. */
 pbmpm_result contacts_measure(ContactFrame *frame, Memory *memory, Pool *pool);
 pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool);

@@ -80,24 +80,24 @@ static void node_place(const World *world, const int32_t node[3], double place[3
     for (int a = 0; a < 3; a++) place[a] = a < world->def.dimension ? node[a] * (double)world->def.cell_size : 0.0;
 }
 
-static double open_share_of(const World *world, const int32_t node[3])
+static double open_share_of(const World *world, uint32_t groups, const int32_t node[3])
 {
     double place[3];
     node_place(world, node, place);
     const ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size};
-    return open_share_at(&frame, place);
+    return open_share_at(&frame, place, groups);
 }
 
 /* Farther inside of an obstacle than this [cells] a node has no room, and open_share_at() says no more than that it is small. */
 static const double CLOSED = 1.001;
 
-static double room_at(const World *world, const int32_t node[3])
+static double room_at(const World *world, uint32_t groups, const int32_t node[3])
 {
     double point[3], normal[3];
     node_place(world, node, point);
     for (int i = 0; i < world->colliders.obstacle_count; i++)
-        if (obstacle_distance(&world->colliders.obstacle[i], point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
-    return open_share_of(world, node);
+        if (obstacle_meets(&world->colliders.obstacle[i], groups) && obstacle_distance(&world->colliders.obstacle[i], point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
+    return open_share_of(world, groups, node);
 }
 
 /* The volume that obstacles leave open if they enclose it: whatever the gaps between particles look like, more does not fit. The outermost two nodes to
@@ -120,7 +120,7 @@ static double room_of(const World *world, const Crowd *crowd)
                     node[a] = crowd->low[a] + at[a];
                     outermost = outermost || at[a] == first[a] || at[a] == last[a];
                 }
-                const double share = room_at(world, node);
+                const double share = room_at(world, crowd->groups, node);
                 if (outermost && share > 0.0) return INFINITY;
                 room += share;
             }
@@ -160,7 +160,7 @@ double crowd_filling(const World *world, const Crowd *crowd, const double place[
                     weight *= CROWD_WIDE + 1 - abs(offset[a]);
                 }
                 held += weight * (double)crowd->volume[at];
-                open += weight * (walled ? open_share_of(world, node) : 1.0);
+                open += weight * (walled ? open_share_of(world, crowd->groups, node) : 1.0);
             }
     return held / open;
 }
@@ -177,10 +177,10 @@ double crowd_density(const Crowd *crowd, int dimension, const Spot *spot)
 }
 
 /* How near the next obstacle is [cells]; negative inside. */
-double crowd_clearance(const World *world, const double point[3])
+double crowd_clearance(const World *world, const Crowd *crowd, const double point[3])
 {
     double nearest = INFINITY, normal[3];
     for (int i = 0; i < world->colliders.obstacle_count; i++)
-        nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
+        if (obstacle_meets(&world->colliders.obstacle[i], crowd->groups)) nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
     return nearest / (double)world->def.cell_size;
 }

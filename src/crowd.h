@@ -12,6 +12,7 @@ enum {
 typedef struct Crowd {
     int32_t low[3];
     int32_t size[3]; /* nodes */
+    uint32_t groups; /* of the emitter's material */
     float *volume;
     double held; /* rest volume of all particles [cells] */
     double room; /* what a closed room around the nodes has [cells]; infinite where it is open */
@@ -41,6 +42,6 @@ double crowd_filling(const World *world, const Crowd *crowd, const double place[
 double crowd_density(const Crowd *crowd, int dimension, const Spot *spot);
 
 /* How near the next obstacle is to a point [m], in cells; negative inside. */
-double crowd_clearance(const World *world, const double point[3]);
+double crowd_clearance(const World *world, const Crowd *crowd, const double point[3]);
 
 #endif

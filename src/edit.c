@@ -153,8 +153,9 @@ static bool make_lattice(const World *world, const pbmpm_fill_def *def, const pb
 static const double ON_OBSTACLE = 1e-4;
 
 /* Obstacles where they stand now; matter that is put into them would be pushed out to where there may be no room. */
-static void look_for_obstacles(World *world, Lattice *lattice, Near *near)
+static void look_for_obstacles(World *world, uint32_t groups, Lattice *lattice, Near *near)
 {
+    Near all;
     const ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size};
     double centre[3] = {0}, reach = 0.0;
     for (int a = 0; a < world->def.dimension; a++) {
@@ -164,9 +165,11 @@ static void look_for_obstacles(World *world, Lattice *lattice, Near *near)
         reach += 0.25 * (high - low) * (high - low);
     }
     colliders_begin_substep(&world->colliders, NULL, world->def.dimension, 0, 1);
-    field_near(near, &frame, centre, sqrt(reach) / frame.cell_size + 1.0, false);
-    near->dimension = world->def.dimension; /* the grid of a new world has none yet */
-    if (near->count == 0) return;
+    field_near(&all, &frame, centre, sqrt(reach) / frame.cell_size + 1.0, false);
+    all.dimension = world->def.dimension; /* the grid of a new world has none yet */
+    const Near *meeting = field_meeting(&all, groups, near);
+    if (meeting->count == 0) return;
+    if (meeting == &all) *near = all;
     lattice->near = near;
     lattice->whole = false;
 }
@@ -285,7 +288,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shap
     Near near;
     if (!make_lattice(world, def, shape, &lattice))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape is too large: more than 2^30 lattice points in the domain");
-    look_for_obstacles(world, &lattice, &near);
+    look_for_obstacles(world, world->materials.def[def->material.index].groups, &lattice, &near);
     const uint64_t count = count_points(world, &lattice, def);
     if (added) *added = count > UINT32_MAX ? UINT32_MAX : (uint32_t)count;
     if (count > world->particles.capacity - world->particles.count) return no_room(world, count);

@@ -336,7 +336,7 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, 
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double way = ((double)emitter->def.speed + sqrt(gravity2) * (double)dt) * (double)dt / dx;
     const double reach = fmin(way, (double)world->settings.max_displacement) + CROWD_WIDE + 2.0;
-    Crowd crowd = {.size = {1, 1, 1}};
+    Crowd crowd = {.size = {1, 1, 1}, .groups = world->materials.def[emitter->def.material.index].groups};
     double low[2][3], high[2][3];
     for (int end = 0; end < 2; end++) {
         const Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + end) / parts));
@@ -405,10 +405,10 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     const double limit = (double)world->settings.max_displacement * (double)world->def.cell_size;
     const double slow = length > limit * limit ? limit / sqrt(length) : 1.0;
     for (int a = 0; a < world->def.dimension; a++) point[a] = birth->point[a] + slow * way[a];
-    double clear = crowd_clearance(world, point);
+    double clear = crowd_clearance(world, crowd, point);
     if (clear < 0.0) { /* something is in the way */
         memcpy(point, birth->point, sizeof point);
-        clear = crowd_clearance(world, point);
+        clear = crowd_clearance(world, crowd, point);
     }
     if (clear < -SURFACE) return false;
     const Domain *domain = &world->domain;

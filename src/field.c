@@ -40,6 +40,21 @@ void field_near(Near *near, const ContactFrame *frame, const double centre[3], d
     }
 }
 
+const Near *field_meeting(const Near *near, uint32_t groups, Near *some)
+{
+    int meet = 0;
+    if (groups == ALL_GROUPS) return near;
+    for (int i = 0; i < near->count; i++) meet += obstacle_meets(near->obstacle[i], groups);
+    if (meet == near->count) return near;
+    some->cell_size = near->cell_size;
+    some->dimension = near->dimension;
+    some->at_end = near->at_end;
+    some->count = 0;
+    for (int i = 0; i < near->count; i++)
+        if (obstacle_meets(near->obstacle[i], groups)) some->obstacle[some->count++] = near->obstacle[i];
+    return some;
+}
+
 double field_distance(const Near *near, const double point[3])
 {
     double least = INFINITY, normal[3];

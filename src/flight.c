@@ -86,6 +86,7 @@ static bool is_far_from_all(const Flight *flight, uint32_t row, const Motion *mo
     for (int a = 0; a < world->def.dimension; a++) point[a] = particles_coordinate(&world->particles, row, a) * dx;
     for (int i = 0; i < colliders->obstacle_count; i++) {
         float surface[3];
+        if (!obstacle_meets(&colliders->obstacle[i], world->materials.def[world->particles.material[row]].groups)) continue;
         obstacle_motion(&colliders->obstacle[i], point, dx, world->settings.max_displacement, surface);
         double reach = nodes + way + FELT;
         for (int a = 0; a < 3; a++) reach += fabs((double)surface[a]);

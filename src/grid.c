@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "assertion.h"
 #include "block_cells.h"
 #include "result.h"
 
@@ -552,6 +553,25 @@ static void link_all(Grid *grid, Particles *p, Loops *loops)
     LOOPS_ADD(loops, grid_nodes(grid, BLOCK_GRAIN), link_neighbours, &job);
 }
 
+bool grid_is_sound(const Grid *grid)
+{
+    const uint32_t *begin = grid->block_begin.data, *run = grid->block_run.data;
+    const int32_t *neighbour = grid->neighbour.data, blocks = grid_row_blocks(grid), self = grid->neighbours / 2;
+    bool sound = grid->still_blocks <= grid->particle_blocks && grid->particle_blocks <= grid->node_blocks;
+    if (blocks == 0) return sound;
+    sound = sound && begin[0] == grid->first_row && begin[blocks] == grid->end_row && run[0] == 0 && run[blocks] == grid->runs;
+    for (int32_t b = 0; b < blocks; b++) sound = sound && begin[b] < begin[b + 1] && run[b] < run[b + 1];
+    for (uint32_t r = 0; r < grid->runs; r++) {
+        const bool in_cell = (grid->run_key[r] & K_RUN_CELL_MASK) < (uint32_t)grid->block_cells;
+        sound = sound && in_cell && grid->run_begin[r] < grid->run_begin[r + 1];
+    }
+    for (int32_t b = 0; b < grid->node_blocks; b++) {
+        sound = sound && neighbour[b * grid->neighbours + self] == b;
+        for (int n = 0; n < grid->neighbours; n++) sound = sound && neighbour[b * grid->neighbours + n] < grid->node_blocks;
+    }
+    return sound;
+}
+
 pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, bool with_volume, uint32_t first)
 {
     grid->first_row = first;
@@ -563,6 +583,7 @@ pbmpm_result grid_finish(Grid *grid, Memory *memory, Particles *p, Pool *pool, b
     particles_reorder(p, grid->order, first, &loops);
     link_all(grid, p, &loops);
     loops_run(&loops);
+    ASSERT(grid_is_sound(grid));
     return PBMPM_OK;
 }
 

@@ -146,6 +146,9 @@ pbmpm_result grid_arrange_part(Grid *part, Memory *memory, Particles *particles,
 /* After the particles were brought into the order of all parts. Adds its loops to others. */
 void grid_link_part(Grid *part, Particles *particles, Loops *loops);
 
+/* Whether its tables fit each other: blocks, rows, runs, neighbours. For assertions. */
+bool grid_is_sound(const Grid *grid);
+
 /* Frees what a part does not share. */
 void grid_free_part(Grid *part, Memory *memory);
 

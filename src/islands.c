@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "assertion.h"
 #include "result.h"
 #include "sets.h"
 #include "solver.h"
@@ -183,6 +184,7 @@ static void share_out(World *world)
         for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) first += islands->particles[g][slot];
         grid_share(g == 0 ? grid : &islands->part[g], grid, g, next[g], first);
     }
+    ASSERT(first == world->particles.count);
     for (uint32_t row = 0; row < world->particles.count; row++) grid->order_scratch[next[group_of(world, row)]++] = row;
 }
 
@@ -207,6 +209,7 @@ static pbmpm_result build_groups(World *world)
     particles_reorder(p, world->grid.order, 0, &loops);
     for (int g = 0; g < islands->groups; g++) grid_link_part(g == 0 ? &world->grid : &islands->part[g], p, &loops);
     loops_run(&loops);
+    for (int g = 0; g < islands->groups; g++) ASSERT(grid_is_sound(islands_grid(world, g)));
     return PBMPM_OK;
 }
 

@@ -52,7 +52,8 @@ pbmpm_material_def material_defaults(void)
                                 .friction_angle = 0.52359878f,
                                 .volume_correction = 1,
                                 .yield_strain = 0.05f,
-                                .flow_rate = 100.0f};
+                                .flow_rate = 100.0f,
+                                .groups = 1};
 }
 
 static const char *modulus_problem(const pbmpm_material_def *def)
@@ -91,6 +92,8 @@ const char *material_problem(const pbmpm_material_def *def)
     if (!in_range(def->strain_max, 1.0, 1e4)) return "material.strain_max must be in [1, 1e4]";
     if (!in_range(def->condition_max, 10.0, 1e6)) return "material.condition_max must be in [10, 1e6]";
     if (!(def->rebound_max > 0.0f && def->rebound_max <= 10.0f)) return "material.rebound_max must be in (0, 10]";
+    if (def->groups == 0) return "material.groups must not be 0";
+    if (def->reserved != 0) return "material.reserved must be 0";
     const char *problem = modulus_problem(def);
     return problem ? problem : yield_problem(def);
 }

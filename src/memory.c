@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "assertion.h"
 #include "cpu.h"
 
 enum { ALIGNMENT = 64 };
@@ -43,6 +44,7 @@ void *memory_take(Memory *memory, size_t size)
 void memory_give(Memory *memory, void *block, size_t size)
 {
     if (!block) return;
+    ASSERT(memory->used >= size);
     memory->used -= size;
     const uint32_t mode = float_mode_lend();
     memory->allocator.release(block, size, memory->allocator.user);

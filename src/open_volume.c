@@ -10,11 +10,11 @@
 static const double DEEPEST = 1.0;
 static const float LEAST_SHARE = 1.0f / (48.0f * 48.0f * 48.0f); /* there, in a corner */
 
-double open_share_at(const ContactFrame *frame, const double node[3])
+double open_share_at(const ContactFrame *frame, const double node[3], uint32_t groups)
 {
-    Near near;
+    Near near, some;
     field_near(&near, frame, node, 2.0 * NODE_REACH, true);
-    return field_open_share(&near, node, DEEPEST, NULL, 0);
+    return field_open_share(field_meeting(&near, groups, &some), node, DEEPEST, NULL, 0);
 }
 
 /* What find_open() takes per node in a box with two obstacles, measured. */
@@ -52,7 +52,7 @@ static void find_open(void *context, int32_t begin, int32_t end)
     const Grid *grid = job->frame->grid;
     const int cells = grid->block_cells;
     uint32_t *marks = grid->edged.data;
-    Near near;
+    Near near, some;
     for (int32_t block = begin; block < end; block++) {
         const float *volume = (const float *)grid->node_volume.data + (size_t)block * (size_t)cells;
         const float *gap = job->frame->gap + (size_t)block * (size_t)cells;
@@ -68,7 +68,8 @@ static void find_open(void *context, int32_t begin, int32_t end)
             open[node] = walls_open_share(job->frame->walls, (uint32_t)(block * cells + node));
             if (open[node] >= 0.0f) continue;
             contacts_node_position(job->frame, block, node, point);
-            open[node] = (float)field_open_share(&near, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0);
+            const Near *meeting = field_meeting(&near, contacts_node_groups(job->frame, (size_t)(block * cells + node)), &some);
+            open[node] = (float)field_open_share(meeting, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0);
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assertion.h"
 #include "pool.h"
 #include "result.h"
 
@@ -414,7 +415,10 @@ void particles_swap(Particles *p, uint32_t a, uint32_t b, uint32_t count)
 void particles_find_rows(Particles *p)
 {
     if (p->rows_valid) return; /* and not even that is written: readers look at it */
-    for (uint32_t i = 0; i < p->count; i++) p->slot_row[p->id[i].index] = i;
+    for (uint32_t i = 0; i < p->count; i++) {
+        ASSERT(p->id[i].index < p->capacity && p->id[i].generation != 0);
+        p->slot_row[p->id[i].index] = i;
+    }
     p->rows_valid = true;
 }
 

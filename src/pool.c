@@ -5,6 +5,7 @@
 #include <string.h>
 #include <xmmintrin.h>
 
+#include "assertion.h"
 #include "cpu.h"
 #include "result.h"
 #include "thread.h"
@@ -206,6 +207,7 @@ static void share_with_workers(Pool *pool)
 static bool fork_join(Pool *pool, Loops *loops)
 {
     if (atomic_exchange(&pool->taken, true)) return false;
+    ASSERT(atomic_load(&pool->running) == 0);
     pool->loops = loops;
     if (pool->hooks.enqueue)
         share_with_host(pool);
@@ -262,11 +264,20 @@ void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, si
     loops->ns += span.ns;
 }
 
+/* Whether nothing of them is left to do. */
+static bool are_done(Loops *loops)
+{
+    bool done = true;
+    for (int i = 0; i < loops->count; i++) done = done && is_done(&loops->loop[i]);
+    return done;
+}
+
 void loops_run(Loops *loops)
 {
     Pool *pool = loops->pool;
     const bool shares = !pool->serial && pool->threads > 1 && loops->ns >= WORTH_A_FORK_NS;
-    if (!shares || !fork_join(pool, loops))
-        for (int i = 0; i < loops->count; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
+    const bool shared = shares && fork_join(pool, loops);
+    ASSERT(!shared || are_done(loops));
+    for (int i = 0; i < loops->count && !shared; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
     loops_open(loops, pool);
 }

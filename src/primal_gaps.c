@@ -25,11 +25,12 @@ typedef struct GapJob {
 } GapJob;
 
 /* [cells], to the nearest obstacle that is not farther than FAR. */
-static double room_at(const ContactFrame *frame, const double point[3])
+static double room_at(const ContactFrame *frame, const double point[3], uint32_t groups)
 {
     double least = FAR, normal[3];
     for (int i = 0; i < frame->colliders->obstacle_count; i++) {
         const Solid *solid = &frame->colliders->obstacle[i].start;
+        if (!obstacle_meets(&frame->colliders->obstacle[i], groups)) continue;
         if (solid->grid && solid_least(solid, point) / frame->cell_size > least) continue;
         least = fmin(least, solid_distance(solid, point, normal) / frame->cell_size);
     }
@@ -50,15 +51,15 @@ static bool measure_run(const Primal *p, uint32_t run)
     const Grid *grid = &p->world->grid;
     const Particles *particles = &p->world->particles;
     const double cell_size = p->contacts->cell_size;
-    const uint32_t first = grid->run_begin[run];
+    const uint32_t first = grid->run_begin[run], groups = contacts_row_groups(p->contacts, particles, first);
     float *room = rooms_of(p);
     double point[3] = {0};
     for (int a = 0; a < grid->dimension; a++) point[a] = (double)particles->cell[a][first] * cell_size;
     room[first] = (float)FAR;
-    if (room_at(p->contacts, point) > FAR - CELL_REACH) return false;
+    if (room_at(p->contacts, point, groups) > FAR - CELL_REACH) return false;
     for (uint32_t row = first; row < grid->run_begin[run + 1]; row++) {
         for (int a = 0; a < grid->dimension; a++) point[a] = ((double)particles->cell[a][row] + (double)particles->fraction[a][row]) * cell_size;
-        room[row] = (float)(room_at(p->contacts, point) - RADIUS);
+        room[row] = (float)(room_at(p->contacts, point, groups) - RADIUS);
     }
     return true;
 }

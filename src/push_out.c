@@ -155,7 +155,7 @@ static bool has_way_out(const Near *near, const double point[3], Face *face)
 static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, Particles *p, int32_t block, uint32_t row, float dt,
                           const Book *book)
 {
-    Near near;
+    Near all, some;
     double point[3];
     Face face[FIELD_FACES];
     ImpulseSum *sum[FIELD_FACES] = {NULL};
@@ -164,10 +164,11 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     if (!push_inside(frame, close, p, block, row, dt, book)) return false;
     place_of(frame, p, row, point);
     if (field_distance(close, point) >= 0.0) return true;
-    field_near(&near, frame, centre, reach + 2.0 * NODE_REACH, true);
-    int count = field_faces(&near, point, NODE_REACH, face);
-    if (stays(frame, &near, p, row, point, count)) return true;
-    if (count == 0) count = has_way_out(&near, point, &face[0]);
+    field_near(&all, frame, centre, reach + 2.0 * NODE_REACH, true);
+    const Near *near = field_meeting(&all, contacts_row_groups(frame, p, row), &some);
+    int count = field_faces(near, point, NODE_REACH, face);
+    if (stays(frame, near, p, row, point, count)) return true;
+    if (count == 0) count = has_way_out(near, point, &face[0]);
     for (int i = 0; i < count; i++)
         if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
     for (int i = 0; i < count; i++)
@@ -301,7 +302,7 @@ static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *
     if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
     const View view = view_from(frame, o, block);
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
-        if (particles->status[row] == K_ALIVE) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
+        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
 }
 
 /* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
@@ -310,7 +311,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     const Colliders *colliders = frame->colliders;
     const uint32_t *begin = frame->grid->block_begin.data;
     double centre[3];
-    Near near;
+    Near near, some;
     for (int i = first; i < colliders->obstacle_count; i++) {
         const Obstacle *o = &colliders->obstacle[i];
         ImpulseSum *sum;
@@ -326,7 +327,9 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
     field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
     for (; row < begin[block + 1] && near.count > 0; row++) {
-        if (particles->status[row] != K_ALIVE || push_particle(frame, &near, centre, reach, particles, block, row, dt, book)) continue;
+        if (particles->status[row] != K_ALIVE) continue;
+        const Near *meeting = field_meeting(&near, contacts_row_groups(frame, particles, row), &some);
+        if (push_particle(frame, meeting, centre, reach, particles, block, row, dt, book)) continue;
         book->notes->resume = colliders->obstacle_count;
         book->notes->row = row;
         return;

@@ -3,6 +3,7 @@
 #include <stdatomic.h>
 #include <unistd.h>
 
+#include "assertion.h"
 #include "background.h"
 #include "result.h"
 
@@ -96,6 +97,7 @@ static void let_go(Slot *slot)
     Holders before = atomic_load(&slot->holders), after;
     do {
         const uint32_t readers = readers_of(before);
+        ASSERT(readers > 0);
         after = readers == WRITER || readers == 1 ? 0 : before - 1;
     } while (!atomic_compare_exchange_weak(&slot->holders, &before, after));
 }

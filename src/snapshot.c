@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "assertion.h"
 #include "result.h"
 #include "snapshot_flow.h"
 #include "snapshot_particles.h"
@@ -507,10 +508,12 @@ void snapshot_save(const World *world, void *buffer)
         header.bytes += sizeof section;
         SnapshotOut out = {.data = data + header.bytes};
         sections[i]->save(world, &out);
+        ASSERT(out.at == section.bytes);
         memset(out.data + out.at, 0, padded(out.at) - out.at);
         header.bytes += padded(out.at);
         header.sections++;
     }
+    ASSERT(header.bytes == snapshot_size(world));
     memcpy(data, &header, sizeof header);
     snapshot_seal(data);
 }

@@ -194,7 +194,8 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
-    pbmpm_result result = contacts_measure(contacts, &world->memory, world->pool);
+    pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
+    if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
     if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);

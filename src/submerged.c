@@ -184,6 +184,7 @@ static void add_matter(const LookupBox *box, uint32_t begin, uint32_t end, void 
     const double cell = s->dimension == 3 ? ratio * ratio * ratio : ratio * ratio;
     for (uint32_t row = begin; row < end; row++) {
         if (s->material != ANY_MATERIAL && (int)p->material[row] != s->material) continue;
+        if (!groups_meet(s->collider->def.meets, s->world->materials.def[p->material[row]].groups)) continue;
         double x[3] = {0};
         for (int a = 0; a < s->dimension; a++) x[a] = (particles_coordinate(p, row, a) * dx - s->first[a]) / s->spacing;
         const double volume = (double)p->mass[row] / (double)s->world->materials.def[p->material[row]].density;

@@ -35,6 +35,7 @@ static pbmpm_result look_at(World *world, uint32_t slot, pbmpm_touch *touches, u
     memset(collider->touching, 0, sizeof collider->touching);
     const pbmpm_result result = count_at(world, collider, counts);
     for (uint32_t material = 0; material < PBMPM_MAX_MATERIALS && result == PBMPM_OK; material++) {
+        if (!groups_meet(collider->def.meets, world->materials.def[material].groups)) counts[material] = 0;
         if (counts[material] > 0) collider->touching[material / 64] |= (uint64_t)1 << material % 64;
         if (counts[material] == 0 && !bit(collider->touched, material)) continue;
         const pbmpm_touch touch = touch_of(world, slot, material, counts[material]);

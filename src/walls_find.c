@@ -601,17 +601,18 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
     for (int32_t block = first; block < end; block++) {
         if (job->marks[block] == 0) continue;
         Bound *bound = job->bound + job->begin[block];
-        Near near;
+        Near near, some;
         look_near_block(frame, block, &near);
         for (int i = 0; i < frame->grid->block_cells; i++) {
             if (!(job->marks[block] >> i & 1)) continue;
-            Site site = {.frame = frame, .near = &near, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
+            const Near *meeting = field_meeting(&near, contacts_node_groups(frame, (size_t)(block * frame->grid->block_cells + i)), &some);
+            Site site = {.frame = frame, .near = meeting, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
             contacts_node_position(frame, block, i, site.point);
             *bound = (Bound){.node = (uint32_t)(block * frame->grid->block_cells + i), .block = block, .open = -1.0f};
             memcpy(bound->local, site.local, sizeof bound->local);
             bound->faces = faces_of(&site, bound->face, &bound->both);
             if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
-            if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(&near, site.point, NODE_REACH, bound->face, bound->faces);
+            if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces);
             bound++;
         }
     }

@@ -4,12 +4,13 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "assertion.h"
 #include "background.h"
 #include "cpu.h"
 #include "dual.h"
 #include "guess.h"
-#include "numbers.h"
 #include "joint.h"
+#include "numbers.h"
 #include "primal.h"
 #include "result.h"
 
@@ -157,4 +158,5 @@ void world_destroy(World *world)
     particles_free(&world->particles, &world->memory);
     Memory memory = world->memory;
     memory_give(&memory, world, sizeof *world);
+    ASSERT(memory.used == 0 || !here);
 }

@@ -102,6 +102,16 @@ typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void
  *  library. Bindings need not use it: everything it says can also be polled. */
 PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 
+/** Told of something inside of the library that does not hold: the condition, and where in its sources it stands. Returns what is to be done:
+ *  0: the call goes on, and nothing is certain any more; another number: abort(). May come from any thread, workers too, from several at once; must
+ *  not call the library. */
+typedef int32_t pbmpm_assert_callback(const char *condition, const char *file, int32_t line, void *user);
+
+/** Sets (or, with null, removes) the process-wide callback for assertions. Without one a line goes to standard error, and abort() is called. Any thread; not while
+ *  another thread is inside the library.
+ *  Errors: UNSUPPORTED: the library was built without assertions (the default; -DPBMPM_ASSERTS=ON builds it with them); then nothing is set. */
+PBMPM_API pbmpm_result pbmpm_set_assert_callback(pbmpm_assert_callback *callback, void *user);
+
 /** Memory for one world, read at its creation. `allocate` returns a block aligned to at least `alignment` (a power of two, at most 64) or
  *  null; `release` gets the size that was asked for. Called from the thread that calls the library, and
  *  from that of a step in the background (async.h); for one world never from two at once. Must not call the library. */

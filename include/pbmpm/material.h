@@ -114,6 +114,8 @@ typedef struct pbmpm_material_def {
     uint64_t key;       /**< what snapshots know it by: not 0, and no other material of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
+    uint32_t groups;    /**< bit by bit, the groups that it belongs to, not 0; default 1. See pbmpm_collider_def.meets. Walls of the domain act on all. */
+    uint32_t reserved;  /**< 0 */
 } pbmpm_material_def;
 
 /** How stiff a material is with a world's settings and rate. */

@@ -143,6 +143,24 @@ static void test_log_callback_gets_refused_calls(void)
     TEST_ASSERT_EQUAL_INT(0, seen_count);
 }
 
+static int32_t go_on(const char *condition, const char *file, int32_t line, void *user)
+{
+    (void)condition, (void)file, (void)line, (void)user;
+    return 0;
+}
+
+/* A host hears whether its callback can ever be called. */
+static void test_assert_callback_is_taken_by_builds_with_assertions(void)
+{
+#ifdef PBMPM_ASSERTS
+    OK(pbmpm_set_assert_callback(go_on, NULL));
+    OK(pbmpm_set_assert_callback(NULL, NULL));
+#else
+    EXPECT(PBMPM_ERROR_UNSUPPORTED, pbmpm_set_assert_callback(go_on, NULL));
+    TEST_ASSERT_NOT_NULL(strstr(pbmpm_last_error(), "PBMPM_ASSERTS"));
+#endif
+}
+
 /* What happens in a step is told with its figures: here three particles are strained beyond what their material bears. */
 static void test_log_callback_gets_what_a_step_deletes(void)
 {
@@ -598,6 +616,7 @@ int main(void)
     RUN_TEST(test_last_error_belongs_to_the_thread);
     RUN_TEST(test_last_error_tells_figures);
     RUN_TEST(test_log_callback_gets_refused_calls);
+    RUN_TEST(test_assert_callback_is_taken_by_builds_with_assertions);
     RUN_TEST(test_log_callback_gets_what_a_step_deletes);
     RUN_TEST(test_functions_of_the_host_keep_its_float_mode);
     RUN_TEST(test_shutdown_destroys_worlds_and_allows_a_new_start);

@@ -186,6 +186,13 @@ static void log_line(pbmpm_log_level level, const char *message, void *user)
     told += strlen(message);
 }
 
+/* What does not hold ends the program, as a fault does. */
+static pbmpm_assert_callback *callback_pbmpm_assert_callback(Bytes *in)
+{
+    (void)in;
+    return NULL;
+}
+
 static pbmpm_log_callback *callback_pbmpm_log_callback(Bytes *in) { return bytes_u8(in) % 2 ? log_line : NULL; }
 
 /* ---- Bounds on what would take long or much memory ---- */

@@ -40,7 +40,7 @@ static double share_at(const Colliders *colliders, const double node[3])
     const Grid grid = {.dimension = 2};
     Colliders some = *colliders;
     const ContactFrame frame = {.colliders = &some, .grid = &grid, .cell_size = CELL};
-    return open_share_at(&frame, node);
+    return open_share_at(&frame, node, ALL_GROUPS);
 }
 
 /* The part of the spline around a node that lies on the open side of a plane, by the midpoint rule on points 1/100 apart. */

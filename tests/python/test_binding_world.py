@@ -334,7 +334,7 @@ def test_enumerations_have_every_member_of_the_header(root: Path) -> None:
 
 def test_materials_have_every_field_of_the_header(root: Path) -> None:
     structures = {item.name: item for item in parser.parse(root / "include").structures}
-    header = {field.name for field in structures["pbmpm_material_def"].fields} - {"size", "kind", "key", "user_data"}
+    header = {field.name for field in structures["pbmpm_material_def"].fields} - {"size", "kind", "key", "user_data", "reserved"}
     assert header == {field.name for kind in get_args(Parameters) for field in dataclasses.fields(kind)}
 
 

@@ -688,6 +688,10 @@ namespace Pbmpm
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
+        /// <summary>bit by bit, the groups that it belongs to, not 0; default 1. See pbmpm_collider_def.meets. Walls of the domain act on all.</summary>
+        public uint Groups;
+        /// <summary>0</summary>
+        public uint Reserved;
 
         /// <summary>The library's defaults.</summary>
         public static MaterialDef Default
@@ -940,8 +944,9 @@ namespace Pbmpm
         public int Kinematic;
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
-        /// <summary>0</summary>
-        public uint Reserved;
+        /// <summary>bit by bit, the groups of materials that it acts on: those whose `groups` have a bit of these; 0 (default): all. A touch, too,
+        /// is only told of these. Nodes hold one velocity: where such matter is within 1.5 cells of other, both are held.</summary>
+        public uint Meets;
         /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
         /// snapshot.h</summary>
         public ulong Key;
@@ -1834,6 +1839,12 @@ namespace Pbmpm.Native
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void LogCallback(LogLevel level, IntPtr message, IntPtr user);
 
+    /// <summary>Told of something inside of the library that does not hold: the condition, and where in its sources it stands. Returns what is to be done:
+    /// 0: the call goes on, and nothing is certain any more; another number: abort(). May come from any thread, workers too, from several at once; must
+    /// not call the library.</summary>
+    [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
+    public unsafe delegate int AssertCallback(IntPtr condition, IntPtr file, int line, IntPtr user);
+
     /// <summary>One share of parallel work; `index` counts from 0.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void Task(int index, IntPtr context);
@@ -1877,6 +1888,12 @@ namespace Pbmpm.Native
         /// library. Bindings need not use it: everything it says can also be polled.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_set_log_callback(IntPtr callback, IntPtr user);
+
+        /// <summary>Sets (or, with null, removes) the process-wide callback for assertions. Without one a line goes to standard error, and abort() is called. Any thread; not while
+        /// another thread is inside the library.
+        /// Errors: UNSUPPORTED: the library was built without assertions (the default; -DPBMPM_ASSERTS=ON builds it with them); then nothing is set.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_set_assert_callback(IntPtr callback, IntPtr user);
 
         /// <summary>The version of the library that is loaded, as major * 1000000 + minor * 1000 + patch. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2673,6 +2690,8 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_material_def", "flow_rate", &it, &it.FlowRate, &it.FlowRate + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "key", &it, &it.Key, &it.Key + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "groups", &it, &it.Groups, &it.Groups + 1, false));
+            fields.Add(new MirrorField("pbmpm_material_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
             fields.Add(new MirrorField("pbmpm_material_def", "", &it, &it, &it + 1, true));
         }
 
@@ -2851,7 +2870,7 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_collider_def", "friction_coefficient", &it, &it.FrictionCoefficient, &it.FrictionCoefficient + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "kinematic", &it, &it.Kinematic, &it.Kinematic + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "measures_impulse", &it, &it.MeasuresImpulse, &it.MeasuresImpulse + 1, false));
-            fields.Add(new MirrorField("pbmpm_collider_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_collider_def", "meets", &it, &it.Meets, &it.Meets + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "key", &it, &it.Key, &it.Key + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "user_data", &it, &it.UserData, &it.UserData + 1, false));
             fields.Add(new MirrorField("pbmpm_collider_def", "sensor", &it, &it.Sensor, &it.Sensor + 1, false));

@@ -55,6 +55,7 @@ class Touch:
 _SETTERS = {
     "friction": choice("friction", Friction),
     "friction_coefficient": number("friction_coefficient"),
+    "meets": number("meets"),
     **{name: flag(name) for name in ("kinematic", "measures_impulse", "sensor", "reports_touches")},
 }
 
@@ -116,6 +117,11 @@ class Collider(Member):
         return bool(self._definition().measures_impulse)
 
     @property
+    def meets(self) -> int:
+        """Bit by bit, the groups of materials that it acts on; 0: all."""
+        return int(self._definition().meets)
+
+    @property
     def sensor(self) -> bool:
         """Whether it acts on nothing."""
         return bool(self._definition().sensor)
@@ -140,6 +146,7 @@ class Collider(Member):
         friction_coefficient: float | None = None,
         kinematic: bool | None = None,
         measures_impulse: bool | None = None,
+        meets: int | None = None,
         sensor: bool | None = None,
         reports_touches: bool | None = None,
     ) -> None:
@@ -149,6 +156,7 @@ class Collider(Member):
             "friction_coefficient": friction_coefficient,
             "kinematic": kinematic,
             "measures_impulse": measures_impulse,
+            "meets": meets,
             "sensor": sensor,
             "reports_touches": reports_touches,
         }

@@ -33,7 +33,7 @@ class ElasticModel(Choice):
 
 
 _CHOICES: dict[str, type[Choice]] = {"strain_policy": StrainPolicy, "elastic_model": ElasticModel}
-_DECODED = {**_CHOICES, "volume_correction": bool}
+_DECODED = {**_CHOICES, "volume_correction": bool, "groups": int}
 
 
 @dataclass(frozen=True)
@@ -50,6 +50,7 @@ class Liquid:
             shift from where the grid holds too much, and the mean volume ratio of blocks follows the grid.
         bulk_modulus: K [Pa] (2D: N/m), in [1e-3, 1e15], or 0: incompressible. Not the paper's solver.
         kinematic_viscosity: [m^2/s], in [0, 1e6]. The paper's solver reaches at most N dx^2 / (8 dt) with N iterations.
+        groups: bit by bit, the groups that it belongs to, in [1, 2^32); see `World.add_collider()`.
     """
 
     density: float = _default("density")
@@ -58,6 +59,7 @@ class Liquid:
     volume_feedback: float = _default("volume_feedback")
     bulk_modulus: float = _default("bulk_modulus")
     kinematic_viscosity: float = _default("kinematic_viscosity")
+    groups: int = int(_DEFAULTS.groups)
 
 
 @dataclass(frozen=True)
@@ -77,6 +79,7 @@ class Solid:
             back. Paper's solver.
         young_modulus: E [Pa] (2D: plane strain), in [1e-3, 1e15]. Not the paper's solver.
         poisson_ratio: in [0, 0.495]. Not the paper's solver.
+        groups: bit by bit, the groups that it belongs to, in [1, 2^32); see `World.add_collider()`.
     """
 
     density: float = _default("density")
@@ -89,6 +92,7 @@ class Solid:
     rebound_max: float = _default("rebound_max")
     young_modulus: float = _default("young_modulus")
     poisson_ratio: float = _default("poisson_ratio")
+    groups: int = int(_DEFAULTS.groups)
 
     def __post_init__(self) -> None:
         for item in fields(self):

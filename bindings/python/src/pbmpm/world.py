@@ -529,6 +529,7 @@ class World(
         friction_coefficient: float | None = None,
         kinematic: bool = False,
         measures_impulse: bool = False,
+        meets: int = 0,
         sensor: bool = False,
         reports_touches: bool = False,
         key: int = 0,
@@ -541,6 +542,8 @@ class World(
             friction_coefficient: Coulomb coefficient, in [0, 100].
             kinematic: whether `Collider.move()` may move it.
             measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
+            meets: bit by bit, the groups of materials that it acts on: those whose `groups` have a bit of these; 0: all. Where such matter is within
+                1.5 cells of other, both are held.
             sensor: whether it acts on nothing, for triggers: matter passes through it.
             reports_touches: whether `touches()` tells what touches it.
             key: what snapshots know it by, a number that no other collider of the world has; 0: its place.
@@ -550,6 +553,7 @@ class World(
             "friction_coefficient": friction_coefficient,
             "kinematic": kinematic,
             "measures_impulse": measures_impulse,
+            "meets": meets,
             "sensor": sensor,
             "reports_touches": reports_touches,
         }

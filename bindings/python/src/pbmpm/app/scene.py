@@ -275,6 +275,8 @@ class ColliderPart(_Part):
     shape: AnyObstaclePart
     friction: Literal["coulomb", "stick", "slip"] = "coulomb"
     friction_coefficient: Annotated[float, Field(ge=0, le=100)] = 0.2
+    meets: Annotated[list[str], Field(min_length=1)] | None = None
+    """Names of the materials that it acts on; default all."""
     motion: MotionPart | None = None
     body: BodyPart | None = None
 
@@ -449,6 +451,16 @@ class Scene(_Part):
         return [seconds * index / (DEFAULT_PICTURE_COUNT - 1) for index in range(DEFAULT_PICTURE_COUNT)]
 
 
+#: Bits of the groups of a material.
+MATERIALS_THAT_CAN_BE_MET = 32
+
+
+def groups_of(scene: Scene) -> dict[str, int]:
+    """The groups of each material: one of its own where an obstacle does not act on all."""
+    chosen = any(part.meets is not None for part in scene.colliders)
+    return {name: 1 << index if chosen else 1 for index, name in enumerate(scene.materials)}
+
+
 def load_scene(path: Path) -> Scene:
     """Reads a scene of our own format or of the EA demo's, told apart by their contents."""
     from .ea_scene import import_ea_scene, looks_like_ea_scene
@@ -539,6 +551,8 @@ def _cross_check(scene: Scene) -> list[str]:
     if not scene.sources:
         problems.append("fills: there is nothing in the scene: it needs a fill or an emitter")
     problems += _material_problems(scene)
+    if max(groups_of(scene).values()).bit_length() > MATERIALS_THAT_CAN_BE_MET:
+        problems.append(f"colliders: `meets` works with {MATERIALS_THAT_CAN_BE_MET} materials at most")
     for index, part in enumerate(scene.colliders):
         if scene.dimension == 2 and part.body is not None and part.body.axis is not None:
             problems.append(f"colliders[{index}].body.axis: in 2D a body turns in the plane")
@@ -567,6 +581,7 @@ def _material_problems(scene: Scene) -> list[str]:
         for name in ("fills", "emitters", "drains")
         for index, part in enumerate(getattr(scene, name))
     ]
+    named += [(f"colliders[{index}].meets", name) for index, part in enumerate(scene.colliders) for name in part.meets or ()]
     known = ", ".join(sorted(scene.materials))
     return [
         f"{where}: no material is called '{material}' (there are: {known})"

@@ -17,7 +17,7 @@ from .flows import Flows, emitted_at_most, shape_of
 from .frame import Frame
 from .motion import collider_pose
 from .names import IntegratorName, PressureName, SolverName
-from .scene import Scene, SolverPart
+from .scene import Scene, SolverPart, groups_of
 from .solids import baked_solid
 from .state import State, put_into
 
@@ -140,7 +140,8 @@ class Simulation:
         self.world.close()
 
     def _populate(self, start: State | None) -> None:
-        self.materials = {name: self.world.add_material(_material(part)) for name, part in self.scene.materials.items()}
+        groups = groups_of(self.scene)
+        self.materials = {name: self.world.add_material(_material(part, groups[name])) for name, part in self.scene.materials.items()}
         self._rows = np.zeros(max(m.index for m in self.materials.values()) + 1, dtype=np.uint8)
         for row, material in enumerate(self.materials.values()):
             self._rows[material.index] = row
@@ -180,6 +181,7 @@ class Simulation:
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None or part.body is not None,
                 measures_impulse=measured or part.body is not None,
+                meets=sum(groups_of(self.scene)[name] for name in set(part.meets or ())),
             )
             self.colliders.append(collider)
             if part.body is not None:
@@ -390,5 +392,5 @@ def _capacity(scene: Scene) -> int:
 _CLASSES = {"liquid": pbmpm.Liquid, "elastic": pbmpm.Elastic, "sand": pbmpm.Sand, "visco": pbmpm.Visco}
 
 
-def _material(part: Any) -> pbmpm.Liquid | pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco:
-    return _CLASSES[part.kind](**part.model_dump(exclude={"kind"}))
+def _material(part: Any, groups: int) -> pbmpm.Liquid | pbmpm.Elastic | pbmpm.Sand | pbmpm.Visco:
+    return _CLASSES[part.kind](**part.model_dump(exclude={"kind"}), groups=groups)

@@ -44,6 +44,8 @@ typedef struct pbmpm_particle_id { uint32_t index; uint32_t generation; } pbmpm_
 typedef enum pbmpm_log_level { PBMPM_LOG_ERROR = 1, PBMPM_LOG_WARNING = 2, PBMPM_LOG_INFO = 3, PBMPM_LOG_LEVEL_FORCE32 = 2147483647 } pbmpm_log_level;
 typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void *user);
 pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
+typedef int32_t pbmpm_assert_callback(const char *condition, const char *file, int32_t line, void *user);
+pbmpm_result pbmpm_set_assert_callback(pbmpm_assert_callback *callback, void *user);
 typedef struct pbmpm_allocator { uint32_t size; void *(*allocate)(size_t size, size_t alignment, void *user); void (*release)(void *memory, size_t size, void *user); void *user; } pbmpm_allocator;
 typedef void pbmpm_task(int32_t index, void *context);
 typedef struct pbmpm_task_hooks { uint32_t size; int32_t nests; void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); void (*finish)(void *handle, void *user); void *user; } pbmpm_task_hooks;
@@ -59,7 +61,7 @@ pbmpm_result pbmpm_shutdown(void);
 typedef enum pbmpm_material_kind { PBMPM_LIQUID = 0, PBMPM_ELASTIC = 1, PBMPM_SAND = 2, PBMPM_VISCO = 3, PBMPM_MATERIAL_KIND_FORCE32 = 2147483647 } pbmpm_material_kind;
 typedef enum pbmpm_strain_policy { PBMPM_STRAIN_CLAMP = 0, PBMPM_STRAIN_DELETE = 1, PBMPM_STRAIN_POLICY_FORCE32 = 2147483647 } pbmpm_strain_policy;
 typedef enum pbmpm_elastic_model { PBMPM_FIXED_COROTATED = 0, PBMPM_NEO_HOOKEAN = 1, PBMPM_ELASTIC_MODEL_FORCE32 = 2147483647 } pbmpm_elastic_model;
-typedef struct pbmpm_material_def { uint32_t size; pbmpm_material_kind kind; float density; float relaxation; float viscosity; float volume_feedback; float elasticity_ratio; pbmpm_strain_policy strain_policy; float strain_min; float strain_max; float condition_max; float rebound_max; float bulk_modulus; float kinematic_viscosity; pbmpm_elastic_model elastic_model; float young_modulus; float poisson_ratio; float friction_angle; float cohesion; uint32_t volume_correction; float yield_strain; float flow_rate; uint64_t key; uint64_t user_data; } pbmpm_material_def;
+typedef struct pbmpm_material_def { uint32_t size; pbmpm_material_kind kind; float density; float relaxation; float viscosity; float volume_feedback; float elasticity_ratio; pbmpm_strain_policy strain_policy; float strain_min; float strain_max; float condition_max; float rebound_max; float bulk_modulus; float kinematic_viscosity; pbmpm_elastic_model elastic_model; float young_modulus; float poisson_ratio; float friction_angle; float cohesion; uint32_t volume_correction; float yield_strain; float flow_rate; uint64_t key; uint64_t user_data; uint32_t groups; uint32_t reserved; } pbmpm_material_def;
 typedef struct pbmpm_effective { uint32_t size; float bulk_modulus; float young_modulus; float kinematic_viscosity; float courant; } pbmpm_effective;
 pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t size);
 uint32_t pbmpm_materials_built(void);
@@ -124,7 +126,7 @@ pbmpm_result pbmpm_particles_set(pbmpm_world_id world, pbmpm_field field, const 
 pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count, uint32_t *rows);
 pbmpm_result pbmpm_query_shape(pbmpm_world_id world, const pbmpm_shape *shape, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count);
 typedef enum pbmpm_friction { PBMPM_FRICTION_COULOMB = 0, PBMPM_FRICTION_STICK = 1, PBMPM_FRICTION_SLIP = 2, PBMPM_FRICTION_FORCE32 = 2147483647 } pbmpm_friction;
-typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint32_t reserved; uint64_t key; uint64_t user_data; int32_t sensor; int32_t reports_touches; } pbmpm_collider_def;
+typedef struct pbmpm_collider_def { uint32_t size; pbmpm_friction friction; float friction_coefficient; int32_t kinematic; int32_t measures_impulse; uint32_t meets; uint64_t key; uint64_t user_data; int32_t sensor; int32_t reports_touches; } pbmpm_collider_def;
 pbmpm_result pbmpm_collider_def_init(pbmpm_collider_def *def, size_t size);
 pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_def *def, const pbmpm_shape *shape, pbmpm_collider_id *collider);
 pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
