@@ -145,3 +145,22 @@ def test_lines_show_what_is_there() -> None:
     assert len(world.debug_lines(pbmpm.DebugPart.BLOCKS)[0]) >= 4
     empty, none = pbmpm.World(3, 0.1).debug_lines()
     assert empty.shape == (0, 2, 3) and none.shape == (0,)
+
+
+def test_an_obstacle_meets_the_groups_that_it_is_told() -> None:
+    world = pbmpm.World(2, 0.1, capacity=1000, gravity=(0, -9.81))
+    water = world.add_material(pbmpm.Liquid(groups=2))
+    world.fill(pbmpm.Box((0, 0.5), (0.3, 0.3)), water)
+    grate = world.add_collider(pbmpm.Box((0, -0.5), (2, 0.2)), meets=1)
+    assert (grate.meets, water.parameters.groups) == (1, 2)
+    run(world, 60)
+    assert np.asarray(world.positions)[:, 1].max() < -0.7
+    grate.change(meets=0)
+    assert grate.meets == 0
+    for wrong in (-1, 2**32, 1.5):
+        with pytest.raises((pbmpm.InvalidArgumentError, TypeError, OverflowError)):
+            grate.change(meets=wrong)
+        with pytest.raises((pbmpm.InvalidArgumentError, TypeError, OverflowError)):
+            world.add_material(pbmpm.Liquid(groups=wrong))
+    with pytest.raises(pbmpm.InvalidArgumentError, match="groups"):
+        world.add_material(pbmpm.Liquid(groups=0))

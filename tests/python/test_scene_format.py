@@ -235,3 +235,48 @@ def test_keyframes_must_rise() -> None:
 def test_a_scene_survives_its_own_dump() -> None:
     scene = parse_scene(changed("materials", {"water": {"kind": "liquid"}, "jelly": {"kind": "elastic"}}))
     assert parse_scene(json.loads(scene.model_dump_json(exclude_none=True))) == scene
+
+
+def _start(scene: dict[str, Any]) -> Simulation:
+    parsed = parse_scene(scene)
+    return Simulation(parsed, RunSettings.of(parsed))
+
+
+def test_fills_leave_out_what_is_in_an_obstacle() -> None:
+    scene = copy.deepcopy(VALID)
+    scene["colliders"] = [{"shape": {"kind": "box", "position": [0.5, 0.5], "half_extents": [0.1, 0.1]}}]
+    with _start(VALID) as whole, _start(scene) as around:
+        assert around.start_count == whole.start_count - 16  # 4 cells of 4
+        assert np.all(np.abs(around.world.positions.array() - 0.5).max(axis=1) > 0.0999)
+
+
+def test_an_obstacle_acts_on_the_materials_that_it_names() -> None:
+    scene = copy.deepcopy(VALID)
+    scene["materials"]["jelly"] = {"kind": "elastic"}
+    scene["fills"] = [
+        {"shape": {"kind": "box", "position": [x, 0.7], "half_extents": [0.15, 0.1]}, "material": name}
+        for x, name in ((0.25, "water"), (0.75, "jelly"))
+    ]
+    scene["colliders"] = [{"shape": {"kind": "box", "position": [0.5, 0.4], "half_extents": [0.6, 0.1]}, "meets": ["jelly"]}]
+    with _start(scene) as run:
+        assert [it.meets for it in run.colliders] == [run.materials["jelly"].parameters.groups]
+        for _ in range(90):
+            run.step()
+        heights = {name: run.world.positions.array()[run.world.material_indices.array() == it.index, 1] for name, it in run.materials.items()}
+    assert heights["water"].mean() < 0.3
+    assert heights["jelly"].min() > 0.45  # half a cell into the surface at most
+
+
+def test_materials_that_are_met_have_to_be_there() -> None:
+    scene = copy.deepcopy(VALID)
+    scene["colliders"] = [{"shape": PLANE, "meets": ["oil"]}]
+    with pytest.raises(InputError, match=r"colliders\[0\]\.meets: no material is called 'oil' \(there are: water\)"):
+        parse_scene(scene)
+    scene["materials"] = {f"m{i}": {"kind": "liquid"} for i in range(33)}
+    scene["fills"][0]["material"] = "m0"
+    scene["colliders"][0]["meets"] = ["m32"]
+    with pytest.raises(InputError, match="32 materials at most"):
+        parse_scene(scene)
+    scene["colliders"][0]["meets"] = []
+    with pytest.raises(InputError, match=r"colliders\[0\]\.meets"):
+        parse_scene(scene)

@@ -145,11 +145,11 @@ class Simulation:
         self._rows = np.zeros(max(m.index for m in self.materials.values()) + 1, dtype=np.uint8)
         for row, material in enumerate(self.materials.values()):
             self._rows[material.index] = row
+        self._add_obstacles()  # before the fills, which leave out what is in one
         if start is None:
             self._fill()
         else:
             put_into(self.world, self.materials, start)
-        self._add_obstacles()
         for body, state in zip(self._bodies.values(), start.bodies if start is not None else ()):
             body.state = state
         self._flows = Flows(self.world, self.scene, self.materials, self.time)
