@@ -188,6 +188,17 @@ static void a_force_is_switched_on(const pool *made) { change_force(made, false,
 static void a_force_acts_everywhere(const pool *made) { change_force(made, true, true); }
 static void a_force_that_is_off_is_set(const pool *made) { change_force(made, true, false); }
 
+/* It ends a cell above the water, whose outermost nodes feel it. */
+static void a_force_begins_beside(const pool *made)
+{
+    const pbmpm_shape shape = sphere_shape(AT_X, 0.4f + DX + 0.1f, 0, 0.1f);
+    pbmpm_force_def def = {.size = sizeof def};
+    OK(pbmpm_force_get(made->world, made->force, &def, NULL));
+    def.enabled = 1;
+    def.everywhere = 0;
+    OK(pbmpm_force_set(made->world, made->force, &def, &shape));
+}
+
 static void a_call_wakes_air(const pool *made)
 {
     const pbmpm_shape shape = sphere_shape(AT_X, 1.5f, 0, 0.1f);
@@ -255,6 +266,7 @@ static const reason reasons[] = {
     {"a collider is moved to where it is", a_collider_is_moved_to_where_it_is, NOBODY, 0},
     {"a drain appears", a_drain_appears, NEAR, 1.0f},
     {"a force is switched on", a_force_is_switched_on, NEAR, 1.0f},
+    {"a force begins beside", a_force_begins_beside, NEAR, 1.0f},
     {"a force acts everywhere", a_force_acts_everywhere, ALL, 0},
     {"a force that is off is set", a_force_that_is_off_is_set, NOBODY, 0},
     {"an emitter begins", an_emitter_begins, NEAR, 1.0f},

@@ -3,6 +3,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "calls.h"
 
@@ -383,6 +384,66 @@ static void use_holding_host(pbmpm_world_def *def, void *user)
     def->thread_count = 2;
 }
 
+static void *query_many_points(void *user)
+{
+    static float points[2 * 64], filling[64];
+    return pbmpm_query_points(*(const pbmpm_world_id *)user, points, 64, filling, NULL, NULL) == PBMPM_OK ? NULL : user;
+}
+
+/* An allocator that takes its time, and knows how many are inside of it. */
+typedef struct slow_memory {
+    atomic_int inside, most;
+    atomic_bool slow;
+} slow_memory;
+
+static void come_and_go(slow_memory *own)
+{
+    const int now = atomic_fetch_add(&own->inside, 1) + 1;
+    if (now > atomic_load(&own->most))
+        atomic_store(&own->most, now);
+    if (atomic_load(&own->slow))
+        usleep(50000);
+    atomic_fetch_sub(&own->inside, 1);
+}
+
+static void *slow_allocate(size_t size, size_t alignment, void *user)
+{
+    come_and_go(user);
+    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+static void slow_release(void *memory, size_t size, void *user)
+{
+    (void)size;
+    come_and_go(user);
+    free(memory);
+}
+
+/* Readers that all need what is not there yet make it once, and one at a time is at the host's memory. */
+static void test_readers_take_memory_one_at_a_time(void)
+{
+    enum { READERS = 4 };
+    static slow_memory memory;
+    const pbmpm_allocator allocator = {sizeof allocator, slow_allocate, slow_release, &memory};
+    pbmpm_world_def def = default_world(2, 0.1f, 1000);
+    def.allocator = &allocator;
+    def.thread_count = 1;
+    pbmpm_world_id world = create_world(&def);
+    pthread_t threads[READERS];
+    fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, 0, 0, 0.5f, 0.5f, 0), (const float[3]){0, 0, 0});
+    atomic_store(&memory.slow, true);
+    for (int i = 0; i < READERS; i++)
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&threads[i], NULL, query_many_points, &world));
+    for (int i = 0; i < READERS; i++) {
+        void *failed = NULL;
+        pthread_join(threads[i], &failed);
+        TEST_ASSERT_NULL(failed);
+    }
+    atomic_store(&memory.slow, false);
+    TEST_ASSERT_EQUAL_INT(1, atomic_load(&memory.most));
+    OK(pbmpm_world_destroy(world));
+}
+
 static bool only_reads(const char *name)
 {
     static const char *const readers[] = {
@@ -397,12 +458,6 @@ static bool only_reads(const char *name)
         if (strcmp(name, readers[i]) == 0)
             return true;
     return false;
-}
-
-static void *query_many_points(void *user)
-{
-    static float points[2 * 64], filling[64];
-    return pbmpm_query_points(*(const pbmpm_world_id *)user, points, 64, filling, NULL, NULL) == PBMPM_OK ? NULL : user;
 }
 
 /* While one thread is inside a query others read as they like, and whoever would change something is refused. */
@@ -573,6 +628,7 @@ int main(void)
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_every_call_is_refused_while_another_thread_steps);
+    RUN_TEST(test_readers_take_memory_one_at_a_time);
     RUN_TEST(test_readers_share_a_world);
     RUN_TEST(test_readers_get_right_answers);
     RUN_TEST(test_racing_threads_do_no_harm);

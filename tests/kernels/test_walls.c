@@ -480,6 +480,43 @@ static void check_norm(int dimension, int shift, bool sloped)
     scene_close(&scene);
 }
 
+/* Nodes that are held, as where matter sleeps, do not answer, whatever the walls make of the others. */
+static void test_held_nodes_do_not_answer(void)
+{
+    enum { BLOCKS_MOST = 1000 };
+    static uint64_t held[BLOCKS_MOST];
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        Random random = {3};
+        Scene scene = full_box(cpu_isa(), dimension, 0.3, 2);
+        World *world = scene.world;
+        ContactFrame frame = find_walls(&scene);
+        TEST_ASSERT_TRUE(world->grid.node_blocks <= BLOCKS_MOST);
+        for (int32_t block = 0; block < world->grid.node_blocks; block++) held[block] = 0x5a5a5a5a5a5a5a5a >> block % 2;
+        frame.held = held;
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, walls_find(&world->walls, &frame, &world->memory, world->pool));
+        frame.walls = &world->walls;
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&frame, &world->memory, world->pool));
+        shake(&scene, &random);
+        walls_apply(&world->walls, &frame, world->pool, true, NULL);
+        const float *node = world->args.node;
+        int rest = 0, move = 0;
+        for (size_t i = 0; i < count_nodes(&scene); i++) {
+            const size_t cells = (size_t)world->grid.block_cells;
+            const float *u = node + i * K_NODE_WIDTH;
+            if (!(u[3] > 0.0f)) continue;
+            const bool moves = u[0] != 0.0f || u[1] != 0.0f || u[2] != 0.0f;
+            if (held[i / cells] >> i % cells & 1) {
+                TEST_ASSERT_FALSE_MESSAGE(moves, "a held node moves");
+                rest++;
+            } else {
+                move += moves;
+            }
+        }
+        TEST_ASSERT_TRUE(rest > 10 && move > 10);
+        scene_close(&scene);
+    }
+}
+
 /* The value of a push q, see walls_value(), with u its displacements; base and push: 4 floats per node. */
 static double value_of(Scene *scene, ContactFrame *frame, const float *base, const float *push)
 {
@@ -558,5 +595,6 @@ int main(void)
     RUN_TEST(test_the_value_of_a_push);
     RUN_TEST(test_an_even_pressure_moves_nothing_in_a_full_box);
     RUN_TEST(test_the_density_at_walls_is_folded);
+    RUN_TEST(test_held_nodes_do_not_answer);
     return UNITY_END();
 }

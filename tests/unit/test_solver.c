@@ -360,6 +360,38 @@ static void test_rounds_of_solids_among_liquids(void)
     world_destroy(world);
 }
 
+/* Blocks that solids have left are listed no longer: rounds cost what they work on. */
+static void test_rounds_list_the_blocks_with_solids(void)
+{
+    World *world = open_world(2, 0.05f);
+    pbmpm_material_def body = material_defaults(), water = material_defaults();
+    pbmpm_material_id solid, liquid;
+    int32_t touched[3];
+    body.kind = PBMPM_ELASTIC;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &body, 1, &solid));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
+    world->settings.solver = world->record.solver = PBMPM_SOLVER_DUAL;
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_make_room_for(world, solid.index));
+    for (int solids = 2; solids >= 0; solids--) { /* of two lone particles */
+        world->particles.count = 0;
+        for (int i = 0; i < 2; i++) {
+            NewParticle particle = {.position = {2.0 + 40.0 * i, 2.0}, .mass = 1.0f, .material = (uint16_t)(i < solids ? solid : liquid).index};
+            particles_append(&world->particles, &particle, (uint32_t)i + 1);
+        }
+        TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, false));
+        solver_bind(world, 1.0f / 60, false);
+        TEST_ASSERT_TRUE(rounds_reserve(world));
+        rounds_begin(world);
+        TEST_ASSERT_EQUAL_INT(solids, world->dual.rounds.solids);
+        touched[solids] = world->dual.rounds.touches;
+    }
+    TEST_ASSERT_EQUAL_INT32(0, touched[0]);
+    TEST_ASSERT_EQUAL_INT32(touched[2], 2 * touched[1]);
+    world->particles.count = 0;
+    memset(world->particles.of_material, 0, sizeof world->particles.of_material);
+    world_destroy(world);
+}
+
 /* Of pressures all is carried where the guess corrects them, half where nothing does or liquids differ in density, a little less before a single iteration. */
 static void test_what_is_carried_of_pressures(void)
 {
@@ -641,6 +673,7 @@ int main(void)
     RUN_TEST(test_whose_nodes_follow_at_walls);
     RUN_TEST(test_a_lone_solid_comes_to_rest_with_any_number_of_iterations);
     RUN_TEST(test_rounds_of_solids_among_liquids);
+    RUN_TEST(test_rounds_list_the_blocks_with_solids);
     RUN_TEST(test_what_is_carried_of_pressures);
     RUN_TEST(test_solids_are_asked_to_bear_their_weight);
     RUN_TEST(test_volume_feedback_is_a_share_per_second);
