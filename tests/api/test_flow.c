@@ -601,6 +601,36 @@ static void test_a_drain_beside_a_deletion(void)
     TEST_ASSERT_EQUAL_UINT32(2, world_count(world));
 }
 
+/* A thin nozzle 1/200 cell behind a wall: that is on it, and what comes out is in the domain. */
+static void test_particles_are_born_in_the_domain(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (int place = 0; place < 2 * dimension; place++) {
+            const int axis = place / 2, upper = place % 2;
+            pbmpm_world_def def = default_world(dimension, 0.1f, 4000);
+            pbmpm_emitter_id emitter;
+            def.domain_enabled = 1;
+            for (int a = 0; a < 3; a++) def.domain_max[a] = 2.0f;
+            const pbmpm_world_id world = create_world(&def);
+            pbmpm_emitter_def nozzle = default_emitter(create_material(world, PBMPM_LIQUID));
+            pbmpm_shape shape = box_shape(1, 1, 1, 0.3f, 0.3f, 0.3f);
+            shape.half_extents[axis] = 1e-6f;
+            shape.position[axis] = upper ? 2.0005f : -0.0005f;
+            nozzle.rate = 100.0f;
+            OK(pbmpm_emitter_create(world, &nozzle, &shape, &emitter));
+            for (int step = 0; step < 4; step++) {
+                OK(pbmpm_world_step(world, 1.0f / 60));
+                const pbmpm_view places = view_of(world, PBMPM_POSITION);
+                for (uint32_t row = 0; row < places.count; row++) {
+                    const float x = view_float(&places, row, (uint32_t)axis);
+                    TEST_ASSERT_TRUE_MESSAGE(x >= 0.0f && x <= 2.0f, "outside of the domain");
+                }
+            }
+            TEST_ASSERT_TRUE(world_count(world) > 0);
+            OK(pbmpm_world_destroy(world));
+        }
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -620,6 +650,7 @@ int main(void)
     RUN_TEST(test_drains_count_what_they_take);
     RUN_TEST(test_kill_bounds_tell_of_what_they_take);
     RUN_TEST(test_a_move_across_the_world);
+    RUN_TEST(test_particles_are_born_in_the_domain);
     RUN_TEST(test_warm_steps_take_no_memory);
     RUN_TEST(test_a_step_without_memory_is_made_up_for);
     RUN_TEST(test_a_drain_beside_a_deletion);
