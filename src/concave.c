@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "vector.h"
+
 /* A node looking around. Offsets are from it; all lengths in cells. */
 typedef struct Lookout {
     const Solid *solid;
@@ -20,8 +22,6 @@ typedef struct Sight {
     double gap; /* from the node along the normal to the plane that touches the surface there */
 } Sight;
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 static void point_at(const Lookout *l, const double offset[3], double point[3])
 {
     for (int a = 0; a < 3; a++) point[a] = a < l->solid->dimension ? l->point[a] + offset[a] * l->cell_size : 0.0;
@@ -33,7 +33,7 @@ static Sight look(const Lookout *l, const double offset[3])
     double point[3];
     point_at(l, offset, point);
     sight.distance = solid_distance(l->solid, point, sight.normal) / l->cell_size;
-    sight.gap = sight.distance - dot(sight.normal, offset);
+    sight.gap = sight.distance - dot3(sight.normal, offset);
     return sight;
 }
 
@@ -43,7 +43,7 @@ static const double SAME_DIRECTION = 0.95;
 static bool is_known(const Lookout *l, const double normal[3])
 {
     for (int i = 0; i < l->count; i++)
-        if (dot(l->plane[i].normal, normal) > SAME_DIRECTION) return true;
+        if (dot3(l->plane[i].normal, normal) > SAME_DIRECTION) return true;
     return false;
 }
 
@@ -59,10 +59,10 @@ static void add_plane(Lookout *l, const Sight *sight)
  * edge it leads away, and the plane must not hold the node. */
 static bool cuts(const Lookout *l, const Sight *sight)
 {
-    const double *first = l->plane[0].normal, along = dot(sight->normal, first);
+    const double *first = l->plane[0].normal, along = dot3(sight->normal, first);
     double way[3];
     for (int a = 0; a < 3; a++) way[a] = -(sight->normal[a] - along * first[a]);
-    const double slope = sqrt(dot(way, way));
+    const double slope = sqrt(dot3(way, way));
     if (slope < 0.1) return false;
     const double length = fmax(sight->gap, 0.0) / slope + 0.5;
     for (int a = 0; a < 3; a++) way[a] *= length / slope;
@@ -88,7 +88,7 @@ static void look_around(Lookout *l, const double normal[3])
  * margin, at least half a cell. */
 static void look_ahead(Lookout *l, const double way[3])
 {
-    const double length = sqrt(dot(way, way));
+    const double length = sqrt(dot3(way, way));
     Sight best = {.distance = INFINITY};
     double gone = fmax(l->distance - l->margin, 0.5);
     for (bool last = false; !last && l->distance > 0.0; ) {
@@ -101,7 +101,7 @@ static void look_ahead(Lookout *l, const double way[3])
         point_at(l, offset, point);
         gone += fmax(solid_least(l->solid, point) / l->cell_size - l->margin, 0.5);
     }
-    if (best.distance <= l->margin && dot(best.normal, way) < 0.0) add_plane(l, &best);
+    if (best.distance <= l->margin && dot3(best.normal, way) < 0.0) add_plane(l, &best);
 }
 
 int concave_planes(const Solid *solid, double cell_size, const double point[3], double distance, const double normal[3], const double way[3],

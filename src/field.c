@@ -4,13 +4,12 @@
 #include <string.h>
 
 #include "concave.h"
+#include "vector.h"
 
 /* How far before a face [cells] the space must be open. */
 static const double BEFORE = 0.1;
 /* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
 static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
-
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
  * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
@@ -19,7 +18,7 @@ static const double SAME_WAY = 0.95, SAME_WAY_BAKED = 0.7;
 bool field_same_way(const Face *a, const Face *b)
 {
     const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
-    return dot(a->normal, b->normal) > (guessed ? SAME_WAY_BAKED : SAME_WAY);
+    return dot3(a->normal, b->normal) > (guessed ? SAME_WAY_BAKED : SAME_WAY);
 }
 
 /* point + length [cells] * normal */
@@ -160,7 +159,7 @@ static bool meet(const Face *const *face, int count, double place[3])
 {
     double g[3][4];
     for (int i = 0; i < count; i++) {
-        for (int j = 0; j < count; j++) g[i][j] = dot(face[i]->normal, face[j]->normal);
+        for (int j = 0; j < count; j++) g[i][j] = dot3(face[i]->normal, face[j]->normal);
         g[i][count] = -face[i]->distance;
     }
     for (int i = 0; i < count; i++) { /* the matrix is positive definite */
@@ -188,7 +187,7 @@ static double corner_distance(const Near *near, const double point[3], const Fac
         if (!is_on_face(near, face[i], place)) return INFINITY;
         ahead(near, before, BEFORE, face[i]->normal, before);
     }
-    return is_open(near, before) ? sqrt(dot(way, way)) : INFINITY;
+    return is_open(near, before) ? sqrt(dot3(way, way)) : INFINITY;
 }
 
 static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
@@ -328,7 +327,7 @@ static int faces_seen(const Near *near, const double point[3], double reach, Fac
     for (int i = 0; i < hides; i++)
         for (int k = 0; k < seen; k++) {
             const Face *edge[2] = {&hidden[i], &face[k]};
-            if (dot(hidden[i].normal, face[k].normal) >= 0.0 && corner_distance(near, point, edge, 2) <= reach) count = add_face(face, count, &hidden[i], near->dimension);
+            if (dot3(hidden[i].normal, face[k].normal) >= 0.0 && corner_distance(near, point, edge, 2) <= reach) count = add_face(face, count, &hidden[i], near->dimension);
         }
     return count;
 }
@@ -419,7 +418,7 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
     const int faces = box_faces(near, o, point, reach, all, 2 * near->dimension);
     for (int i = 0; i < faces; i++) {
         bool known = all[i].distance > 0.0 || count == near->dimension;
-        for (int k = 0; k < count && !known; k++) known = fabs(dot(all[i].normal, face[k].normal)) > SAME_WAY;
+        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > SAME_WAY;
         if (!known && bounds_space(near, &all[i])) face[count++] = all[i];
     }
     return count;
@@ -432,7 +431,7 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
     const int candidates = faces_around(near, point, NODE_REACH, all);
     bool found = false;
     for (int i = 0; i < candidates; i++) {
-        if (all[i].distance > 0.5 || dot(all[i].normal, face->normal) > OPPOSITE || !bounds_space(near, &all[i])) continue;
+        if (all[i].distance > 0.5 || dot3(all[i].normal, face->normal) > OPPOSITE || !bounds_space(near, &all[i])) continue;
         if (found && all[i].distance <= other->distance) continue;
         *other = all[i];
         found = true;
@@ -442,7 +441,7 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
         double beyond[3], normal[3];
         ahead(near, point, -way, face->normal, beyond);
         const double distance = solid_distance(field_solid(near, face->obstacle), beyond, normal) / near->cell_size;
-        if (distance <= 0.0 || dot(normal, face->normal) > OPPOSITE) continue;
+        if (distance <= 0.0 || dot3(normal, face->normal) > OPPOSITE) continue;
         *other = face_at(near, face->obstacle, beyond, distance, normal);
         other->distance = distance_to(near, other, point);
         found = is_open(near, beyond);

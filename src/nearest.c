@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "result.h"
+#include "vector.h"
 
 enum { LEAF = 4, DEPTH_MAX = 128 };
 
@@ -77,16 +78,9 @@ static void divide(BoxTree *tree, uint32_t index)
 
 /* ---- Discs ---- */
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 static void between(const LatticePoint *a, const LatticePoint *b, double out[3])
 {
     for (int i = 0; i < 3; i++) out[i] = b->at[i] - a->at[i];
-}
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
 /* Without a normal (no area) it stands for a ball. */
@@ -102,12 +96,12 @@ static Disc disc_around(const Surface *surface, uint32_t e)
     for (int i = 0; i < d; i++) {
         double way[3];
         for (int a = 0; a < 3; a++) way[a] = corner[i]->at[a] - disc.centre[a];
-        disc.radius = fmax(disc.radius, sqrt(dot(way, way)));
+        disc.radius = fmax(disc.radius, sqrt(dot3(way, way)));
     }
     for (int i = 0; i + 1 < d; i++) between(corner[i], corner[i + 1], edge[i]);
     if (d == 2) edge[1][2] = 1.0;
-    cross(edge[0], edge[1], disc.normal);
-    const double length = sqrt(dot(disc.normal, disc.normal));
+    cross3(edge[0], edge[1], disc.normal);
+    const double length = sqrt(dot3(disc.normal, disc.normal));
     for (int a = 0; a < 3 && length > 0.0; a++) disc.normal[a] /= length;
     return disc;
 }
@@ -147,9 +141,9 @@ static double edge_distance2(const LatticePoint *a, const LatticePoint *b, const
     double edge[3], way[3];
     between(a, b, edge);
     for (int i = 0; i < 3; i++) way[i] = point[i] - a->at[i];
-    const double share = fmax(0.0, fmin(1.0, dot(way, edge) / dot(edge, edge))); /* vertices are merged: no edge has length 0 */
+    const double share = fmax(0.0, fmin(1.0, dot3(way, edge) / dot3(edge, edge))); /* vertices are merged: no edge has length 0 */
     for (int i = 0; i < 3; i++) way[i] -= share * edge[i];
-    return dot(way, way);
+    return dot3(way, way);
 }
 
 /* That to the plane if the foot lies inside, else that to the nearest edge. */
@@ -157,15 +151,15 @@ static double triangle_distance2(const LatticePoint *corner[3], const double poi
 {
     double edge[3][3], way[3], normal[3], side[3];
     for (int i = 0; i < 3; i++) between(corner[i], corner[(i + 1) % 3], edge[i]);
-    cross(edge[0], edge[1], normal);
-    const double normal2 = dot(normal, normal);
+    cross3(edge[0], edge[1], normal);
+    const double normal2 = dot3(normal, normal);
     bool inside = normal2 > 0.0;
     for (int i = 0; i < 3 && inside; i++) {
         for (int a = 0; a < 3; a++) way[a] = point[a] - corner[i]->at[a];
-        cross(edge[i], way, side);
-        inside = dot(side, normal) >= 0.0;
+        cross3(edge[i], way, side);
+        inside = dot3(side, normal) >= 0.0;
     }
-    if (inside) return dot(way, normal) * dot(way, normal) / normal2;
+    if (inside) return dot3(way, normal) * dot3(way, normal) / normal2;
     double nearest2 = INFINITY;
     for (int i = 0; i < 3; i++) nearest2 = fmin(nearest2, edge_distance2(corner[i], corner[(i + 1) % 3], point));
     return nearest2;
@@ -193,7 +187,7 @@ static double disc_least2(const Disc *disc, const double point[3])
 {
     double way[3];
     for (int a = 0; a < 3; a++) way[a] = point[a] - disc->centre[a];
-    const double height = dot(way, disc->normal), lateral2 = dot(way, way) - height * height;
+    const double height = dot3(way, disc->normal), lateral2 = dot3(way, way) - height * height;
     const double radius2 = disc->radius * disc->radius;
     const double beside = lateral2 > radius2 ? sqrt(lateral2) - disc->radius : 0.0;
     return height * height + beside * beside;

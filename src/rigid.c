@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "numbers.h"
+#include "vector.h"
 
 /* A turn in one part [rad], and parts of a step. */
 static const double LARGEST_TURN = 0.125;
@@ -28,13 +29,6 @@ static bool within(const double *values, int count, double most)
     return true;
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross(const double a[3], const double b[3], double out[3])
-{
-    for (int i = 0; i < 3; i++) out[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
-}
-
 static bool axis_is_valid(const double axis[3], int dimension)
 {
     double length2 = 0.0;
@@ -56,8 +50,8 @@ static bool is_positive(const double m[3][3])
 {
     const double two = m[0][0] * m[1][1] - m[0][1] * m[1][0];
     double three[3];
-    cross(m[0], m[1], three);
-    return m[0][0] > 0.0 && two > 0.0 && dot(three, m[2]) > 0.0;
+    cross3(m[0], m[1], three);
+    return m[0][0] > 0.0 && two > 0.0 && dot3(three, m[2]) > 0.0;
 }
 
 static const char *inertia_problem(const pbmpm_rigid_def *def, int dimension)
@@ -116,7 +110,7 @@ static void add_across(Ways *ways, const double axis[3], int dimension)
 {
     if (dimension == 2) {
         const double across[3] = {-axis[1], axis[0], 0.0};
-        add_way(ways, across, sqrt(dot(axis, axis)));
+        add_way(ways, across, sqrt(dot3(axis, axis)));
         return;
     }
     int least = 0;
@@ -124,10 +118,10 @@ static void add_across(Ways *ways, const double axis[3], int dimension)
         if (fabs(axis[a]) < fabs(axis[least])) least = a;
     double unit[3] = {0}, one[3], other[3];
     unit[least] = 1.0;
-    cross(axis, unit, one);
-    cross(axis, one, other);
-    add_way(ways, one, sqrt(dot(one, one)));
-    add_way(ways, other, sqrt(dot(other, other)));
+    cross3(axis, unit, one);
+    cross3(axis, one, other);
+    add_way(ways, one, sqrt(dot3(one, one)));
+    add_way(ways, other, sqrt(dot3(other, other)));
 }
 
 static Ways ways_of(pbmpm_freedom freedom, const double axis[3], int dimension)
@@ -135,7 +129,7 @@ static Ways ways_of(pbmpm_freedom freedom, const double axis[3], int dimension)
     Ways ways = {.count = 0};
     double own[3] = {0};
     memcpy(own, axis, (size_t)dimension * sizeof *own);
-    if (freedom == PBMPM_FREEDOM_AXIS) add_way(&ways, own, sqrt(dot(own, own)));
+    if (freedom == PBMPM_FREEDOM_AXIS) add_way(&ways, own, sqrt(dot3(own, own)));
     if (freedom == PBMPM_FREEDOM_PLANE) add_across(&ways, own, dimension);
     for (int a = 0; a < dimension && freedom == PBMPM_FREEDOM_ALL; a++) {
         const double unit[3] = {a == 0, a == 1, a == 2};
@@ -158,7 +152,7 @@ static void keep_ways(const Ways *ways, double v[3])
 {
     double kept[3] = {0};
     for (int i = 0; i < ways->count; i++) {
-        const double along = dot(ways->way[i], v);
+        const double along = dot3(ways->way[i], v);
         for (int a = 0; a < 3; a++) kept[a] += along * ways->way[i][a];
     }
     memcpy(v, kept, sizeof kept);
@@ -187,7 +181,7 @@ static void whole_inertia(const pbmpm_rigid_def *def, int dimension, double iner
     own_lever(def, dimension, lever);
     inertia_of(def, inertia);
     for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++) inertia[r][c] += def->mass * ((r == c ? dot(lever, lever) : 0.0) - lever[r] * lever[c]);
+        for (int c = 0; c < 3; c++) inertia[r][c] += def->mass * ((r == c ? dot3(lever, lever) : 0.0) - lever[r] * lever[c]);
 }
 
 /* Solves a positive system of up to three equations in place. */
@@ -229,8 +223,8 @@ static void inertia_along_ways(const Spinner *spinner, const double turn[9], dou
         }
     for (int i = 0; i < spinner->ways.count; i++)
         for (int j = 0; j < spinner->ways.count; j++) {
-            const double half[3] = {dot(spinner->inertia[0], own[j]), dot(spinner->inertia[1], own[j]), dot(spinner->inertia[2], own[j])};
-            m[i][j] = dot(own[i], half);
+            const double half[3] = {dot3(spinner->inertia[0], own[j]), dot3(spinner->inertia[1], own[j]), dot3(spinner->inertia[2], own[j])};
+            m[i][j] = dot3(own[i], half);
         }
 }
 
@@ -256,7 +250,7 @@ static void momentum_of(const Spinner *spinner, const double rotation[4], const 
     inertia_along_ways(spinner, turn, m);
     for (int i = 0; i < spinner->ways.count; i++) {
         momentum[i] = 0.0;
-        for (int j = 0; j < spinner->ways.count; j++) momentum[i] += m[i][j] * dot(spinner->ways.way[j], spin);
+        for (int j = 0; j < spinner->ways.count; j++) momentum[i] += m[i][j] * dot3(spinner->ways.way[j], spin);
     }
 }
 
@@ -281,8 +275,8 @@ static void find_torque(const pbmpm_rigid_def *def, const pbmpm_rigid_state *sta
     own_lever(def, dimension, own);
     to_world(turn, own, lever);
     for (int a = 0; a < 3; a++) weight[a] = dt * (def->mass * push->gravity[a] + def->force[a]);
-    cross(arm, push->linear, of_matter);
-    cross(lever, weight, of_weight);
+    cross3(arm, push->linear, of_matter);
+    cross3(lever, weight, of_weight);
     for (int a = 0; a < 3; a++) torque[a] = push->angular[a] - of_matter[a] + of_weight[a] + dt * def->torque[a];
 }
 
@@ -290,7 +284,7 @@ static void change_spin(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, co
 {
     const Spinner spinner = spinner_of(def, dimension);
     double along[3] = {0}, asked[3];
-    for (int i = 0; i < spinner.ways.count; i++) along[i] = dot(spinner.ways.way[i], torque);
+    for (int i = 0; i < spinner.ways.count; i++) along[i] = dot3(spinner.ways.way[i], torque);
     spin_of(&spinner, state->rotation, along, asked);
     keep_ways(&spinner.ways, state->angular_velocity);
     keep_ways(&spinner.ways, state->angular_velocity_change);
@@ -318,9 +312,9 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
 static void slope_of(const double spin[3], const double q[4], double slope[4])
 {
     double turned[3];
-    cross(spin, q, turned);
+    cross3(spin, q, turned);
     for (int a = 0; a < 3; a++) slope[a] = 0.5 * (spin[a] * q[3] + turned[a]);
-    slope[3] = -0.5 * dot(spin, q);
+    slope[3] = -0.5 * dot3(spin, q);
 }
 
 static void normalise(double q[4])
@@ -348,7 +342,7 @@ static void turn_part(const Spinner *spinner, const double momentum[3], double q
 static void turn_body(const Spinner *spinner, pbmpm_rigid_state *state, double dt)
 {
     double momentum[3] = {0};
-    const double angle = sqrt(dot(state->angular_velocity, state->angular_velocity)) * dt;
+    const double angle = sqrt(dot3(state->angular_velocity, state->angular_velocity)) * dt;
     const int parts = (int)fmax(1.0, fmin(MOST_PARTS, ceil(angle / LARGEST_TURN)));
     momentum_of(spinner, state->rotation, state->angular_velocity, momentum);
     for (int i = 0; i < parts && angle > 0.0; i++) turn_part(spinner, momentum, state->rotation, dt / parts);
@@ -388,7 +382,7 @@ void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int
         for (int a = 0; a < dimension; a++) state->position[a] = state->point[a] - arm[a];
         own_lever(def, dimension, own);
         arm_of(state, own, dimension, lever);
-        cross(state->angular_velocity, lever, state->velocity);
+        cross3(state->angular_velocity, lever, state->velocity);
         return;
     }
     keep_on_way(def, state, dimension, centre);
@@ -433,7 +427,7 @@ static void stop_along(const Ways *ways, pbmpm_rigid_state *state, int axis, dou
     keep_ways(ways, back);
     const double share = back[axis]; /* the square of its length, too */
     if (share < 1e-6) return;
-    const double speed = into_wall(dot(state->velocity, back), over) / share, last = into_wall(dot(state->velocity_change, back), over) / share;
+    const double speed = into_wall(dot3(state->velocity, back), over) / share, last = into_wall(dot3(state->velocity_change, back), over) / share;
     for (int a = 0; a < 3; a++) {
         state->position[a] -= over / share * back[a];
         state->velocity[a] -= speed * back[a];

@@ -3,6 +3,7 @@
 
 #include "reach.h"
 #include "result.h"
+#include "vector.h"
 #include "walls_list.h"
 
 /* ---- Symmetric matrices ---- */
@@ -142,13 +143,11 @@ typedef struct Profile {
     float surface[3];
 } Profile;
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 /* Sine of the least angle between planes that do not count as one, see field_same_way(). */
 static const double LEAST_TURN = 0.31;
 
 /* Whether two faces are nearly back to back. */
-static bool opposed(const Face *a, const Face *b) { return dot(a->normal, b->normal) < -0.95; }
+static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -0.95; }
 
 /* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the normals of both. */
 static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
@@ -199,7 +198,7 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             double distance = face->distance + side * face->normal[a];
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             if (!beside && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
-            smooth = smooth && beside && dot(face->normal, beside->face[0].normal) > SMOOTH;
+            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
             slope[a] += side * distance;
             curve += distance - face->distance;
         }
@@ -224,10 +223,10 @@ static bool make_upright(Profile *profile, int i)
     double *axis = profile[i].axis;
     memcpy(axis, profile[i].normal, sizeof profile[i].axis);
     for (int k = 0; k < i; k++) {
-        const double along = dot(axis, profile[k].axis);
+        const double along = dot3(axis, profile[k].axis);
         for (int a = 0; a < 3; a++) axis[a] -= along * profile[k].axis[a];
     }
-    const double length = sqrt(dot(axis, axis));
+    const double length = sqrt(dot3(axis, axis));
     if (length < LEAST_TURN) return false;
     for (int a = 0; a < 3; a++) axis[a] /= length;
     return true;
@@ -339,7 +338,7 @@ static void mirror(const Profile *profile, int count, int set, double way[3])
 {
     for (int k = 0; k < count; k++) {
         if (!(set >> k & 1)) continue;
-        const double distance = profile[k].distance + dot(way, profile[k].normal);
+        const double distance = profile[k].distance + dot3(way, profile[k].normal);
         for (int a = 0; a < 3; a++) way[a] -= 2.0 * distance * profile[k].normal[a];
     }
 }
@@ -372,7 +371,7 @@ static void way_out(const Profile *profile, int count, double way[3])
 {
     for (int k = 0; k < count * count; k++) {
         const Profile *p = &profile[k % count];
-        const double distance = p->distance + dot(way, p->normal);
+        const double distance = p->distance + dot3(way, p->normal);
         for (int a = 0; a < 3 && distance < CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
     }
 }
