@@ -26,9 +26,12 @@ typedef struct KeyedId {
 
 static pbmpm_result is_valid(pbmpm_world_id world, KeyedKind kind, KeyedId id, int32_t *valid)
 {
+    Hold held;
     if (!registry_has(world)) return *valid = 0, PBMPM_OK;
-    HOLD_READING(world);
-    *valid = id.generation != 0 && keyed_generation(w, kind, id.index) == id.generation;
+    const pbmpm_result result = api_hold(world, HOLD_TO_READ, &held);
+    if (result == PBMPM_ERROR_INVALID_ID) return *valid = 0, PBMPM_OK; /* it has just been destroyed */
+    if (result != PBMPM_OK) return result;
+    *valid = id.generation != 0 && keyed_generation(held.world, kind, id.index) == id.generation;
     LET_GO(PBMPM_OK);
 }
 
@@ -50,7 +53,7 @@ static KeyedId next_from(const World *w, KeyedKind kind, uint32_t slot)
     {                                                                                                                   \
         REQUIRE(count);                                                                                                 \
         if (capacity) REQUIRE(many);                                                                                    \
-        HOLD_READING(world);                                                                                                    \
+        HOLD_READING(world);                                                                                            \
         *count = 0;                                                                                                     \
         for (KeyedId id = next_from(w, kind, 0); id.generation != 0; id = next_from(w, kind, id.index + 1)) {           \
             if (*count < capacity) many[*count] = (pbmpm_##one##_id){id.index, id.generation};                          \
