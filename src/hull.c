@@ -149,8 +149,8 @@ static void add_vertex(Hull *hull, uint32_t v)
     }
 }
 
-/* The first four vertices that span a volume, wound outward; false if all lie in a plane. */
-static bool first_tetrahedron(Hull *hull, uint32_t corner[4])
+/* Of the first four vertices that span a volume, wound outward; false if all lie in a plane. */
+static bool first_tetrahedron(Hull *hull)
 {
     const Surface *surface = hull->surface;
     int64_t normal[3] = {0}, height = 0;
@@ -162,8 +162,6 @@ static bool first_tetrahedron(Hull *hull, uint32_t corner[4])
     for (; v < surface->vertices && height == 0; v++) height = height_over(surface, &base, &surface->vertex[v]);
     if (height == 0) return false;
     const uint32_t low = height > 0 ? c : 1, high = height > 0 ? 1 : c; /* the fourth lies below 0, low, high */
-    const uint32_t order[4] = {0, low, high, v - 1};
-    memcpy(corner, order, sizeof order);
     hull->face[0] = (Face){.element = {{0, low, high}}, .across = {1, 2, 3}, .live = true};
     hull->face[1] = (Face){.element = {{low, 0, v - 1}}, .across = {0, 3, 2}, .live = true};
     hull->face[2] = (Face){.element = {{high, low, v - 1}}, .across = {0, 1, 3}, .live = true};
@@ -174,11 +172,9 @@ static bool first_tetrahedron(Hull *hull, uint32_t corner[4])
 
 static pbmpm_result wrap(Hull *hull, Surface *surface, Memory *memory)
 {
-    uint32_t corner[4];
-    if (surface->vertices < 4 || !first_tetrahedron(hull, corner))
+    if (surface->vertices < 4 || !first_tetrahedron(hull))
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "all points of the hull lie in a plane");
-    for (uint32_t v = 0; v < surface->vertices; v++)
-        if (v != corner[0] && v != corner[1] && v != corner[2] && v != corner[3]) add_vertex(hull, v);
+    for (uint32_t v = 0; v < surface->vertices; v++) add_vertex(hull, v); /* its own corners see no face: they lie on them */
     const pbmpm_result result = surface_reserve(surface, memory, hull->faces);
     for (uint32_t f = 0; f < hull->faces && result == PBMPM_OK; f++)
         if (hull->face[f].live) surface->element[surface->elements++] = hull->face[f].element;

@@ -26,11 +26,21 @@ typedef struct OpenJob {
     float *open; /* per node */
 } OpenJob;
 
-/* Obstacles near a block. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
+/* The groups of all matter at the nodes of a block. */
+static uint32_t block_groups(const ContactFrame *frame, int32_t block)
+{
+    const size_t cells = (size_t)frame->grid->block_cells;
+    uint32_t groups = 0;
+    for (size_t i = 0; frame->groups && i < cells; i++) groups |= frame->groups[(size_t)block * cells + i];
+    return groups ? groups : ALL_GROUPS;
+}
+
+/* Obstacles near a block that act on matter there. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
 static void find_near(const OpenJob *job, int32_t block, Near *near, bool *edged)
 {
     const ContactFrame *frame = job->frame;
     const double diagonal = sqrt((double)frame->grid->dimension), half_block = 0.5 * (K_BLOCK_AXIS - 1) * diagonal;
+    const uint32_t groups = block_groups(frame, block);
     double centre[3];
     int kept = 0;
     contacts_block_centre(frame, block, centre);
@@ -38,7 +48,7 @@ static void find_near(const OpenJob *job, int32_t block, Near *near, bool *edged
     *edged = false;
     for (int i = 0; i < near->count; i++) {
         const Obstacle *o = near->obstacle[i];
-        if (job->resting_only && o->moves) continue;
+        if ((job->resting_only && o->moves) || !obstacle_meets(o, groups)) continue;
         near->obstacle[kept++] = o;
         const double gap = solid_least(&o->start, centre) / frame->cell_size - half_block;
         if (gap < NODE_REACH + diagonal && o->start.kind != PBMPM_PLANE) *edged = true;

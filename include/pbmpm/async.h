@@ -12,8 +12,8 @@ extern "C" {
 /* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks. If the hooks
  * nest (base.h), it is a task of the host instead, and the world has no thread: pbmpm_world_step_begin() enqueues one task, which enqueues others and
  * finishes them. pbmpm_world_step_end() finishes it, on whichever thread calls that. A job system in which a task may wait for tasks can do this.
- * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. From the begin to an end that did not
- * give BUSY the world takes these calls only, and answers all others with BUSY:
+ * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until an end gives another
+ * result than BUSY the world takes these calls only, and answers all others with BUSY:
  *
  *   pbmpm_world_step_end()        waits, or ends the step if it is done;
  *   pbmpm_world_step_done()       looks whether it is;
@@ -44,7 +44,7 @@ extern "C" {
  * begins a step has neither.
  *
  * The step calls the allocator, the task hooks and the log callback, in the floating-point mode of the thread that began it. One
- * thread at a time calls the allocator of a world, and its hooks but for the finish of a step that is a task. Threads of the library block all signals but faults.
+ * thread at a time calls the allocator of a world. The same holds for its hooks, except that a thread may wait in `finish` for the step itself. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
 
@@ -54,7 +54,7 @@ extern "C" {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
 
-/** Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+/** Begins a step of `dt` seconds and returns. Expires all views. What was published by the begin before stays readable until the next
  *  begin.
  *  Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
  *  published fields), THREAD (no thread for the step): then no step was begun and nothing has changed. */
@@ -66,7 +66,8 @@ PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);
 PBMPM_API pbmpm_result pbmpm_world_step_end(pbmpm_world_id world, int32_t wait);
 
 /** Whether the step that was begun is done, so that pbmpm_world_step_end() will not wait: *done is then 1, else 0. Ends nothing and waits
- *  for nothing; made to be asked in each frame.
+ *  for nothing; made to be asked in each frame. Where the step is a task of the host and no other thread runs tasks, it
+ *  never says yes: there end the step with a wait.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null; no step is under way), BUSY, FORKED: *done is as before. */
 PBMPM_API pbmpm_result pbmpm_world_step_done(pbmpm_world_id world, int32_t *done);
 

@@ -102,8 +102,8 @@ typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void
  *  library. Bindings need not use it: everything it says can also be polled. */
 PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 
-/** Told of something inside of the library that does not hold: the condition, and where in its sources it stands. Returns what is to be done:
- *  0: the call goes on, and nothing is certain any more; another number: abort(). May come from any thread, workers too, from several at once; must
+/** Told of something inside of the library that does not hold: the condition, and where in its sources it stands. It returns 0 if the call is
+ *  to go on, though its results mean nothing; with another number abort() is called. May come from any thread, workers too, from several at once; must
  *  not call the library. */
 typedef int32_t pbmpm_assert_callback(const char *condition, const char *file, int32_t line, void *user);
 
@@ -129,11 +129,14 @@ typedef void pbmpm_task(int32_t index, void *context);
  *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
  *  of them have returned. Read at the creation of a world.
  *
- *  Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
- *  not begun; so they may as well run one after another. They neither call enqueue nor finish, but for a step in the background. A step with 5 iterations enqueues some 10 times with the
+ *  Tasks of one handle may wait for each other, for some milliseconds at most. They do not block but give up their core. Nobody waits for a task that
+ *  has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
+ *  `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
+ *
+ *  A step with 5 iterations enqueues some 10 times with the
  *  paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
- *  For one world one call at a time enqueues: another reader of it meanwhile does its work alone. With `nests` the step in the background does so
- *  while another thread waits for it in `finish`. */
+ *  For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
+ *  step in the background goes on enqueuing while another thread is in `finish` for the step itself. */
 typedef struct pbmpm_task_hooks {
     uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */
     int32_t nests; /**< 1: a task may itself call enqueue and finish. Then a step in the background is one more task, see async.h. 0 (default): it may not */

@@ -29,8 +29,10 @@ typedef struct pbmpm_collider_def {
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
-    uint32_t meets;             /**< bit by bit, the groups of materials that it acts on: those whose `groups` have a bit of these; 0 (default): all. A touch, too,
-                                     is only told of these. Nodes hold one velocity: where such matter is within 1.5 cells of other, both are held. */
+    uint32_t meets;             /**< groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
+                                     one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
+                                     pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes is held along, though, while it
+                                     is within 1.5 cells of matter that is held: so this parts bodies from liquid, not one liquid from another. */
     uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */

@@ -89,6 +89,42 @@ static void test_an_obstacle_is_there_for_some_or_not_at_all(void)
         }
 }
 
+/* A dam breaks at the pace of a game around a box that lets the water pass: nothing of the box is felt, not its edges either. */
+static pbmpm_world_id dam(int32_t dimension, const way *chosen, pbmpm_shape shape, uint32_t meets)
+{
+    pbmpm_world_def def = default_world(dimension, 0.08f, 12000);
+    def.domain_enabled = 1;
+    def.domain_max[0] = def.domain_max[1] = 2.0f;
+    def.domain_max[2] = 0.5f;
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_def water = default_material(PBMPM_LIQUID);
+    pbmpm_material_id material;
+    use_way(world, chosen);
+    set_gravity(world, 0, -9.81f, 0);
+    OK(pbmpm_material_create(world, &water, &material));
+    if (meets)
+        obstacle_of(world, shape, meets);
+    fill_shape(world, material, box_shape(0.5f, 0.6f, 0.25f, 0.4f, 0.5f, 0.2f), (const float[3]){0, 0, 0});
+    return world;
+}
+
+static void test_water_feels_nothing_of_what_it_passes(void)
+{
+    const pbmpm_shape shapes[] = {box_shape(1, 0.5f, 0.25f, 1.2f, 0.5f, 0.2f), sphere_shape(0.9f, 0.5f, 0.25f, 0.3f)};
+    for (int w = 0; w < way_count; w++) {
+        if (ways[w].solver == PBMPM_SOLVER_EXPLICIT)
+            continue; /* not at this pace */
+        const int32_t dimension = 2 + w % 2;
+        const pbmpm_world_id without = dam(dimension, &ways[w], shapes[w % 2], 0), with = dam(dimension, &ways[w], shapes[w / 2 % 2], GHOST);
+        for (int i = 0; i < 60; i++) {
+            OK(pbmpm_world_step(without, 1.0f / 60));
+            OK(pbmpm_world_step(with, 1.0f / 60));
+        }
+        TEST_ASSERT_EQUAL_HEX64_MESSAGE(world_hash(without), world_hash(with), ways[w].name);
+        OK(pbmpm_shutdown());
+    }
+}
+
 /* What else is in the world changes nothing for matter far from it, whoever the obstacle lets pass. */
 static void test_matter_elsewhere_changes_nothing(void)
 {
@@ -341,6 +377,7 @@ int main(void)
     support_skip_without_isa();
     UNITY_BEGIN();
     RUN_TEST(test_an_obstacle_is_there_for_some_or_not_at_all);
+    RUN_TEST(test_water_feels_nothing_of_what_it_passes);
     RUN_TEST(test_matter_elsewhere_changes_nothing);
     RUN_TEST(test_a_sieve_parts_matter);
     RUN_TEST(test_any_number_of_threads_gives_the_same_hash);

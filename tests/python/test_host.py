@@ -164,3 +164,20 @@ def test_an_obstacle_meets_the_groups_that_it_is_told() -> None:
             world.add_material(pbmpm.Liquid(groups=wrong))
     with pytest.raises(pbmpm.InvalidArgumentError, match="groups"):
         world.add_material(pbmpm.Liquid(groups=0))
+
+
+def test_an_obstacle_meets_materials() -> None:
+    world = pbmpm.World(2, 0.1, capacity=1000)
+    water, oil, sand = (world.add_material(pbmpm.Liquid(groups=groups)) for groups in (1, 2, 6))
+    shape = pbmpm.Box((0, 0), (1, 1))
+    assert world.add_collider(shape, meets=water).meets == 1
+    wall = world.add_collider(shape, meets=[water, oil, sand])
+    assert wall.meets == 7
+    wall.change(meets=(oil, sand))
+    assert wall.meets == 6
+    for meets in (oil, [water, sand]):  # oil has a group of sand
+        with pytest.raises(pbmpm.InvalidArgumentError, match="same groups"):
+            world.add_collider(shape, meets=meets)
+    with pytest.raises(pbmpm.InvalidArgumentError, match="at least one"):
+        wall.change(meets=[])
+    assert wall.meets == 6

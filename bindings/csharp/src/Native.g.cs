@@ -944,8 +944,10 @@ namespace Pbmpm
         public int Kinematic;
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
-        /// <summary>bit by bit, the groups of materials that it acts on: those whose `groups` have a bit of these; 0 (default): all. A touch, too,
-        /// is only told of these. Nodes hold one velocity: where such matter is within 1.5 cells of other, both are held.</summary>
+        /// <summary>groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
+        /// one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
+        /// pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes is held along, though, while it
+        /// is within 1.5 cells of matter that is held: so this parts bodies from liquid, not one liquid from another.</summary>
         public uint Meets;
         /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
         /// snapshot.h</summary>
@@ -1611,11 +1613,14 @@ namespace Pbmpm.Native
     /// once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
     /// of them have returned. Read at the creation of a world.
     ///
-    /// Tasks of one handle may wait for each other, for some milliseconds at most: not by blocking but by giving up their core, and never for one that has
-    /// not begun; so they may as well run one after another. They neither call enqueue nor finish, but for a step in the background. A step with 5 iterations enqueues some 10 times with the
+    /// Tasks of one handle may wait for each other, for some milliseconds at most. They do not block but give up their core. Nobody waits for a task that
+    /// has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
+    /// `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
+    ///
+    /// A step with 5 iterations enqueues some 10 times with the
     /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
-    /// For one world one call at a time enqueues: another reader of it meanwhile does its work alone. With `nests` the step in the background does so
-    /// while another thread waits for it in `finish`.</summary>
+    /// For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
+    /// step in the background goes on enqueuing while another thread is in `finish` for the step itself.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
     {
@@ -1839,8 +1844,8 @@ namespace Pbmpm.Native
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void LogCallback(LogLevel level, IntPtr message, IntPtr user);
 
-    /// <summary>Told of something inside of the library that does not hold: the condition, and where in its sources it stands. Returns what is to be done:
-    /// 0: the call goes on, and nothing is certain any more; another number: abort(). May come from any thread, workers too, from several at once; must
+    /// <summary>Told of something inside of the library that does not hold: the condition, and where in its sources it stands. It returns 0 if the call is
+    /// to go on, though its results mean nothing; with another number abort() is called. May come from any thread, workers too, from several at once; must
     /// not call the library.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int AssertCallback(IntPtr condition, IntPtr file, int line, IntPtr user);
@@ -2264,7 +2269,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
 
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views but those of the published state before, which stay readable until the next
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views. What was published by the begin before stays readable until the next
         /// begin.
         /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
         /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
@@ -2278,7 +2283,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_step_end(WorldId world, int wait);
 
         /// <summary>Whether the step that was begun is done, so that pbmpm_world_step_end() will not wait: *done is then 1, else 0. Ends nothing and waits
-        /// for nothing; made to be asked in each frame.
+        /// for nothing; made to be asked in each frame. Where the step is a task of the host and no other thread runs tasks, it
+        /// never says yes: there end the step with a wait.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null; no step is under way), BUSY, FORKED: *done is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step_done(WorldId world, int* done);

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,6 +17,7 @@ from ._ffi import ffi
 from ._library import lib
 from ._member import Member
 from ._setters import choice, flag, number
+from .errors import InvalidArgumentError
 from .materials import Material
 from .rigid import Mass, Submersion, mass_from_c, submersion_from_c
 from .shapes import Baked, Shape, from_c, to_c
@@ -49,6 +52,24 @@ class Touch:
     material: Material | None  #: of what touches it; None when it was destroyed since
     particles: int  #: how many touch it now
     impulse: tuple[float, ...]  #: of all matter on the collider in the last step [N s], if it measures that
+
+
+#: What a collider acts on: bits of groups, a material, or several.
+Meets = int | Material | Iterable[Material]
+
+
+def groups_of(world: World, meets: Meets | None) -> int | None:
+    """The groups that are meant, bit by bit; InvalidArgumentError where they do not tell those materials from others."""
+    if meets is None or isinstance(meets, int | np.integer):
+        return meets
+    chosen = [meets] if isinstance(meets, Material) else list(meets)
+    if not chosen:
+        raise InvalidArgumentError("meets: name at least one material; a sensor acts on none")
+    groups = reduce(or_, (material.parameters.groups for material in chosen))
+    indices = {material.index for material in chosen}
+    if any(other.index not in indices and other.parameters.groups & groups for other in world.materials):
+        raise InvalidArgumentError("meets: another material has the same groups; give each material `groups` of its own")
+    return groups
 
 
 #: How what can be changed goes into the C structure.
@@ -146,7 +167,7 @@ class Collider(Member):
         friction_coefficient: float | None = None,
         kinematic: bool | None = None,
         measures_impulse: bool | None = None,
-        meets: int | None = None,
+        meets: Meets | None = None,
         sensor: bool | None = None,
         reports_touches: bool | None = None,
     ) -> None:
@@ -156,7 +177,7 @@ class Collider(Member):
             "friction_coefficient": friction_coefficient,
             "kinematic": kinematic,
             "measures_impulse": measures_impulse,
-            "meets": meets,
+            "meets": groups_of(self._world, meets),
             "sensor": sensor,
             "reports_touches": reports_touches,
         }

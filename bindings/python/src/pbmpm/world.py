@@ -16,7 +16,7 @@ from ._library import lib
 from ._member import Member
 from .advice import WorldAdvice
 from .background import WorldBackground
-from .colliders import Collider, Friction, Touch
+from .colliders import Collider, Friction, Meets, Touch
 from .debug import WorldDebug
 from .domain import WorldDomain
 from .errors import ClosedError, InvalidArgumentError, check
@@ -529,7 +529,7 @@ class World(
         friction_coefficient: float | None = None,
         kinematic: bool = False,
         measures_impulse: bool = False,
-        meets: int = 0,
+        meets: Meets = 0,
         sensor: bool = False,
         reports_touches: bool = False,
         key: int = 0,
@@ -542,8 +542,8 @@ class World(
             friction_coefficient: Coulomb coefficient, in [0, 100].
             kinematic: whether `Collider.move()` may move it.
             measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
-            meets: bit by bit, the groups of materials that it acts on: those whose `groups` have a bit of these; 0: all. Where such matter is within
-                1.5 cells of other, both are held.
+            meets: the material or materials that it acts on, or their groups, bit by bit; 0: all. Materials are told apart by their `groups`, which are
+                the same unless they say otherwise. What passes is held along while it is within 1.5 cells of what is held.
             sensor: whether it acts on nothing, for triggers: matter passes through it.
             reports_touches: whether `touches()` tells what touches it.
             key: what snapshots know it by, a number that no other collider of the world has; 0: its place.
@@ -553,7 +553,7 @@ class World(
             "friction_coefficient": friction_coefficient,
             "kinematic": kinematic,
             "measures_impulse": measures_impulse,
-            "meets": meets,
+            "meets": colliders.groups_of(self, meets),
             "sensor": sensor,
             "reports_touches": reports_touches,
         }
