@@ -229,6 +229,33 @@ static pbmpm_particle_id id_at(pbmpm_world_id world, uint32_t row)
     return (pbmpm_particle_id){view_uint(&view, row, 0), view_uint(&view, row, 1)};
 }
 
+static bool is_zero(pbmpm_world_id world, pbmpm_field field)
+{
+    const pbmpm_view view = view_of(world, field);
+    for (uint32_t row = 0; row < view.count; row++)
+        if (view_uint(&view, row, 0) != 0)
+            return false;
+    return view.count > 0;
+}
+
+/* What the world did not have when it was saved is as new. */
+static void test_fields_of_later_are_at_rest_again(void)
+{
+    const pbmpm_world_id world = tank_2d(NULL, NULL);
+    set_solver(world, PBMPM_SOLVER_PAPER);
+    const saved before = save(world);
+    const pbmpm_particle_id first = id_at(world, 0);
+    const uint32_t seven = 7;
+    OK(pbmpm_particles_set(world, PBMPM_USER_VALUE, &first, 1, &seven));
+    set_solver(world, PBMPM_SOLVER_DUAL);
+    OK(pbmpm_world_step(world, 1.0f / 60));
+    TEST_ASSERT_FALSE(is_zero(world, PBMPM_USER_VALUE));
+    TEST_ASSERT_FALSE(is_zero(world, PBMPM_PRESSURE));
+    restore(world, &before);
+    TEST_ASSERT_TRUE(is_zero(world, PBMPM_USER_VALUE));
+    TEST_ASSERT_TRUE(is_zero(world, PBMPM_PRESSURE));
+}
+
 static void test_identifiers_come_back_and_later_ones_are_gone(void)
 {
     const pbmpm_world_id world = tank_2d(NULL, NULL);
@@ -512,6 +539,7 @@ int main(void)
     RUN_TEST(test_every_scene_goes_on);
     RUN_TEST(test_emitters_drains_and_forces_go_on);
     RUN_TEST(test_settings_and_solver_come_back);
+    RUN_TEST(test_fields_of_later_are_at_rest_again);
     RUN_TEST(test_identifiers_come_back_and_later_ones_are_gone);
     RUN_TEST(test_empty_worlds);
     RUN_TEST(test_bytes_per_particle_are_as_documented);
