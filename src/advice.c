@@ -127,7 +127,7 @@ static void no_gravity(Adviser *adviser)
 }
 
 /* Whether something stands below a point, by spheres that no obstacle reaches into. */
-static bool lands(const World *world, const double from[3])
+static bool lands(const World *world, uint32_t material, const double from[3])
 {
     enum { SPHERES = 256 };
     const double strength = gravity_strength(world), cell = (double)world->def.cell_size, far = PBMPM_MAX_CELL * cell;
@@ -136,7 +136,8 @@ static bool lands(const World *world, const double from[3])
         double nearest = INFINITY, at[3] = {0};
         for (int a = 0; a < world->def.dimension; a++) at[a] = from[a] + way * (double)world->settings.gravity[a] / strength;
         for (uint32_t c = 0; c < world->colliders.used; c++) {
-            if (!collider_acts(&world->colliders.slot[c])) continue;
+            const Collider *collider = &world->colliders.slot[c];
+            if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[material].groups)) continue;
             const Solid solid = solid_among(&world->colliders.slot[c].shape, world->def.dimension, &world->baked);
             nearest = fmin(nearest, solid_least(&solid, at));
         }
@@ -159,7 +160,7 @@ static bool wall_below(const World *world)
 static bool any_sticks(const World *world)
 {
     for (uint32_t c = 0; c < world->colliders.used; c++)
-        if (collider_acts(&world->colliders.slot[c]) && world->colliders.slot[c].def.friction == PBMPM_FRICTION_STICK) return true;
+        if (world_feels(world, &world->colliders.slot[c]) && world->colliders.slot[c].def.friction == PBMPM_FRICTION_STICK) return true;
     return false;
 }
 
@@ -178,14 +179,14 @@ static void falls_forever(Adviser *adviser)
         double at[3] = {0};
         for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
         looked += 1.0;
-        falls += !lands(world, at);
+        falls += !lands(world, p->material[row], at);
     }
     for (uint32_t e = 0; e < world->emitters.used; e++) {
         const Emitter *emitter = &world->emitters.slot[e];
         if (emitter->generation == 0) continue;
         const double at[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         looked += 1.0;
-        falls += !lands(world, at);
+        falls += !lands(world, emitter->def.material.index, at);
     }
     if (looked == 0.0 || falls <= FEW * looked) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)(falls / looked), .bound = (float)FEW,
@@ -343,7 +344,7 @@ static bool some_wall_leans(const World *world)
     const int dimension = world->def.dimension;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (!collider_acts(collider)) continue;
+        if (!world_feels(world, collider)) continue;
         const Solid solid = collider_obstacle(collider, dimension, 0, 1).start;
         if (solid_leans(world, &solid)) return true;
     }
@@ -507,7 +508,7 @@ static bool any_rubs(const World *world)
     }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        rubs = rubs || (collider_acts(collider) && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
+        rubs = rubs || (world_feels(world, collider) && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
     }
     return rubs;
 }
@@ -560,7 +561,7 @@ static void collider_too_fast(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (!collider_acts(collider) || !collider_moves(collider)) continue;
+        if (!world_feels(world, collider) || !collider_moves(collider)) continue;
         const double cells = way_of(collider, world->def.dimension) / ((double)world->def.cell_size * world->settings.substeps);
         if (cells <= 1.0) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_FAST, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
@@ -586,7 +587,7 @@ static void collider_too_thin(Adviser *adviser)
     const double cell = (double)world->def.cell_size;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (!collider_acts(collider)) continue;
+        if (!world_feels(world, collider)) continue;
         const double cells = thickness_of(collider, world->def.dimension) / cell;
         if (cells >= 1.0 - 1e-5) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,

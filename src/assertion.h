@@ -1,4 +1,4 @@
-/* Assertions: what has to hold inside of the library, whatever a host does. Built with PBMPM_ASSERTS=ON they are looked at, else they cost nothing. */
+/* Assertions: what has to hold inside of the library as long as the host keeps its promises. Built with PBMPM_ASSERTS=ON they are looked at, else they cost nothing. */
 #ifndef PBMPM_SRC_ASSERTION_H
 #define PBMPM_SRC_ASSERTION_H
 

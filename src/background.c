@@ -126,17 +126,23 @@ static void need_copies(Background *background)
     enter_stage(background, COPIED);
 }
 
+/* Whether nobody wants the step any more that is still to be made. */
+static bool is_given_up(Background *background)
+{
+    pthread_mutex_lock(&background->lock);
+    const bool quit = background->quit;
+    pthread_mutex_unlock(&background->lock);
+    return quit;
+}
+
 static void step(Background *background)
 {
     ASSERT(background->begun);
-    const uint32_t own = float_mode_enter();
-    float_mode_leave(background->host_mode); /* what functions of the host find */
-    const uint32_t mode = float_mode_enter_from_host();
+    const FloatModes modes = float_mode_enter_for(background->host_mode);
     need_copies(background);
     background->result = world_step(background->world, background->dt);
     snprintf(background->message, sizeof background->message, "%s", background->result == PBMPM_OK ? "" : result_message());
-    float_mode_leave_to_host(mode);
-    float_mode_leave(own);
+    float_mode_leave_for(modes);
     enter_stage(background, DONE);
 }
 
@@ -160,7 +166,7 @@ static void *thread_main(void *context)
 static void host_step(int32_t index, void *context)
 {
     (void)index;
-    step(context);
+    if (!is_given_up(context)) step(context);
 }
 
 /* ---- Life ---- */
@@ -205,15 +211,13 @@ void background_stop(World *world, bool here)
 {
     Background *background = world->background;
     if (!background || !here) return;
+    pthread_mutex_lock(&background->lock);
+    background->quit = true;
+    pthread_cond_broadcast(&background->changed);
+    pthread_mutex_unlock(&background->lock);
     finish_task(background);
-    if (background->has_thread) {
-        pthread_mutex_lock(&background->lock);
-        background->quit = true;
-        pthread_cond_broadcast(&background->changed);
-        pthread_mutex_unlock(&background->lock);
-        pthread_join(background->thread, NULL);
-        background->has_thread = false;
-    }
+    if (background->has_thread) pthread_join(background->thread, NULL);
+    background->has_thread = false;
     pthread_cond_destroy(&background->changed);
     pthread_mutex_destroy(&background->lock);
 }

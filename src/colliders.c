@@ -333,15 +333,26 @@ typedef struct Around {
     double reach[OBSTACLES], most;
 } Around;
 
+uint32_t contacts_block_groups(const ContactFrame *frame, int32_t block)
+{
+    const size_t cells = (size_t)frame->grid->block_cells;
+    uint32_t groups = 0;
+    for (size_t i = 0; frame->groups && i < cells; i++) groups |= frame->groups[(size_t)block * cells + i];
+    return !frame->groups ? ALL_GROUPS : groups ? groups : frame->present;
+}
+
 /* Those that act on what is at a node of the grid: `around` itself if all do, else `some`. */
 static const Around *around_node(const ContactFrame *frame, const Around *around, size_t node, Around *some)
 {
     const uint32_t groups = contacts_node_groups(frame, node);
     if (field_meeting(&around->near, groups, &some->near) == &around->near) return around;
     int kept = 0;
-    some->most = around->most;
-    for (int k = 0; k < around->near.count; k++)
-        if (obstacle_meets(around->near.obstacle[k], groups)) some->reach[kept++] = around->reach[k];
+    some->most = 0.0;
+    for (int k = 0; k < around->near.count; k++) {
+        if (!obstacle_meets(around->near.obstacle[k], groups)) continue;
+        some->most = fmax(some->most, around->reach[k]);
+        some->reach[kept++] = around->reach[k];
+    }
     return some;
 }
 
@@ -427,8 +438,9 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
             count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
             continue;
         }
-        if ((double)frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)i] > all->most) continue;
-        const Around *around = around_node(frame, all, (size_t)block * (size_t)grid->block_cells + (size_t)i, &some);
+        const size_t at = (size_t)block * (size_t)grid->block_cells + (size_t)i;
+        const Around *around = around_node(frame, all, at, &some);
+        if ((double)frame->gap[at] > around->most) continue;
         const Near *near = &around->near;
         contacts_node_position(frame, block, i, point);
         count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);
@@ -453,11 +465,14 @@ static void look_around(const ContactFrame *frame, int32_t block, Around *around
     static const double BESIDE = 4.5; /* [cells]: how far obstacles matter to a node in another one: those beside it, seen from its reflection */
     const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
     double centre[3];
+    const uint32_t groups = contacts_block_groups(frame, block);
     contacts_block_centre(frame, block, centre);
     around->most = 0.0;
     for (int i = 0; i < frame->colliders->obstacle_count; i++)
-        around->most = fmax(around->most, reach_of(frame, &frame->colliders->obstacle[i], block, centre));
+        if (obstacle_meets(&frame->colliders->obstacle[i], groups))
+            around->most = fmax(around->most, reach_of(frame, &frame->colliders->obstacle[i], block, centre));
     field_near(&around->near, frame, centre, half_diagonal + fmax(around->most, BESIDE), false);
+    field_keep(&around->near, groups);
     for (int i = 0; i < around->near.count; i++) around->reach[i] = reach_of(frame, around->near.obstacle[i], block, centre);
 }
 

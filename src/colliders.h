@@ -126,14 +126,17 @@ typedef struct ContactFrame {
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
     const uint32_t *groups;             /* Colliders.groups, likewise */
+    uint32_t present;                   /* all groups of the matter that there is, likewise */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
 
-/* The groups of the matter at a node of the grid, and of a particle; all where that does not matter. */
+/* The groups of the matter at a node of the grid, at all nodes of a block, and of a particle; all where that does not matter. Where there is no matter any may come. */
 static inline uint32_t contacts_node_groups(const ContactFrame *frame, size_t node)
 {
-    return frame->groups && frame->groups[node] ? frame->groups[node] : ALL_GROUPS;
+    return !frame->groups ? ALL_GROUPS : frame->groups[node] ? frame->groups[node] : frame->present;
 }
+
+uint32_t contacts_block_groups(const ContactFrame *frame, int32_t block);
 
 static inline uint32_t contacts_row_groups(const ContactFrame *frame, const Particles *particles, uint32_t row)
 {

@@ -86,6 +86,21 @@ void float_mode_leave_to_host(uint32_t old)
 
 uint32_t float_mode_of_host(void) { return host_mode; }
 
+FloatModes float_mode_enter_for(uint32_t host)
+{
+    const FloatModes before = {float_mode_enter(), host_mode};
+    host_mode = host;
+    depth++;
+    return before;
+}
+
+void float_mode_leave_for(FloatModes before)
+{
+    depth--;
+    host_mode = before.host;
+    float_mode_leave(before.own);
+}
+
 uint32_t float_mode_lend(void)
 {
     const uint32_t ours = _mm_getcsr();

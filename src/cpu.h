@@ -19,6 +19,14 @@ void float_mode_leave(uint32_t old);
 uint32_t float_mode_enter_from_host(void);
 void float_mode_leave_to_host(uint32_t old);
 uint32_t float_mode_of_host(void);
+
+/* For work on behalf of a thread whose mode is `host`, perhaps in the midst of other such work: functions of the host are called in that mode. */
+typedef struct FloatModes {
+    uint32_t own, host;
+} FloatModes;
+FloatModes float_mode_enter_for(uint32_t host);
+void float_mode_leave_for(FloatModes before);
+
 uint32_t float_mode_lend(void);
 void float_mode_take_back(uint32_t lent);
 

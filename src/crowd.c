@@ -95,8 +95,10 @@ static double room_at(const World *world, uint32_t groups, const int32_t node[3]
 {
     double point[3], normal[3];
     node_place(world, node, point);
-    for (int i = 0; i < world->colliders.obstacle_count; i++)
-        if (obstacle_meets(&world->colliders.obstacle[i], groups) && obstacle_distance(&world->colliders.obstacle[i], point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
+    for (int i = 0; i < world->colliders.obstacle_count; i++) {
+        const Obstacle *o = &world->colliders.obstacle[i];
+        if (obstacle_meets(o, groups) && obstacle_distance(o, point, normal) < -CLOSED * (double)world->def.cell_size) return 0.0;
+    }
     return open_share_of(world, groups, node);
 }
 
@@ -180,7 +182,9 @@ double crowd_density(const Crowd *crowd, int dimension, const Spot *spot)
 double crowd_clearance(const World *world, const Crowd *crowd, const double point[3])
 {
     double nearest = INFINITY, normal[3];
-    for (int i = 0; i < world->colliders.obstacle_count; i++)
-        if (obstacle_meets(&world->colliders.obstacle[i], crowd->groups)) nearest = fmin(nearest, obstacle_distance(&world->colliders.obstacle[i], point, normal));
+    for (int i = 0; i < world->colliders.obstacle_count; i++) {
+        const Obstacle *o = &world->colliders.obstacle[i];
+        if (obstacle_meets(o, crowd->groups)) nearest = fmin(nearest, obstacle_distance(o, point, normal));
+    }
     return nearest / (double)world->def.cell_size;
 }

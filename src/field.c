@@ -48,10 +48,18 @@ const Near *field_meeting(const Near *near, uint32_t groups, Near *some)
     some->cell_size = near->cell_size;
     some->dimension = near->dimension;
     some->at_end = near->at_end;
-    some->count = 0;
-    for (int i = 0; i < near->count; i++)
-        if (obstacle_meets(near->obstacle[i], groups)) some->obstacle[some->count++] = near->obstacle[i];
+    some->count = near->count;
+    memcpy(some->obstacle, near->obstacle, (size_t)near->count * sizeof near->obstacle[0]);
+    field_keep(some, groups);
     return some;
+}
+
+void field_keep(Near *near, uint32_t groups)
+{
+    int kept = 0;
+    for (int i = 0; i < near->count; i++)
+        if (obstacle_meets(near->obstacle[i], groups)) near->obstacle[kept++] = near->obstacle[i];
+    near->count = kept;
 }
 
 double field_distance(const Near *near, const double point[3])

@@ -34,6 +34,9 @@ void field_near(Near *near, const ContactFrame *frame, const double centre[3], d
 /* Those of them that act on matter of these groups: `near` itself if all do, else `some`. */
 const Near *field_meeting(const Near *near, uint32_t groups, Near *some);
 
+/* Leaves those out that do not. */
+void field_keep(Near *near, uint32_t groups);
+
 static inline const Solid *field_solid(const Near *near, const Obstacle *o) { return near->at_end ? &o->end : &o->start; }
 
 /* The same scene elsewhere has other roundings; they do not get past this. */

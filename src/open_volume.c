@@ -26,21 +26,12 @@ typedef struct OpenJob {
     float *open; /* per node */
 } OpenJob;
 
-/* The groups of all matter at the nodes of a block. */
-static uint32_t block_groups(const ContactFrame *frame, int32_t block)
-{
-    const size_t cells = (size_t)frame->grid->block_cells;
-    uint32_t groups = 0;
-    for (size_t i = 0; frame->groups && i < cells; i++) groups |= frame->groups[(size_t)block * cells + i];
-    return groups ? groups : ALL_GROUPS;
-}
-
 /* Obstacles near a block that act on matter there. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
 static void find_near(const OpenJob *job, int32_t block, Near *near, bool *edged)
 {
     const ContactFrame *frame = job->frame;
     const double diagonal = sqrt((double)frame->grid->dimension), half_block = 0.5 * (K_BLOCK_AXIS - 1) * diagonal;
-    const uint32_t groups = block_groups(frame, block);
+    const uint32_t groups = contacts_block_groups(frame, block);
     double centre[3];
     int kept = 0;
     contacts_block_centre(frame, block, centre);

@@ -203,6 +203,14 @@ static void share_with_workers(Pool *pool)
     finish_round(pool);
 }
 
+/* Whether nothing of them is left to do. */
+static bool are_done(Loops *loops)
+{
+    bool done = true;
+    for (int i = 0; i < loops->count; i++) done = done && is_done(&loops->loop[i]);
+    return done;
+}
+
 /* False, and nothing done: another reader has the threads. */
 static bool fork_join(Pool *pool, Loops *loops)
 {
@@ -213,6 +221,7 @@ static bool fork_join(Pool *pool, Loops *loops)
         share_with_host(pool);
     else
         share_with_workers(pool);
+    ASSERT(are_done(loops));
     atomic_store(&pool->taken, false);
     return true;
 }
@@ -264,20 +273,11 @@ void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, si
     loops->ns += span.ns;
 }
 
-/* Whether nothing of them is left to do. */
-static bool are_done(Loops *loops)
-{
-    bool done = true;
-    for (int i = 0; i < loops->count; i++) done = done && is_done(&loops->loop[i]);
-    return done;
-}
-
 void loops_run(Loops *loops)
 {
     Pool *pool = loops->pool;
     const bool shares = !pool->serial && pool->threads > 1 && loops->ns >= WORTH_A_FORK_NS;
     const bool shared = shares && fork_join(pool, loops);
-    ASSERT(!shared || are_done(loops));
     for (int i = 0; i < loops->count && !shared; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
     loops_open(loops, pool);
 }

@@ -66,6 +66,8 @@ pbmpm_result reach_find_groups(ContactFrame *frame, const pbmpm_material_def *ma
             const int reached = nodes_of(grid, block, grid->run_key[run] & K_RUN_CELL_MASK, nodes);
             for (int i = 0; i < reached; i++) groups[nodes[i]] |= material[grid->run_key[run] >> K_RUN_CELL_BITS].groups;
         }
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (of_material[slot] > 0) frame->present |= material[slot].groups;
     frame->groups = groups;
     frame->material = material;
     return PBMPM_OK;

@@ -99,7 +99,7 @@ void sleep_begin_substep(World *world, int part)
     const Colliders *colliders = &world->colliders;
     if (world->sleep.asleep.count + world->sleep.active.count == 0) return;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
-        if (!collider_acts(&colliders->slot[slot]) || !collider_moves(&colliders->slot[slot])) continue;
+        if (!collider_moves(&colliders->slot[slot]) || !world_feels(world, &colliders->slot[slot])) continue;
         const Obstacle o = collider_obstacle(&colliders->slot[slot], world->def.dimension, part, world->settings.substeps);
         wake_where(world, is_on_way, &o);
     }
@@ -114,7 +114,7 @@ bool sleep_is_measured(const World *world, const int32_t place[3])
     const double reach = around(world, place, centre) + SLEEP_FELT * dx;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         const Collider *collider = &colliders->slot[slot];
-        if (collider->generation == 0 || !collider->def.measures_impulse) continue;
+        if (!collider->def.measures_impulse || !world_feels(world, collider)) continue;
         const Obstacle o = collider_obstacle(collider, world->def.dimension, 0, 1);
         if (solid_least(&o.start, centre) <= reach) return true;
     }

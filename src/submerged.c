@@ -118,8 +118,21 @@ static void smooth(Sounding *s, float *field)
     }
 }
 
+/* The groups of the matter that may carry the solid. */
+static uint32_t groups_around(const Sounding *s)
+{
+    const Materials *materials = &s->world->materials;
+    uint32_t groups = 0;
+    for (int slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const bool there = s->world->particles.of_material[slot] > 0 && (s->material == ANY_MATERIAL || s->material == slot);
+        if (there && groups_meet(s->collider->def.meets, materials->def[slot].groups)) groups |= materials->def[slot].groups;
+    }
+    return groups;
+}
+
 static void find_open(Sounding *s)
 {
+    const uint32_t groups = groups_around(s);
     double middle[3], reach2 = 0.0;
     for (int a = 0; a < 3; a++) {
         const double half = 0.5 * (s->count[a] - 1) * s->spacing;
@@ -131,7 +144,7 @@ static void find_open(Sounding *s)
     const Colliders *colliders = &s->world->colliders;
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         const bool own = &colliders->slot[slot] == s->collider;
-        const bool acts = collider_acts(&colliders->slot[slot]);
+        const bool acts = collider_acts(&colliders->slot[slot]) && groups_meet(colliders->slot[slot].def.meets, groups);
         if (!acts && !own) continue;
         const Solid other = solid_among(&colliders->slot[slot].shape, s->dimension, &s->world->baked);
         if (solid_least(&other, middle) < sqrt(reach2) + s->spacing) close_solid(s, &other, acts, own ? s->inside : NULL);

@@ -94,6 +94,15 @@ pbmpm_result world_make_room_for(World *world, uint32_t material)
     return material_is_solid(&world->materials, material) ? particles_enable_deformation(&world->particles, &world->memory) : PBMPM_OK;
 }
 
+bool world_feels(const World *world, const Collider *collider)
+{
+    uint32_t groups = 0;
+    if (!collider_acts(collider) || collider->def.meets == 0) return collider_acts(collider);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->particles.of_material[slot] > 0) groups |= world->materials.def[slot].groups;
+    return groups_meet(collider->def.meets, groups);
+}
+
 pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 {
     const pbmpm_isa isa = cpu_isa();

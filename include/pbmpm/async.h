@@ -9,9 +9,11 @@
 extern "C" {
 #endif
 
-/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks. If the hooks
- * nest (base.h), it is a task of the host instead, and the world has no thread: pbmpm_world_step_begin() enqueues one task, which enqueues others and
- * finishes them. pbmpm_world_step_end() finishes it, on whichever thread calls that. A job system in which a task may wait for tasks can do this.
+/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks.
+ *
+ * If the hooks nest (base.h) it is a task of the host instead, and the world has no such thread. pbmpm_world_step_begin() enqueues one task. That
+ * task enqueues others and finishes them. pbmpm_world_step_end() finishes it, on the thread that calls; so does the end of the world.
+ *
  * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until an end gives another
  * result than BUSY the world takes these calls only, and answers all others with BUSY:
  *
@@ -44,7 +46,8 @@ extern "C" {
  * begins a step has neither.
  *
  * The step calls the allocator, the task hooks and the log callback, in the floating-point mode of the thread that began it. One
- * thread at a time calls the allocator of a world. The same holds for its hooks, except that a thread may wait in `finish` for the step itself. Threads of the library block all signals but faults.
+ * thread at a time calls the allocator of a world. The same holds for its hooks, except that a thread may wait in `finish` for the step
+ * itself. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
 

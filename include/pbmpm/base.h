@@ -133,15 +133,16 @@ typedef void pbmpm_task(int32_t index, void *context);
  *  has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
  *  `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
  *
- *  A step with 5 iterations enqueues some 10 times with the
- *  paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
+ *  A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
+ *  some 40 microseconds run on the caller.
+ *
  *  For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
  *  step in the background goes on enqueuing while another thread is in `finish` for the step itself. */
 typedef struct pbmpm_task_hooks {
     uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */
     int32_t nests; /**< 1: a task may itself call enqueue and finish. Then a step in the background is one more task, see async.h. 0 (default): it may not */
     void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); /**< not null; returns a handle */
-    void (*finish)(void *handle, void *user);                                     /**< not null */
+    void (*finish)(void *handle, void *user);                                     /**< not null; any thread may call it */
     void *user;                                                                   /**< passed on unchanged */
 } pbmpm_task_hooks;
 

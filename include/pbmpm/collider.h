@@ -31,8 +31,9 @@ typedef struct pbmpm_collider_def {
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
     uint32_t meets;             /**< groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
                                      one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-                                     pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes is held along, though, while it
-                                     is within 1.5 cells of matter that is held: so this parts bodies from liquid, not one liquid from another. */
+                                     pbmpm_collider_submerged() go by it, too; queries do not. Nodes hold one velocity, though. So matter that
+                                     passes is braked within some 2.5 cells of matter that is held, and held along within 1.5.
+                                     This parts bodies from liquid, but not one liquid from another. */
     uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
                              snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */

@@ -32,7 +32,7 @@ typedef enum pbmpm_emitter_region {
  *  With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
  *  (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
  *  A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
- *  velocity that it would have in gravity: a stream has no pulses. If an obstacle is in the way it appears where it was born.
+ *  velocity that it would have in gravity: a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
  *  Places follow a sequence that fills the region evenly.
  *
  *  A particle that is due is refused, and never made up for, when the matter at its place already fills the share

@@ -45,7 +45,7 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
- *  one lattice cell. Lattice points outside the domain box, or in an obstacle where it stands now, are left out; with a CAPACITY error nothing is added and `added`
+ *  one lattice cell. Lattice points outside the domain box, or in an obstacle that acts on the material, where it stands now, are left out; with a CAPACITY error nothing is added and `added`
  *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
  *  domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
 PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added);

@@ -335,6 +335,61 @@ static void test_polled_steps_are_finished_once(void)
     TEST_ASSERT_EQUAL_INT(3, host.steps);
 }
 
+/* A host that works on the step of another world while it waits for this one's tasks: what it sees of this one's mode afterwards. */
+typedef struct helping_host {
+    late_host *other;
+    unsigned mode;
+    int calls, wrong;
+} helping_host;
+
+static void *enqueue_helping(pbmpm_task *task, int32_t count, void *context, void *user)
+{
+    helping_host *own = user;
+    own->calls++;
+    own->wrong += (_mm_getcsr() & ~0x3fu) != own->mode;
+    if (own->other->task)
+        finish_late(own->other, own->other);
+    own->wrong += (_mm_getcsr() & ~0x3fu) != own->mode;
+    return enqueue_at_once(task, count, context, &(int){0});
+}
+
+static void use_helping_host(pbmpm_world_def *def, void *user)
+{
+    static pbmpm_task_hooks hooks = {sizeof hooks, 1, enqueue_helping, finish_nothing, NULL};
+    hooks.user = user;
+    def->tasks = &hooks;
+    def->thread_count = 3;
+}
+
+static void test_each_step_has_the_mode_of_who_began_it(void)
+{
+    static late_host late;
+    static helping_host helper = {.other = &late, .mode = 0x1f80};
+    late = (late_host){0};
+    const stage waiting = stirred_pool(2, &ways[0], use_late_host, &late), helped = stirred_pool(3, &ways[0], use_helping_host, &helper);
+    _mm_setcsr(0x5f80);
+    const pbmpm_result begun = pbmpm_world_step_begin(waiting.world, 0.01f);
+    _mm_setcsr(0x1f80);
+    OK(begun);
+    OK(pbmpm_world_step(helped.world, 0.01f));
+    TEST_ASSERT_EQUAL_INT(1, late.finishes);
+    TEST_ASSERT_TRUE(helper.calls > 2);
+    TEST_ASSERT_EQUAL_INT(0, helper.wrong);
+    late.task = nothing_left;
+    OK(pbmpm_world_step_end(waiting.world, 0));
+}
+
+/* Nobody computes a step that nobody will see. */
+static void test_a_step_that_is_not_begun_is_given_up(void)
+{
+    late_host host = {0};
+    const stage made = stirred_pool(2, &ways[0], use_late_host, &host);
+    OK(pbmpm_world_step_begin(made.world, 0.01f));
+    OK(pbmpm_world_destroy(made.world));
+    TEST_ASSERT_EQUAL_INT(1, host.finishes);
+    TEST_ASSERT_EQUAL_INT(0, host.others);
+}
+
 /* ---- views ---- */
 
 static void expect_copy(pbmpm_world_id world, pbmpm_field field, const unsigned char *packed)
@@ -945,6 +1000,8 @@ int main(void)
     RUN_TEST(test_steps_as_tasks_give_the_same_results);
     RUN_TEST(test_a_step_that_no_thread_has_begun);
     RUN_TEST(test_polled_steps_are_finished_once);
+    RUN_TEST(test_each_step_has_the_mode_of_who_began_it);
+    RUN_TEST(test_a_step_that_is_not_begun_is_given_up);
     RUN_TEST(test_views_show_the_state_before_the_step);
     RUN_TEST(test_views_expire_at_the_begin_and_at_the_end);
     RUN_TEST(test_figures_of_the_step_before);

@@ -125,6 +125,63 @@ static void test_water_feels_nothing_of_what_it_passes(void)
     }
 }
 
+/* One that moves through matter that it does not meet changes nothing of how others hold it. */
+static void test_what_passes_matter_changes_no_contact(void)
+{
+    for (int w = 0; w < way_count; w++)
+        for (int fast = 0; fast < 2; fast++) {
+            uint64_t hash[2];
+            for (int passes = 0; passes < 2; passes++) {
+                const pbmpm_world_id world = new_world(2, &ways[w], 1);
+                pbmpm_collider_id ghost = {0, 0};
+                pbmpm_shape slope = box_shape(0, -0.6f, 0, 1.5f, 0.4f, 0);
+                slope.rotation[2] = sinf(0.15f);
+                slope.rotation[3] = cosf(0.15f);
+                obstacle_of(world, slope, 0);
+                fill_shape(world, material_of(world, kinds[w % 4], WATER), box_shape(0.2f, 0.4f, 0, 0.4f, 0.4f, 0), (const float[3]){0, -1, 0});
+                if (passes)
+                    ghost = obstacle_of(world, box_shape(-3, 0.2f, 0, 0.3f, 0.5f, 0), GHOST);
+                for (int i = 0; i < 80; i++) {
+                    const float position[3] = {-3 + (fast ? 0.25f : 0.08f) * (float)(i + 1), 0.2f, 0};
+                    if (passes)
+                        OK(pbmpm_collider_move(world, ghost, position, NULL));
+                    run(world, 1);
+                }
+                hash[passes] = world_hash(world);
+            }
+            TEST_ASSERT_EQUAL_HEX64_MESSAGE(hash[0], hash[1], ways[w].name);
+            OK(pbmpm_shutdown());
+        }
+}
+
+/* Matter falls asleep beside obstacles that it passes, though they measure and move. */
+static void test_what_matter_passes_keeps_nobody_awake(void)
+{
+    for (uint32_t meets = 1; meets < 3; meets++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 4000);
+        pbmpm_settings settings = default_settings();
+        pbmpm_stats stats = {.size = sizeof stats};
+        def.domain_enabled = 1;
+        def.domain_max[0] = def.domain_max[1] = 2.0f;
+        const pbmpm_world_id world = create_world(&def);
+        settings.sleeping = 1;
+        settings.sleep_time = 0.1f;
+        settings.solver = PBMPM_SOLVER_DUAL;
+        settings.gravity[1] = -9.81f;
+        OK(pbmpm_world_set_settings(world, &settings));
+        fill_shape(world, material_of(world, PBMPM_LIQUID, WATER), box_shape(1, 0.15f, 0, 1, 0.15f, 0), (const float[3]){0, 0, 0});
+        const pbmpm_collider_id paddle = obstacle_of(world, box_shape(1, 0.5f, 0, 0.1f, 0.1f, 0), meets);
+        for (int i = 0; i < 200; i++) {
+            const float position[3] = {1 + 0.001f * (float)(i % 20), 0.5f, 0};
+            OK(pbmpm_collider_move(world, paddle, position, NULL));
+            OK(pbmpm_world_step(world, 1.0f / 60));
+        }
+        OK(pbmpm_world_get_stats(world, &stats));
+        TEST_ASSERT_TRUE((stats.particles_asleep == stats.particle_count) == (meets == GHOST));
+        OK(pbmpm_shutdown());
+    }
+}
+
 /* What else is in the world changes nothing for matter far from it, whoever the obstacle lets pass. */
 static void test_matter_elsewhere_changes_nothing(void)
 {
@@ -328,6 +385,9 @@ static void test_only_what_is_met_counts_as_under_matter(void)
         const pbmpm_collider_id body = obstacle_of(world, box_shape(1.5f, 1.5f, 0, 0.3f, 0.3f, 0), meets);
         OK(pbmpm_collider_submerged(world, body, NULL, &found));
         TEST_ASSERT_DOUBLE_WITHIN(0.04, meets == WATER ? 0.0 : 0.36, found.volume);
+        obstacle_of(world, box_shape(1.5f, 2.0f, 0, 1.4f, 0.15f, 0), WATER); /* takes no room from what passes it */
+        OK(pbmpm_collider_submerged(world, body, NULL, &found));
+        TEST_ASSERT_DOUBLE_WITHIN(0.04, meets == WATER ? 0.0 : 0.36, found.volume);
     }
 }
 
@@ -378,6 +438,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_an_obstacle_is_there_for_some_or_not_at_all);
     RUN_TEST(test_water_feels_nothing_of_what_it_passes);
+    RUN_TEST(test_what_passes_matter_changes_no_contact);
+    RUN_TEST(test_what_matter_passes_keeps_nobody_awake);
     RUN_TEST(test_matter_elsewhere_changes_nothing);
     RUN_TEST(test_a_sieve_parts_matter);
     RUN_TEST(test_any_number_of_threads_gives_the_same_hash);

@@ -51,8 +51,10 @@ namespace Pbmpm
         readonly FinishTasks finish;
         readonly bool nests;
 
-        /// <param name="enqueue">Called by any thread that calls the library, and by that of a step in the background.</param>
-        /// <param name="finish">Called by the same thread; for a step that is a task by the one that ends it.</param>
+        /// <param name="enqueue">Called by any thread that calls the library, and by that of a step in the background, which may be a
+        /// task.</param>
+        /// <param name="finish">Called by the same thread; for a step that is a task by the one that ends the step or disposes of the
+        /// world. In a task it has to run other tasks while it waits, or some worker has to be left that does.</param>
         /// <param name="nests">Whether a task may itself enqueue tasks and finish them. Then a step in the background is one, and
         /// its world has no thread for it.</param>
         public HostTasks(EnqueueTasks enqueue, FinishTasks finish, bool nests = false)

@@ -946,8 +946,9 @@ namespace Pbmpm
         public int MeasuresImpulse;
         /// <summary>groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
         /// one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-        /// pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes is held along, though, while it
-        /// is within 1.5 cells of matter that is held: so this parts bodies from liquid, not one liquid from another.</summary>
+        /// pbmpm_collider_submerged() go by it, too; queries do not. Nodes hold one velocity, though. So matter that
+        /// passes is braked within some 2.5 cells of matter that is held, and held along within 1.5.
+        /// This parts bodies from liquid, but not one liquid from another.</summary>
         public uint Meets;
         /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
         /// snapshot.h</summary>
@@ -1152,7 +1153,7 @@ namespace Pbmpm
     /// With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
     /// (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
     /// A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
-    /// velocity that it would have in gravity: a stream has no pulses. If an obstacle is in the way it appears where it was born.
+    /// velocity that it would have in gravity: a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
     /// A particle that is due is refused, and never made up for, when the matter at its place already fills the share
@@ -1617,8 +1618,9 @@ namespace Pbmpm.Native
     /// has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
     /// `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
     ///
-    /// A step with 5 iterations enqueues some 10 times with the
-    /// paper's solver and 30 with the dual, per substep and group of islands; loops of less than some 40 microseconds run on the caller.
+    /// A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
+    /// some 40 microseconds run on the caller.
+    ///
     /// For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
     /// step in the background goes on enqueuing while another thread is in `finish` for the step itself.</summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -1630,7 +1632,7 @@ namespace Pbmpm.Native
         public int Nests;
         /// <summary>not null; returns a handle</summary>
         public IntPtr Enqueue;
-        /// <summary>not null</summary>
+        /// <summary>not null; any thread may call it</summary>
         public IntPtr Finish;
         /// <summary>passed on unchanged</summary>
         public IntPtr User;
@@ -2107,7 +2109,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
-        /// one lattice cell. Lattice points outside the domain box, or in an obstacle where it stands now, are left out; with a CAPACITY error nothing is added and `added`
+        /// one lattice cell. Lattice points outside the domain box, or in an obstacle that acts on the material, where it stands now, are left out; with a CAPACITY error nothing is added and `added`
         /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
         /// domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

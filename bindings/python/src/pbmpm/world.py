@@ -543,7 +543,8 @@ class World(
             kinematic: whether `Collider.move()` may move it.
             measures_impulse: whether `Collider.impulse` tells what matter does to it; costs nothing when not.
             meets: the material or materials that it acts on, or their groups, bit by bit; 0: all. Materials are told apart by their `groups`, which are
-                the same unless they say otherwise. What passes is held along while it is within 1.5 cells of what is held.
+                the same unless they say otherwise; one that is added later is looked at as it comes. What passes is braked within some 2.5
+                cells of what is held, and held along within 1.5.
             sensor: whether it acts on nothing, for triggers: matter passes through it.
             reports_touches: whether `touches()` tells what touches it.
             key: what snapshots know it by, a number that no other collider of the world has; 0: its place.

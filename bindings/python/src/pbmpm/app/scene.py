@@ -455,7 +455,7 @@ class Scene(_Part):
 MATERIALS_THAT_CAN_BE_MET = 32
 
 
-def groups_of(scene: Scene) -> dict[str, int]:
+def material_groups(scene: Scene) -> dict[str, int]:
     """The groups of each material: one of its own where an obstacle does not act on all."""
     chosen = any(part.meets is not None for part in scene.colliders)
     return {name: 1 << index if chosen else 1 for index, name in enumerate(scene.materials)}
@@ -551,7 +551,7 @@ def _cross_check(scene: Scene) -> list[str]:
     if not scene.sources:
         problems.append("fills: there is nothing in the scene: it needs a fill or an emitter")
     problems += _material_problems(scene)
-    if max(groups_of(scene).values()).bit_length() > MATERIALS_THAT_CAN_BE_MET:
+    if max(material_groups(scene).values()).bit_length() > MATERIALS_THAT_CAN_BE_MET:
         problems.append(f"colliders: `meets` works with {MATERIALS_THAT_CAN_BE_MET} materials at most")
     for index, part in enumerate(scene.colliders):
         if scene.dimension == 2 and part.body is not None and part.body.axis is not None:

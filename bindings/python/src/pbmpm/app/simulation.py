@@ -17,7 +17,7 @@ from .flows import Flows, emitted_at_most, shape_of
 from .frame import Frame
 from .motion import collider_pose
 from .names import IntegratorName, PressureName, SolverName
-from .scene import Scene, SolverPart, groups_of
+from .scene import Scene, SolverPart, material_groups
 from .solids import baked_solid
 from .state import State, put_into
 
@@ -140,8 +140,8 @@ class Simulation:
         self.world.close()
 
     def _populate(self, start: State | None) -> None:
-        groups = groups_of(self.scene)
-        self.materials = {name: self.world.add_material(_material(part, groups[name])) for name, part in self.scene.materials.items()}
+        self._groups = material_groups(self.scene)
+        self.materials = {name: self.world.add_material(_material(part, self._groups[name])) for name, part in self.scene.materials.items()}
         self._rows = np.zeros(max(m.index for m in self.materials.values()) + 1, dtype=np.uint8)
         for row, material in enumerate(self.materials.values()):
             self._rows[material.index] = row
@@ -181,7 +181,7 @@ class Simulation:
                 friction_coefficient=part.friction_coefficient,
                 kinematic=part.motion is not None or part.body is not None,
                 measures_impulse=measured or part.body is not None,
-                meets=sum(groups_of(self.scene)[name] for name in set(part.meets or ())),
+                meets=sum(self._groups[name] for name in set(part.meets or ())),
             )
             self.colliders.append(collider)
             if part.body is not None:
