@@ -65,6 +65,8 @@ static void test_ranges(void)
     field.heights = heights;
     field.resolution = 4;
     CHECK_RULES(of_heights, field, use_heights);
+    field.resolution = 1025;
+    EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, use_heights(&field));
 }
 
 /* ---- The life of a solid ---- */

@@ -6,6 +6,7 @@
 #include <unity.h>
 
 #include "cpu.h"
+#include "kernels.h"
 
 void setUp(void)
 {
@@ -54,9 +55,18 @@ static void test_the_best_kernels_are_chosen(void)
     TEST_ASSERT_EQUAL_INT(best(), cpu_isa());
 }
 
+/* Lanes are what statistics count with: as many as the kernels work on at once. */
+static void test_kernels_know_their_lanes(void)
+{
+    static const pbmpm_isa isas[] = {PBMPM_ISA_SSE4, PBMPM_ISA_AVX2, PBMPM_ISA_AVX512};
+    for (int i = 0; i < 3; i++)
+        for (int dimension = 2; dimension <= 3; dimension++) TEST_ASSERT_EQUAL_INT(i == 0 ? 4 : 8, kernels_for(isas[i], dimension)->lanes);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_best_kernels_are_chosen);
+    RUN_TEST(test_kernels_know_their_lanes);
     return UNITY_END();
 }

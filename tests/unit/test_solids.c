@@ -428,6 +428,8 @@ static void test_open_meshes(void)
     mesh.vertices = 3;
     mesh.elements = 1;
     refuse_mesh("open");
+    for (int i = 0; i < 9; i++) mesh.vertex[i] += 2.0f; /* and says where, in the mesh's own places */
+    refuse_mesh("(2, 2, 2)");
 }
 
 static void test_meshes_wound_in_two_ways(void)
