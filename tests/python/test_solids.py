@@ -265,7 +265,6 @@ def test_a_light_body_floats_and_a_heavy_one_sinks() -> None:
     assert _rest_height(600.0, 4.0) == pytest.approx(-0.7, abs=0.01)  # on the ground
 
 
-@pytest.mark.xfail(strict=True, reason="0.4 cells too deep")
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_cube_of_five_cells_floats(dimension: int) -> None:
     """With the dual solver at 120 Hz and ten iterations, half as heavy as water. The depth is by the weight of the water beside the cube, since liquids give way a
