@@ -28,7 +28,7 @@ pbmpm_result reach_find(ContactFrame *frame, const KernelMaterial *material, Mem
     if (!array_reserve(memory, array, (size_t)grid->node_blocks, sizeof(uint64_t)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes that solids reach in %d blocks", grid->node_blocks);
     uint64_t *solid = array->data;
-    memset(solid, 0, (size_t)grid->node_blocks * sizeof *solid);
+    if (grid->node_blocks > 0) memset(solid, 0, (size_t)grid->node_blocks * sizeof *solid);
     for (int32_t block = 0; block < grid->particle_blocks; block++)
         for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
             if (material[grid->run_key[run] >> K_RUN_CELL_BITS].kind != K_LIQUID) {
@@ -42,7 +42,7 @@ pbmpm_result reach_find(ContactFrame *frame, const KernelMaterial *material, Mem
 
 static bool acts_on_all(const Obstacle *obstacle, const pbmpm_material_def *material, const uint32_t *of_material)
 {
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && obstacle->meets != 0; slot++)
         if (of_material[slot] > 0 && !obstacle_meets(obstacle, material[slot].groups)) return false;
     return true;
 }
@@ -55,7 +55,7 @@ pbmpm_result reach_find_groups(ContactFrame *frame, const pbmpm_material_def *ma
     Array *array = &frame->colliders->groups;
     bool all = true;
     for (int i = 0; i < frame->colliders->obstacle_count && all; i++) all = acts_on_all(&frame->colliders->obstacle[i], material, of_material);
-    if (all) return PBMPM_OK;
+    if (all || count == 0) return PBMPM_OK;
     if (!array_reserve(memory, array, count, sizeof(uint32_t)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the groups of matter in %d blocks", grid->node_blocks);
     uint32_t *groups = array->data;
