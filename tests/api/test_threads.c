@@ -386,7 +386,8 @@ static void use_holding_host(pbmpm_world_def *def, void *user)
 
 static void *query_many_points(void *user)
 {
-    static float points[2 * 64], filling[64];
+    static const float points[2 * 64];
+    float filling[64];
     return pbmpm_query_points(*(const pbmpm_world_id *)user, points, 64, filling, NULL, NULL) == PBMPM_OK ? NULL : user;
 }
 
