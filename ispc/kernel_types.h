@@ -20,6 +20,7 @@ typedef int32 int32_t;
 
 #define K_BLOCK_AXIS 4  /* cells (and nodes) per block and axis */
 #define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
+#define K_ENERGIES 5    /* floats per particle block, see KernelArgs.block_energy */
 #define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass */
 #define K_MAX_GANG 16   /* particle arrays are padded by this many elements: no mass, at rest volume */
 #define K_DRIFT_WIDTH 5 /* floats per block that sleeps: mass, mass times displacement (x, y, z), largest square of a displacement */
@@ -149,12 +150,15 @@ struct KernelArgs {
     K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
     K_CONST_PTR(float) affine_kept; /* per particle block, null: 1; the share of their affine velocities that liquids keep, see
                                       src/eddy_damping.h */
-    K_PTR(float) block_energy;  /* out, per particle block: m/4 phi of elastic matter, of liquids, and of both at D = 0 */
+    K_PTR(float) block_energy;  /* out, K_ENERGIES per particle block: m/4 phi of elastic matter, of liquids, of both at D = 0, and m/4 of -A : D */
+    K_PTR(float) couple[3];     /* per particle of a solid: the entries 10, 20 and 21 of A, see balance_couple(); null without solids among liquid */
+    K_CONST_PTR(uint32_t) among_liquid; /* per particle block: whether its body has liquid; null without solids among liquid */
     K_PTR(float) fed;           /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
     int32_t may_feed;           /* whether it may give any */
     K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
     K_PTR(float) sketch[9];     /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */
     float held_stiffness;       /* k of liquids in the joint solver; 0: they store energy */
+    K_CONST_PTR(float) node_gap; /* per node block: what nodes that a solid reaches are short of being full; null without the joint solver */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */

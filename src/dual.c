@@ -390,7 +390,7 @@ void dual_solve(World *world, const ContactFrame *contacts)
     rounds_run(world, contacts, (rounds + 1) / 2);
     iterate_all(world, contacts, mass);
     rounds_run(world, contacts, rounds / 2);
-    eddy_damping_find(world);
+    if (!joint_is_chosen(world)) eddy_damping_find(world);
 }
 
 /* F holds the deviator that sand bears as c mu times a strain, to 2^-23 c mu: with this modulus to 1e-3, a hundredth of the pressure below one cell at 60 Hz. What

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "islands.h"
+#include "joint.h"
 #include "walls.h"
 
 enum { GAIN, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
@@ -13,8 +14,9 @@ enum { GAIN, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN 
  * 24 mm/s, with less at 4 to 7. */
 static const double AFFINE_PART = 0.617;
 
-/* A liquid with a bulk modulus stores energy: what its pressures give back is its own. That of solids is counted as gain all the same. A tank with all materials stirs at 24 to
- * 41 mm/s so, at 42 to 63 where worlds with solids are left out (all_in_a_tank); the price is that liquids beside a body that springs lose some affine velocity. */
+/* A liquid with a bulk modulus stores energy: what its pressures give back is its own. In the joint solver it counts as gain, or it would stir beside a body for ever.
+ * What solids give back counts as gain, too: a tank with all materials stirs at 24 to 41 mm/s so, at 42 to 63 where worlds with solids are left out (all_in_a_tank).
+ * The price is that liquids beside a body that springs lose some affine velocity. */
 static bool all_incompressible(const World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -24,16 +26,17 @@ static bool all_incompressible(const World *world)
     return true;
 }
 
-static bool is_wanted(const World *world) { return world->record.solver == PBMPM_SOLVER_DUAL && (islands_kinds(world) & KIND_LIQUID) && all_incompressible(world); }
+static bool is_wanted(const World *world) { return solver_uses_dual(world) && (islands_kinds(world) & KIND_LIQUID) && (joint_is_chosen(world) || all_incompressible(world)); }
 
 bool eddy_damping_prepare(World *world)
 {
     EddyDamping *damping = &world->dual.eddy_damping;
     if (!is_wanted(world)) return true;
+    if (!array_reserve(&world->memory, &damping->kept, (size_t)world->grid.particle_blocks, sizeof(float))) return false;
+    if (joint_is_chosen(world)) return true; /* the primal's bodies and sums serve */
     return bodies_find(&damping->bodies, &world->memory, &world->grid) &&
            array_reserve(&world->memory, &damping->sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double)) &&
-           array_reserve(&world->memory, &damping->body_sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double)) &&
-           array_reserve(&world->memory, &damping->kept, (size_t)world->grid.particle_blocks, sizeof(float));
+           array_reserve(&world->memory, &damping->body_sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double));
 }
 
 void eddy_damping_free(World *world)
@@ -78,22 +81,31 @@ static void sum_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) sum_block(world, block, sums + SUMS * (size_t)block);
 }
 
+float eddy_damping_share(double gain, double kinetic) { return gain > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / fmax(AFFINE_PART * kinetic, gain))) : 1.0f; }
+
+float *eddy_damping_shares(World *world)
+{
+    float *kept = is_wanted(world) ? world->dual.eddy_damping.kept.data : NULL;
+    world->args.affine_kept = kept;
+    return kept;
+}
+
 static float share_of(const double *sum)
 {
-    if (sum[TOUCHES] == 0.0 || !(sum[GAIN] > 0.0)) return 1.0f;
     double kinetic = sum[KINETIC];
+    if (sum[TOUCHES] == 0.0) return 1.0f;
     for (int c = 0; c < 3; c++) kinetic -= 0.5 * sum[MOMENTUM + c] * sum[MOMENTUM + c] / sum[MASS];
-    return (float)sqrt(fmax(0.0, 1.0 - sum[GAIN] / fmax(AFFINE_PART * kinetic, sum[GAIN])));
+    return eddy_damping_share(sum[GAIN], kinetic);
 }
 
 void eddy_damping_find(World *world)
 {
     EddyDamping *damping = &world->dual.eddy_damping;
-    if (!is_wanted(world)) return;
+    float *kept = eddy_damping_shares(world);
+    if (!kept) return;
     const int32_t *of_block = damping->bodies.of_block.data;
     const double *sums = damping->sums.data;
     double *body = damping->body_sums.data;
-    float *kept = damping->kept.data;
     Loops loops;
     loops_open(&loops, world->pool);
     LOOPS_ADD(&loops, grid_nodes(&world->grid, BLOCK_GRAIN), sum_blocks, &world);
@@ -102,5 +114,4 @@ void eddy_damping_find(World *world)
     for (int32_t block = 0; block < world->grid.node_blocks; block++)
         for (size_t k = 0; k < SUMS; k++) body[SUMS * (size_t)of_block[block] + k] += sums[SUMS * (size_t)block + k];
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) kept[block] = share_of(body + SUMS * (size_t)of_block[block]);
-    world->args.affine_kept = kept;
 }

@@ -11,7 +11,7 @@ pbmpm_result explicit_prepare(World *world)
     PrimalState *state = &world->primal;
     const size_t blocks = (size_t)world->grid.node_blocks, nodes = blocks * (size_t)world->grid.block_cells;
     if (array_reserve(&world->memory, &state->force, nodes * W, sizeof(float)) &&
-        array_reserve(&world->memory, &state->block_energy, 4 * blocks, sizeof(float)))
+        array_reserve(&world->memory, &state->block_energy, K_ENERGIES * blocks, sizeof(float)))
         return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the forces on %d blocks", world->grid.node_blocks);
 }

@@ -12,6 +12,9 @@
  * resists with where solids shove it aside. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
  * stretches at 60 Hz x 5 as the converged solution does.
  *
+ * A body that falls into water pushes it away before they meet. They share nodes, so a gap of half a cell would stay: in 3D a cube of six cells displaced a quarter
+ * more than its volume. At nodes that solids reach liquid counts as loose by what is missing there, see integrate_tensionless(). So its pressure closes gaps.
+ *
  * Nodes that solids reach meet obstacles by contacts, in all parts. Nodes at walls that liquid alone reaches obey walls.h in the dual, and stay where it takes them.
  * Solids are as stiff as the primal holds among liquid, see joint_stiffness_share(). */
 #ifndef PBMPM_SRC_JOINT_H

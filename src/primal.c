@@ -25,6 +25,28 @@ static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the cha
 /* LANES: floats that a pass takes at once, four nodes; every block is a multiple of it. */
 enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY, LANES = 4 * W };
 
+/* ---- Couples of solids among liquid, see primal.h ---- */
+
+/* Skew entries of a matrix. */
+static size_t couples_of(const World *world) { return world->def.dimension == 3 ? 3 : 1; }
+
+static bool prepare_couples(World *world)
+{
+    PrimalState *state = &world->primal;
+    return !primal_is_mixed(world) || (array_reserve(&world->memory, &state->couple, couples_of(world) * world->particles.count + K_MAX_GANG, sizeof(float)) &&
+                                       array_reserve(&world->memory, &state->among_liquid, (size_t)world->grid.particle_blocks, sizeof(uint32_t)));
+}
+
+static void bind_couples(Primal *p)
+{
+    World *world = p->world;
+    uint32_t *among_liquid = world->primal.among_liquid.data;
+    if (!primal_is_mixed(world)) return;
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) among_liquid[block] = primal_body_of(p, block)->with_liquid;
+    for (size_t k = 0; k < couples_of(world); k++) world->args.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
+    world->args.among_liquid = among_liquid;
+}
+
 /* ---- Memory ---- */
 
 pbmpm_result primal_prepare(World *world)
@@ -33,8 +55,8 @@ pbmpm_result primal_prepare(World *world)
     Memory *memory = &world->memory;
     const size_t blocks = (size_t)world->grid.node_blocks, nodes = blocks * (size_t)world->grid.block_cells;
     const bool ok = array_reserve(memory, &state->force, nodes * W, sizeof(float)) &&
-                    array_reserve(memory, &state->block_energy, 4 * blocks, sizeof(float)) &&
-                    array_reserve(memory, &state->accepted_energy, 4 * blocks, sizeof(float)) &&
+                    array_reserve(memory, &state->block_energy, K_ENERGIES * blocks, sizeof(float)) &&
+                    array_reserve(memory, &state->accepted_energy, K_ENERGIES * blocks, sizeof(float)) &&
                     array_reserve(memory, &state->fed, blocks, sizeof(float)) &&
                     array_reserve(memory, &state->vectors, VECTORS * nodes * W, sizeof(float)) &&
                     array_reserve(memory, &state->inverse, nodes, sizeof(float)) &&
@@ -45,14 +67,14 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
                     array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
-    if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
+    if (!ok || !prepare_couples(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
     return multistep_prepare(world);
 }
 
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->sums, &s->body_sums, &s->rigid, &s->rub, &s->moves};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->rub, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -192,7 +214,7 @@ static double sum_energies(const Primal *p)
 {
     const float *energy = p->world->primal.block_energy.data;
     double sum = 0.0;
-    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++) sum += (double)energy[4 * block] + (double)energy[4 * block + 1];
+    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++, energy += K_ENERGIES) sum += (double)energy[0] + (double)energy[1] + (double)energy[4];
     return sum;
 }
 
@@ -357,7 +379,7 @@ void primal_accept(Primal *p, bool with_pair)
     primal_over_blocks(p, p->rubs ? take_over_bare : take_over);
     if (p->rubs) renew_friction(p);
     memcpy(p->first, p->total, sizeof p->first);
-    memcpy(state->accepted_energy.data, state->block_energy.data, 4 * (size_t)p->world->grid.particle_blocks * sizeof(float));
+    memcpy(state->accepted_energy.data, state->block_energy.data, K_ENERGIES * (size_t)p->world->grid.particle_blocks * sizeof(float));
 }
 
 /* ---- The direction: two loops over the pairs, with the preconditioner between them ---- */
@@ -472,7 +494,7 @@ static bool is_good(const Primal *p)
 {
     if (!isfinite(p->trial_energy) || !isfinite(p->slope_after)) return false;
     if (p->trial_energy <= p->energy + ARMIJO * p->slope_before) return true;
-    const bool rounding = p->trial_energy - p->energy <= PRIMAL_ENERGY_ROUNDING * p->energy;
+    const bool rounding = p->trial_energy - p->energy <= PRIMAL_ENERGY_ROUNDING * fabs(p->energy);
     return rounding && p->slope_before < 0.0 && fabs(p->slope_after) <= SLOPE_SHARE * fabs(p->slope_before);
 }
 
@@ -613,6 +635,7 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     find_friction(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
+    bind_couples(&p);
     p.mixed = primal_is_mixed(world) && !p.joint;
     Loops loops;
     loops_open(&loops, world->pool);

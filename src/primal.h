@@ -20,7 +20,13 @@
  * holds for the exact solution of a convex energy. Where it does not hold, the search goes on; a body that gained little then
  * pays with its velocities, others start again from their rigid motion, as far as obstacles allow it, and are moved towards it, in the end their mean motion.
  *
- * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest. */
+ * Of bodies with liquid this judges the elastic energy alone: see primal_liquid.c for the rest.
+ *
+ * T is symmetric for small D only. Solids that liquid presses by p and that turn by w have the skew part p w, a couple in the sense of the turn. The liquid, with -p I,
+ * has none against it: a jelly of eight cells below 18 of water spun up by 6 % in each substep of 1/60 s. But inner forces turn nothing. So solids among liquid have the
+ * couple A taken from T, a dead stress with the energy -A : D. A is what D, where the solution begins, makes of the stress at D = 0, see couple_of(). The skew part of
+ * T(D) itself would not do: there D has the stretch of its chord, w^2 / 2, which iterations take away. Stiff bodies were driven by that until they burst. To bodies
+ * without liquid primal_spin.c gives back what such couples took. */
 #ifndef PBMPM_SRC_PRIMAL_H
 #define PBMPM_SRC_PRIMAL_H
 

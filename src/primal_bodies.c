@@ -101,10 +101,10 @@ uint32_t primal_check_bodies(Primal *p)
         }
         b->touches = b->touches || sum[7] > 0.0;
         if (block >= p->world->grid.particle_blocks) continue;
-        b->after += (double)energy[4 * block] + (p->joint ? 0.0 : (double)energy[4 * block + 1]); /* the dual's liquid stores none */
-        b->elastic += (double)energy[4 * block];
-        b->liquid += (double)energy[4 * block + 1];
-        b->before += (double)rest[4 * block + 2] + (double)rest[4 * block + 3];
+        b->after += (double)energy[K_ENERGIES * block] + (p->joint ? 0.0 : (double)energy[K_ENERGIES * block + 1]); /* the dual's liquid stores none */
+        b->elastic += (double)energy[K_ENERGIES * block];
+        b->liquid += (double)energy[K_ENERGIES * block + 1];
+        b->before += (double)rest[K_ENERGIES * block + 2] + (double)rest[K_ENERGIES * block + 3];
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
         for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;

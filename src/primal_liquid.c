@@ -7,12 +7,13 @@
  *
  *     s^2 = 1 - gain / kinetic energy,   gain = K(u) - m g.u + Psi(u) - K(u* - g) - Psi(0) - work of moving surfaces.
  *
- * A solution that gained more than its kinetic energy is first moved towards the body's start. In the joint solver it is always the mean that is left alone, and the
- * start is where the dual has ended. */
+ * A solution that gained more than its kinetic energy is first moved towards the body's start. In the joint solver pressures are the dual's, and eddies pay for what
+ * they gain: eddy_damping.h. */
 #include <float.h>
 #include <math.h>
 
 #include "depth.h"
+#include "eddy_damping.h"
 #include "holds.h"
 #include "primal_solve.h"
 
@@ -37,20 +38,21 @@ float primal_liquid_dilation(const World *world, float dt)
 static const double ROUNDING = 1e-6; /* of the energy before, that no velocity has to pay for */
 
 /* The mean displacement that is left alone: primal_keep_momentum() gives that of the predictor to a body that leans on nothing. */
-static double mean_of(const BodySum *body, bool joint, int axis)
+static double mean_of(const BodySum *body, int axis)
 {
     if (!(body->mass > 0.0)) return 0.0;
-    if (joint) return body->moved[axis] / body->mass;
     if (body->touches) return 0.0;
     return body->leans ? body->moved[axis] / body->mass : body->start[axis];
 }
 
+static double gain_of(const BodySum *body) { return body->after - body->before - body->work; }
+
 /* Notes what the body keeps. False: its kinetic energy does not make up for what it gained. */
-static bool find_share(BodySum *body, bool joint)
+static bool find_share(BodySum *body)
 {
     double kinetic = body->kinetic;
-    const double gain = body->after - body->before - body->work;
-    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, joint, c) * mean_of(body, joint, c);
+    const double gain = gain_of(body);
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->mass * mean_of(body, c) * mean_of(body, c);
     body->kept = gain > 0.0 && kinetic > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / kinetic)) : 1.0f;
     return gain <= fmax(kinetic, 0.0) + ROUNDING * body->before;
 }
@@ -62,8 +64,8 @@ static bool all_can_pay(Primal *p)
     primal_check_bodies(p);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         body[i].kept = 1.0f;
-        body[i].failed = body[i].with_liquid && !find_share(&body[i], p->joint);
-        for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], p->joint, c);
+        body[i].failed = body[i].with_liquid && !find_share(&body[i]);
+        for (int c = 0; c < 3; c++) body[i].mean[c] = (float)mean_of(&body[i], c);
         can = can && !body[i].failed;
     }
     return can;
@@ -126,12 +128,31 @@ void primal_let_fly(Primal *p)
     if (solver_holds_liquid(p->world)) primal_over_blocks(p, let_fly);
 }
 
+/* The joint solver's liquids: what they gain is taken from their eddies, as the dual's. Particles keep their velocities. */
+static void damp_eddies(Primal *p)
+{
+    BodySum *bodies = p->world->primal.body_sums.data;
+    float *kept = eddy_damping_shares(p->world);
+    primal_check_bodies(p);
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) bodies[i].kept = 1.0f;
+    for (int32_t block = 0; kept && block < p->world->grid.particle_blocks; block++) {
+        const BodySum *body = primal_body_of(p, block);
+        double kinetic = body->kinetic;
+        for (int c = 0; c < 3 && body->mass > 0.0; c++) kinetic -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
+        kept[block] = body->meets ? eddy_damping_share(gain_of(body), kinetic) : 1.0f;
+    }
+}
+
 void primal_find_kept(Primal *p)
 {
     enum { HALVINGS = 3 };
     if (!solver_holds_liquid(p->world)) return;
+    if (p->joint) {
+        damp_eddies(p);
+        return;
+    }
     for (int halving = 0; halving <= HALVINGS && !all_can_pay(p); halving++) primal_pull_back_to(p, halving < HALVINGS ? 0.5f : 0.0f);
-    if (!p->joint) earn(p);
+    earn(p);
 }
 
 static float kept_of(const BodySum *body, int axis, float u)
@@ -149,7 +170,7 @@ static void keep_motion(Primal *p, int32_t block, size_t begin, size_t end, doub
 
 const float *primal_kept_motion(Primal *p)
 {
-    if (!solver_holds_liquid(p->world)) return p->node;
+    if (p->joint || !solver_holds_liquid(p->world)) return p->node;
     primal_over_blocks(p, keep_motion);
     return p->right;
 }

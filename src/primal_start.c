@@ -166,13 +166,13 @@ static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, do
     holds_project(p->contacts, p->node, block, block + 1);
 }
 
-/* What the start stretches beside what was stretched, and the rigid motion at contacts. */
+/* What the start stretches beside what was stretched, and the rigid motion at contacts. Only bodies without liquid ask, which have no couples. */
 static void add_strain(Primal *p)
 {
     const float *energy = p->world->primal.block_energy.data;
     RigidBody *body = p->world->primal.rigid.data;
     for (int32_t block = 0; block < p->world->grid.particle_blocks; block++) {
-        const float *e = energy + 4 * block;
+        const float *e = energy + K_ENERGIES * block;
         primal_rigid_of(p, block)->sum[0] += (double)e[0] + (double)e[1] - (double)e[2] - (double)e[3];
     }
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) body[i].sum[0] -= body[i].strain;

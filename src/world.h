@@ -83,6 +83,7 @@ typedef struct PrimalState {
     Array fed;                 /* see KernelArgs */
     double credit;             /* [J] what solutions with liquid lost and volume feedback has not stored yet: see primal_liquid.c */
     Array inverse;             /* per node 1 / (m + k) */
+    Array couple, among_liquid; /* see KernelArgs; of islands of solids and liquid */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
     Array rigid, rub, moves;   /* per body, see primal_rigid.c, holds.h and primal_momentum.c */
@@ -99,6 +100,7 @@ typedef struct JointState {
     uint32_t contacts;
     Array base, node;             /* the predictor, and displacements where a part begins */
     Array particle;               /* held_pressure, then sketch of KernelArgs */
+    Array gap;                    /* see node_gap of KernelArgs */
 } JointState;
 
 typedef struct World {

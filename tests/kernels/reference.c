@@ -111,24 +111,31 @@ void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], do
     }
 }
 
-/* The weight of a node is the spline of its offset, node minus particle: its derivative by the particle's place has the other sign. */
+void reference_slopes(int dimension, const RefParticle *p, double slope[27][3])
+{
+    const RefStencil s = reference_stencil(dimension, p);
+    for (int i = 0; i < s.count; i++)
+        for (int c = 0; c < dimension; c++) {
+            slope[i][c] = -1.0;
+            for (int a = 0; a < dimension; a++) slope[i][c] *= a == c ? spline_slope(s.offset[i][a]) : spline(s.offset[i][a]);
+        }
+}
+
 double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9])
 {
     const int n = grid->dimension;
-    double size[9] = {0}, largest = 0.0;
+    double size[9] = {0}, largest = 0.0, slope[27][3];
     const RefStencil s = reference_stencil(n, p);
+    reference_slopes(n, p, slope);
     memset(gradient, 0, 9 * sizeof *gradient);
     for (int i = 0; i < s.count; i++) {
         const RefNode *node = &grid->node[reference_index(grid, s.node[i])];
-        for (int c = 0; c < n; c++) {
-            double slope = -1.0;
-            for (int a = 0; a < n; a++) slope *= a == c ? spline_slope(s.offset[i][a]) : spline(s.offset[i][a]);
-            for (int r = 0; r < n; r++) {
-                gradient[r * 3 + c] += slope * node->u[r];
-                size[r * 3 + c] += fabs(slope * node->u[r]);
+        for (int r = 0; r < n; r++)
+            for (int c = 0; c < n; c++) {
+                gradient[r * 3 + c] += slope[i][c] * node->u[r];
+                size[r * 3 + c] += fabs(slope[i][c] * node->u[r]);
                 largest = fmax(largest, size[r * 3 + c]);
             }
-        }
     }
     return largest;
 }
@@ -313,15 +320,24 @@ static double reference_densest(const RefGrid *grid, const RefParticle *p)
     return most;
 }
 
+static double gap_at(const RefGrid *grid, const RefParticle *p)
+{
+    const RefStencil s = reference_stencil(grid->dimension, p);
+    double sum = 0.0;
+    for (int i = 0; i < s.count; i++) sum += s.weight[i] * grid->node[reference_index(grid, s.node[i])].gap;
+    return sum;
+}
+
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
- * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling. */
+ * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling, and no gap is there. */
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_held(step, grid, p);
-        const double loose = fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX);
+        const double parted = 1.0 / fmax(1.0 - gap_at(grid, p), 1.0 / LOOSE_MAX);
+        const double loose = fmax(fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX), parted);
         ratio = fmin(reference_control(step, grid, p, D) * ratio, LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
@@ -412,15 +428,14 @@ double reference_shift(const RefGrid *grid, const RefParticle *p, const double D
 {
     const double share = fmin(4.0 * reference_strain(grid->dimension, D), 0.1);
     const RefStencil s = reference_stencil(grid->dimension, p);
-    double size = 0.0;
+    double size = 0.0, slope[27][3];
+    reference_slopes(grid->dimension, p, slope);
     for (int c = 0; c < grid->dimension; c++) {
         double gradient = 0.0, sizes = 0.0;
         for (int i = 0; i < s.count; i++) {
-            double slope = -1.0; /* an offset grows where the particle goes back */
-            for (int a = 0; a < grid->dimension; a++) slope *= a == c ? spline_slope(s.offset[i][a]) : spline(s.offset[i][a]);
             const double volume = grid->node[reference_index(grid, s.node[i])].volume;
-            gradient += slope * fmin(fmax(volume - 1.0, 0.0), REF_CRUSHED - 1.0);
-            sizes += fabs(slope) * (volume + 1.0);
+            gradient += slope[i][c] * fmin(fmax(volume - 1.0, 0.0), REF_CRUSHED - 1.0);
+            sizes += fabs(slope[i][c]) * (volume + 1.0);
         }
         shift[c] = -fmin(fmax(share * gradient, -0.05), 0.05);
         size = fmax(size, sizes);

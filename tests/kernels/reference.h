@@ -59,6 +59,7 @@ typedef struct RefNode {
     double u[3];
     double mass;
     double volume; /* rest volume per cell */
+    double gap;    /* see KernelArgs.node_gap */
 } RefNode;
 
 /* A dense box of nodes. */
@@ -80,6 +81,9 @@ void reference_scatter(RefGrid *grid, const RefParticle *p, const double d[3], c
 
 /* d = sum w u and D = 4 sum w u (x_i - x_p)^T. */
 void reference_gather(const RefGrid *grid, const RefParticle *p, double d[3], double D[9]);
+
+/* grad w_i: the weight of a node is the spline of its offset, node minus particle, so the derivative by the particle's place has the other sign. */
+void reference_slopes(int dimension, const RefParticle *p, double slope[27][3]);
 
 /* The gradient of the motion x += sum w_i(x) u_i at the particle: sum u_i (grad w_i)^T. Returns the largest sum of the sizes of an entry's terms. */
 double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9]);

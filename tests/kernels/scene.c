@@ -146,6 +146,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
     add_materials(scene.world, spec);
     scene.step = (RefStep){.dimension = dimension, .edged = spec->edged, .affine_lost = (double)spec->affine_lost, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
+    scene.gap = spec->gap;
     add_particles(&scene, spec, seed);
     scene_bind(&scene, spec->check_strain);
     return scene;
@@ -155,6 +156,7 @@ void scene_close(Scene *scene)
 {
     world_destroy(scene->world);
     free(scene->affine_kept);
+    free(scene->node_gap);
     *scene = (Scene){0};
 }
 
@@ -194,6 +196,43 @@ static void keep_affine(Scene *scene)
     world->args.affine_kept = scene->affine_kept;
 }
 
+/* The node with local index i of a box of `axis` nodes per axis whose first node is `corner`. */
+static void node_at(const int32_t corner[3], int axis, int i, int32_t node[3])
+{
+    node[0] = corner[0] + i % axis;
+    node[1] = corner[1] + i / axis % axis;
+    node[2] = corner[2] + i / axis / axis;
+}
+
+/* The first node of a block, or of its tile: one below. */
+static void corner_of(const Scene *scene, int32_t block, int32_t below, int32_t corner[3])
+{
+    const Grid *grid = &scene->world->grid;
+    const int32_t *coordinate = (const int32_t *)grid->coordinate.data + 3 * block;
+    for (int a = 0; a < 3; a++) corner[a] = a < scene->step.dimension ? grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS - below : 0;
+}
+
+/* At nodes that particles may reach. */
+static void open_gaps(Scene *scene)
+{
+    World *world = scene->world;
+    const Grid *grid = &world->grid;
+    const size_t nodes = (size_t)grid->node_blocks * (size_t)grid->block_cells;
+    if (scene->gap == 0.0) return;
+    scene->node_gap = realloc(scene->node_gap, nodes * sizeof *scene->node_gap);
+    RefGrid reached = reference_grid(scene->step.dimension, scene->low, scene->high);
+    Random random = {1};
+    for (size_t i = 0; i < nodes; i++) {
+        int32_t corner[3], at[3];
+        corner_of(scene, (int32_t)(i / (size_t)grid->block_cells), 0, corner);
+        node_at(corner, K_BLOCK_AXIS, (int)(i % (size_t)grid->block_cells), at);
+        const double gap = fmax(0.0, random_in(&random, -scene->gap, scene->gap));
+        scene->node_gap[i] = reference_index(&reached, at) >= 0 ? (float)gap : 0.0f;
+    }
+    reference_grid_free(&reached);
+    world->args.node_gap = scene->node_gap;
+}
+
 void scene_bind(Scene *scene, bool check_strain)
 {
     World *world = scene->world;
@@ -219,6 +258,7 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.tensionless = world->record.solver != PBMPM_SOLVER_PAPER;
     for (int a = 0; a < 3; a++) scene->step.gravity[a] = (double)args->gravity[a];
     find_extent(scene);
+    open_gaps(scene);
 }
 
 /* ---- Reading ---- */
@@ -265,22 +305,6 @@ void scene_run_nodes(Scene *scene, Kernel *kernel)
     float_mode_leave(mode);
 }
 
-/* The node with local index i of a box of `axis` nodes per axis whose first node is `corner`. */
-static void node_at(const int32_t corner[3], int axis, int i, int32_t node[3])
-{
-    node[0] = corner[0] + i % axis;
-    node[1] = corner[1] + i / axis % axis;
-    node[2] = corner[2] + i / axis / axis;
-}
-
-/* The first node of a block, or of its tile: one below. */
-static void corner_of(const Scene *scene, int32_t block, int32_t below, int32_t corner[3])
-{
-    const Grid *grid = &scene->world->grid;
-    const int32_t *coordinate = (const int32_t *)grid->coordinate.data + 3 * block;
-    for (int a = 0; a < 3; a++) corner[a] = a < scene->step.dimension ? grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS - below : 0;
-}
-
 RefGrid scene_nodes_of(const Scene *scene, const float *values)
 {
     const Grid *grid = &scene->world->grid;
@@ -293,7 +317,7 @@ RefGrid scene_nodes_of(const Scene *scene, const float *values)
             node_at(corner, K_BLOCK_AXIS, i, at);
             const int64_t to = reference_index(&out, at);
             if (to >= 0)
-                out.node[to] = (RefNode){{(double)node[0], (double)node[1], (double)node[2]}, (double)node[3], 0.0};
+                out.node[to] = (RefNode){.u = {(double)node[0], (double)node[1], (double)node[2]}, .mass = (double)node[3]};
             else
                 check_true(node[0] == 0.0f && node[1] == 0.0f && node[2] == 0.0f && node[3] == 0.0f, "untouched node is 0", i);
         }
@@ -330,6 +354,10 @@ RefGrid scene_nodes(const Scene *scene)
     const size_t count = (size_t)out.size[0] * (size_t)out.size[1] * (size_t)out.size[2];
     for (size_t i = 0; i < count; i++) out.node[i].volume = volumes.node[i].mass;
     reference_grid_free(&volumes);
+    if (!args->node_gap) return out;
+    RefGrid gaps = scene_scalars_of(scene, args->node_gap);
+    for (size_t i = 0; i < count; i++) out.node[i].gap = gaps.node[i].mass;
+    reference_grid_free(&gaps);
     return out;
 }
 

@@ -31,6 +31,7 @@ typedef struct SceneSpec {
     pbmpm_solver solver; /* default: the paper's */
     float flip;
     float affine_lost; /* 1 - KernelArgs.affine_kept, of all blocks */
+    double gap;        /* KernelArgs.node_gap, up to this; 0: null */
     bool pool;  /* instead of cells by chance: full ones up to `spread` from the centre, two particles per axis, each up to a tenth of a cell off its place */
     bool edged; /* all blocks are, see KernelArgs.edged */
 } SceneSpec;
@@ -40,7 +41,8 @@ typedef struct Scene {
     const Kernels *kernels;
     float pressure_max;
     RefStep step;
-    float *affine_kept; /* see KernelArgs; null without */
+    float *affine_kept, *node_gap; /* see KernelArgs; null without */
+    double gap;
     int32_t low[3], high[3]; /* nodes that particles touch */
 } Scene;
 

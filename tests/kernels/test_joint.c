@@ -32,7 +32,8 @@ static SceneSpec scene_of(const char *name, pbmpm_material_kind second)
 
 /* Arrays of the joint solver, bound. */
 typedef struct Joint {
-    float *particle, *energy, *force;
+    float *particle, *energy, *force, *couple;
+    uint32_t *among_liquid;
 } Joint;
 
 static Joint joint_bind(DualStage *stage)
@@ -41,13 +42,19 @@ static Joint joint_bind(DualStage *stage)
     KernelArgs *a = &world->args;
     const size_t count = world->particles.count, d = (size_t)stage->scene.step.dimension;
     const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
-    const Joint joint = {calloc((1 + d * d) * count + 64, sizeof(float)), calloc(4 * (size_t)world->grid.particle_blocks, sizeof(float)), calloc(nodes * K_NODE_WIDTH, sizeof(float))};
+    const Joint joint = {.particle = calloc((1 + d * d) * count + 64, sizeof(float)),
+                         .energy = calloc(K_ENERGIES * (size_t)world->grid.particle_blocks, sizeof(float)),
+                         .force = calloc(nodes * K_NODE_WIDTH, sizeof(float)),
+                         .couple = calloc(3 * count + 64, sizeof(float)),
+                         .among_liquid = calloc((size_t)world->grid.particle_blocks, sizeof(uint32_t))};
     a->held_stiffness = STIFFNESS;
     a->held_pressure = joint.particle;
     for (size_t r = 0; r < d; r++)
         for (size_t c = 0; c < d; c++) a->sketch[r * 3 + c] = joint.particle + (1 + r * d + c) * count;
     a->block_energy = joint.energy;
     a->node_force = joint.force;
+    for (size_t k = 0; k < 3; k++) a->couple[k] = joint.couple + k * count;
+    a->among_liquid = joint.among_liquid;
     return joint;
 }
 
@@ -56,6 +63,8 @@ static void joint_free(Joint *joint)
     free(joint->particle);
     free(joint->energy);
     free(joint->force);
+    free(joint->couple);
+    free(joint->among_liquid);
 }
 
 static double trace_of(const RefGrid *nodes, const RefParticle *p)
@@ -110,7 +119,7 @@ static void check_energy(DualStage *stage, const Joint *joint)
             error += 0.25 * p.mass * (y * y_error + y_error * y_error) / k;
             moved += y > 0.0 && fabs(y - (double)world->args.pressure[i]) > y_error;
         }
-        check_near(energy, (double)joint->energy[4 * block + 1], error + (begin[block + 1] - begin[block] + 8) * UNIT_ROUNDOFF * energy, "energy of a block", block);
+        check_near(energy, (double)joint->energy[K_ENERGIES * block + 1], error + (begin[block + 1] - begin[block] + 8) * UNIT_ROUNDOFF * energy, "energy of a block", block);
     }
     check_true(moved > 0, "some pressures are not those of the dual", moved);
     RefGrid sum = scene_tiles(scene, &sizes);
@@ -169,6 +178,148 @@ static void check_solids(DualStage *stage)
     joint_free(&joint);
 }
 
+/* ---- Couples ---- */
+
+/* Sums of at most so many pushes round by one unit of the largest each. */
+enum { TERMS = 512 };
+
+static void set_among_liquid(const DualStage *stage, Joint *joint, uint32_t every)
+{
+    for (int32_t block = 0; block < stage->scene.world->grid.particle_blocks; block++) joint->among_liquid[block] = every == 1 || (every > 1 && (uint32_t)block % every == 0);
+}
+
+static RefGrid forces_by(Scene *scene, Kernel *kernel, double *largest)
+{
+    RefGrid sizes;
+    scene_run_particles(scene, kernel);
+    RefGrid sum = scene_tiles(scene, &sizes);
+    *largest = 0.0;
+    for (size_t i = 0; i < (size_t)sum.size[0] * (size_t)sum.size[1] * (size_t)sum.size[2]; i++)
+        for (int a = 0; a < 3; a++) *largest = fmax(*largest, fabs(sizes.node[i].u[a]));
+    reference_grid_free(&sizes);
+    return sum;
+}
+
+/* Sum over the nodes of x times force. */
+static void torque_of(const RefGrid *force, double torque[3])
+{
+    memset(torque, 0, 3 * sizeof *torque);
+    for (int z = 0; z < force->size[2]; z++)
+        for (int y = 0; y < force->size[1]; y++)
+            for (int x = 0; x < force->size[0]; x++) {
+                const double at[3] = {x, y, z}, *f = force->node[((size_t)z * (size_t)force->size[1] + (size_t)y) * (size_t)force->size[0] + (size_t)x].u;
+                for (int a = 0; a < 3; a++) torque[a] += at[(a + 1) % 3] * f[(a + 2) % 3] - at[(a + 2) % 3] * f[(a + 1) % 3];
+            }
+}
+
+static double largest_torque(const RefGrid *force)
+{
+    double torque[3];
+    torque_of(force, torque);
+    return fmax(fabs(torque[0]), fmax(fabs(torque[1]), fabs(torque[2])));
+}
+
+/* Displacements become smaller by this: what is of second order is less by as much again. */
+static const float SMALL = 1.0f / 64.0f;
+
+static void shrink(const Scene *scene)
+{
+    const Grid *grid = &scene->world->grid;
+    float *node = scene->world->grid.node.data;
+    for (size_t i = 0; i < (size_t)grid->node_blocks * (size_t)grid->block_cells * K_NODE_WIDTH; i++)
+        if (i % K_NODE_WIDTH != 3) node[i] *= SMALL;
+}
+
+/* Inner forces turn nothing, to first order of the displacements: what is left is a share of about SMALL, eight times that allowed. Without couples all is left. */
+static void check_torque(DualStage *stage, Joint *joint)
+{
+    Scene *scene = &stage->scene;
+    double largest;
+    shrink(scene);
+    set_among_liquid(stage, joint, 0);
+    RefGrid plain = forces_by(scene, scene->kernels->force_first, &largest);
+    const double arm = plain.size[0] + plain.size[1] + plain.size[2], rounding = 64.0 * UNIT_ROUNDOFF * largest * arm, before = largest_torque(&plain);
+    check_true(before > 4.0 * rounding, "stresses have a torque", 0);
+    reference_grid_free(&plain);
+    set_among_liquid(stage, joint, 1);
+    RefGrid balanced = forces_by(scene, scene->kernels->force_first, &largest);
+    double torque[3];
+    torque_of(&balanced, torque);
+    for (int a = 0; a < 3; a++) check_near(0.0, torque[a], rounding + 8.0 * (double)SMALL * before, "torque of inner forces", a);
+    reference_grid_free(&balanced);
+}
+
+/* The transpose of reference_gradient(), times m / 4. */
+static void push_by_slopes(RefGrid *force, const RefParticle *p, const double S[9])
+{
+    double slope[27][3];
+    const RefStencil s = reference_stencil(force->dimension, p);
+    reference_slopes(force->dimension, p, slope);
+    for (int i = 0; i < s.count; i++)
+        for (int r = 0; r < force->dimension; r++)
+            for (int c = 0; c < force->dimension; c++) force->node[reference_index(force, s.node[i])].u[r] += 0.25 * p->mass * S[r * 3 + c] * slope[i][c];
+}
+
+/* From there on: the forces of a block among liquid are less by those of the stress A, and the energy by A : D. */
+static void check_couples(DualStage *stage, Joint *joint)
+{
+    Scene *scene = &stage->scene;
+    World *world = scene->world;
+    const int n = scene->step.dimension;
+    const uint32_t *begin = world->grid.block_begin.data;
+    double largest;
+    RefGrid nodes = scene_nodes(scene);
+    set_among_liquid(stage, joint, 0);
+    RefGrid expected = forces_by(scene, scene->kernels->force, &largest);
+    set_among_liquid(stage, joint, 2);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block += 2) {
+        double energy = 0.0, size = 0.0;
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const RefParticle p = scene_particle(scene, i);
+            double gradient[9], S[9] = {0};
+            if (p.material.kind == K_LIQUID) continue;
+            const double terms = reference_gradient(&nodes, &p, gradient);
+            for (int r = 1; r < n; r++)
+                for (int c = 0; c < r; c++) {
+                    const double skew = (double)world->args.couple[r + c - 1][i];
+                    S[r * 3 + c] = -skew;
+                    S[c * 3 + r] = skew;
+                    energy -= 0.25 * p.mass * skew * (gradient[r * 3 + c] - gradient[c * 3 + r]);
+                    size += 0.5 * p.mass * fabs(skew) * terms;
+                }
+            push_by_slopes(&expected, &p, S);
+        }
+        joint->energy[K_ENERGIES * block + 4] = -1.0f;
+        scene->kernels->force(&world->args, block, block + 1);
+        check_near(energy, (double)joint->energy[K_ENERGIES * block + 4], TERMS * UNIT_ROUNDOFF * size, "energy of couples", block);
+    }
+    RefGrid sum = forces_by(scene, scene->kernels->force, &largest);
+    for (size_t i = 0; i < (size_t)sum.size[0] * (size_t)sum.size[1] * (size_t)sum.size[2]; i++)
+        for (int a = 0; a < n; a++) check_near(expected.node[i].u[a], sum.node[i].u[a], TERMS * UNIT_ROUNDOFF * largest, "push with couples", (long)i);
+    reference_grid_free(&nodes);
+    reference_grid_free(&expected);
+    reference_grid_free(&sum);
+}
+
+static void check_balance(DualStage *stage)
+{
+    dual_check_begin(stage);
+    dual_check_push(stage);
+    Joint joint = joint_bind(stage);
+    memset(stage->scene.world->args.sketch, 0, sizeof stage->scene.world->args.sketch);
+    check_torque(stage, &joint);
+    dual_check_iterate(stage); /* other displacements */
+    dual_check_push(stage);
+    check_couples(stage, &joint);
+    joint_free(&joint);
+}
+
+static void test_solids_among_liquid_have_no_torque_where_they_begin(void)
+{
+    const SceneSpec spec = scene_of("joint: couples", PBMPM_ELASTIC);
+    dual_check_spec(&spec, 3, check_balance);
+}
+
 static void test_liquids_keep_the_pressures_of_the_dual(void)
 {
     const SceneSpec spec = scene_of("joint: liquids", PBMPM_LIQUID);
@@ -186,5 +337,6 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_liquids_keep_the_pressures_of_the_dual);
     RUN_TEST(test_solids_count_from_the_sketch);
+    RUN_TEST(test_solids_among_liquid_have_no_torque_where_they_begin);
     return UNITY_END();
 }

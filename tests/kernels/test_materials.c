@@ -119,6 +119,19 @@ static void test_eddy_damping(void)
     }
 }
 
+/* Beside a solid liquid is loose by the gap, as far as J may be, with every solver that bears no tension. */
+static void test_gaps(void)
+{
+    static const pbmpm_solver solvers[] = {PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL};
+    static const double most[] = {0.1, 1.0};
+    for (int i = 0; i < 4; i++) {
+        SceneSpec spec = scene_of("gaps", PBMPM_LIQUID);
+        spec.solver = solvers[i % 2];
+        spec.gap = most[i / 2];
+        check_predictor(&spec);
+    }
+}
+
 /* Full and hardly strained, as in a pool that stirs, up to strong strain: shares that go with the strain, and those that do not any more. */
 static void test_volume_control(void)
 {
@@ -296,6 +309,7 @@ int main(void)
     RUN_TEST(test_liquid_at_all_densities);
     RUN_TEST(test_volume_feedback);
     RUN_TEST(test_eddy_damping);
+    RUN_TEST(test_gaps);
     RUN_TEST(test_volume_control);
     RUN_TEST(test_crowded_liquid_grows_slowly);
     RUN_TEST(test_feedback_stores_what_it_may);
