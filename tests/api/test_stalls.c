@@ -18,7 +18,7 @@ void tearDown(void)
 
 /* ---- how long ---- */
 
-#ifdef PBMPM_SANITIZED /* which makes all of it slower: only what never returns is found */
+#if defined PBMPM_SANITIZED || !defined __OPTIMIZE__ /* which makes all of it slower: only what never returns is found */
 #define WITHIN(limit, call) call
 #else
 /* [s] of this processor's time. Each limit is some ten times what is needed, and a small part of what it was before. */

@@ -84,6 +84,46 @@ def sinks(run: Run, density: float, modulus: float) -> None:
         run.near("level", level, depth + side**2 / width, SURFACE, cell, why="both keep their volume")
 
 
+@case(half_again=dict(density=1500), double=dict(density=2000), lead=dict(density=8000), light=dict(density=500))
+def block_falls_in(run: Run, density: float) -> None:
+    """A hard block falls into a pool of 20 cells and makes waves. They go on for a while, but nothing drives them."""
+    cell, width, depth, side, half_time, time = 0.05, 2.0, 1.0, 0.3, 4.0, 10.0
+    with run.world(2, cell, domain=((0, 0), (width, 2.0))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        block = world.add_material(Elastic(density=density, young_modulus=1e6))
+        world.fill(Box((width / 2, depth + side / 2 + cell), (side / 2, side / 2)), block)
+
+        def energy() -> float:
+            mass = np.where(rows_of(world, block), density, 1000) * (cell / 2) ** 2
+            return float((mass * (0.5 * (world.velocities.array() ** 2).sum(1) + G * world.positions.array()[:, 1])).sum())
+
+        run.steps(world, half_time)
+        before = energy()
+        run.steps(world, time - half_time)
+        fall = density * side**2 * G * (side + cell)
+        gain = (energy() - before) / fall
+        run.check("energy gained from 4 s to 10 s over that of the fall", gain, -math.inf, 0.02, why="nothing drives it; 2 % as in random_scenes.py")
+        if density > 1000:
+            place = world.positions.array()[rows_of(world, block), 0].mean()
+            run.near("place of the block", place, width / 2, side / 2 / cell, cell, why="it lies on the bottom: half of its width")
+
+
+@case(two_cells=dict(gap=2, density=2000), three_cells=dict(gap=3, density=2000), five_cells=dict(gap=5, density=2000), up_three_cells=dict(gap=3, density=500))
+def in_a_narrow_glass(run: Run, gap: int, density: float) -> None:
+    """A block of six cells between walls: water goes around it, so it sinks or comes up."""
+    cell, side, depth = 0.05, 0.3, 1.2
+    width = side + 2 * gap * cell
+    with run.world(2, cell, domain=((0, 0), (width, 2.2))) as world:
+        places = lattice((0, 0), (width, depth), cell / 2)
+        inside = (abs(places - (width / 2, depth / 2)) < side / 2).all(1)
+        world.add_particles(world.add_material(Liquid()), places[~inside])
+        block = world.add_material(Elastic(density=density, young_modulus=1e6))
+        world.add_particles(block, places[inside])
+        run.steps(world, 5)
+        true = side / 2 if density > 1000 else depth - (density / 1000 - 0.5) * side
+        run.near("height of its centre", world.positions.array()[rows_of(world, block), 1].mean(), true, 1.0, cell, why="at the bottom, or afloat; a cell")
+
+
 @case(from_half_a_metre=dict())
 def dropped_jelly(run: Run) -> None:
     """A jelly of 5e4 Pa that falls half a metre into water is pressed by the fall as elasticity lets it, and keeps its form afterwards."""
@@ -102,6 +142,47 @@ def dropped_jelly(run: Run) -> None:
         # Plane modulus 67 kPa: waves travel at 9.2 m/s, and a body that is stopped dead is strained by v / c.
         run.check("largest rms strain", max(strain), 0.0, 0.34, why="water stops it less than a wall would: v / c with v = sqrt(2 g h)")
         run.check("rms strain in the end", strain[-1], 0.0, 0.05, why="hydrostatics around a floating square: 0.027; twice that is another body")
+
+
+@case(jelly=dict(young_modulus=1e5), stiff=dict(young_modulus=1e6), slosh=dict(young_modulus=1e6, room=8))
+def turns_in_water(run: Run, young_modulus: float, room: int = 0) -> None:
+    """A block turns in a closed box of water, without gravity; full, or with room above. Nothing drives it."""
+    cell, cells, side, spin = 0.025, 24, 8, 2.0
+    width = cells * cell
+    with run.world(2, cell, domain=((0, 0), (width, width + room * cell)), gravity=(0, 0)) as world:
+        places = lattice((0, 0), (width, width), cell / 2)
+        r = places - width / 2
+        inside = (abs(r) < side * cell / 2).all(1)
+        block = world.add_material(Elastic(young_modulus=young_modulus))
+        world.add_particles(block, places[inside], velocities=spin * np.stack([-r[inside, 1], r[inside, 0]], 1))
+        world.add_particles(world.add_material(Liquid()), places[~inside])
+        run.steps(world, 1)
+        before = rms(world)
+        run.steps(world, 9)
+        run.check("rms speed after 10 s over that after 1 s", rms(world) / before, 0, 1, why="energy does not grow")
+
+
+@case(alone=dict(), loaded=dict(load=1500))
+def wide_raft(run: Run, load: float = 0.0) -> None:
+    """A rigid raft of 30 x 5 cells is put on water, with a hard box in its middle or without. Nothing tips it."""
+    cell, width, depth, long, high, side = 0.02, 1.6, 0.4, 0.6, 0.1, 0.12
+    with run.world(2, cell, domain=((0, 0), (width, 1.0))) as world:
+        pool(world, Frame(), (0, 0), (width, depth), Liquid())
+        middle = depth + cell + high / 2
+        raft = RigidBody(world.add_collider(Box((width / 2, middle), (long / 2, high / 2)), kinematic=True, measures_impulse=True), density=400)
+        if load:
+            box = world.add_material(Elastic(density=load, young_modulus=1e6))
+            world.fill(Box((width / 2, middle + high / 2 + cell + side / 2), (side / 2, side / 2)), box)
+        tilts, speeds = [], []
+
+        def after(_: float) -> None:
+            _, _, z, w = raft.rotation
+            tilts.append(abs(2 * math.degrees(math.atan2(z, w))))
+            speeds.append(world.stats.max_speed)
+
+        run.steps(world, 4, before=lambda _: raft.advance(run.dt), after=after)
+        run.check("largest tilt", max(tilts), 0, 10, "degrees", why="it is as wide as six of its heights, and loaded in the middle: what waves do")
+        run.check("fastest", max(speeds), 0, math.sqrt(2 * G * depth), "m/s", why="what falls from the level to the floor")
 
 
 @case(half=dict(density=500), light=dict(density=250), turned=dict(density=500, angle=0.4))

@@ -15,7 +15,7 @@ CELL = 0.02
 
 
 def _sand(degrees: float = 30.0, **more: Any) -> Sand:
-    return Sand(density=1600, young_modulus=1e6, friction_angle=math.radians(degrees), **more)
+    return Sand(density=1600, friction_angle=math.radians(degrees), **{"young_modulus": 1e6, **more})
 
 
 def _creep(run: Run, world: Any, frame: Frame, seconds: float) -> float:
@@ -205,6 +205,32 @@ def poured(run: Run, half: float, boxes: bool = False) -> None:
             why="grains keep their volume; poured sand takes up to a tenth more, the surface is known to half a cell",
         )
         run.check("rms speed", 1e3 * rms(world), 0, 5, "mm/s", why="it has come to rest")
+
+
+@case(neck_8=dict(neck=8), neck_4=dict(neck=4), soft=dict(neck=8, cell=0.0125, young_modulus=1e5))
+def hourglass(run: Run, neck: int, cell: float = CELL, young_modulus: float = 1e6) -> None:
+    """Sand runs through the neck between two boards and heaps up two thirds of a metre below, with its volume."""
+    width, slope, length, half, neck_height = 0.8, math.radians(50), 0.5, 0.03, 0.65
+    along, out = np.array([math.cos(slope), math.sin(slope)]), np.array([math.sin(slope), -math.cos(slope)])
+    with run.world(2, cell, domain=((0, 0), (width, 1.4))) as world:
+        for side in (-1, 1):
+            middle = along * length / 2 + out * half + (neck * cell / 2, 0)
+            world.add_collider(Box((width / 2 + side * middle[0], neck_height + middle[1]), (length / 2, half), rotation=slope if side > 0 else math.pi - slope))
+        world.fill(Box((width / 2, 1.1), (0.24, 0.16)), world.add_material(_sand(young_modulus=young_modulus)))
+        volume = world.stats.mass / 1600
+        run.steps(world, 8)
+        x = np.linspace(0.01, width - 0.01, 120)
+        below = world.positions.array()
+        below = below[below[:, 1] < neck_height - 0.1]
+        heights = [max(below[abs(below[:, 0] - v) < cell, 1], default=0.0) + cell / 4 for v in x]
+        share = len(below) / len(world.positions)
+        run.check(
+            "volume of the heap over that of its grains",
+            np.trapezoid(heights, x) * width / (x[-1] - x[0]) / (volume * share),
+            0.95,
+            1.15,
+            why="grains keep their volume; poured sand takes up to a tenth more, the surface is known to half a cell",
+        )
 
 
 @case(wide=dict(w=0.5, slot=0.2), narrow=dict(w=0.4, slot=0.1), sloped=dict(w=0.5, slot=0.14, sloped=True))

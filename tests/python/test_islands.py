@@ -105,22 +105,24 @@ def test_water_with_solids_stays_incompressible(dimension: int) -> None:
         assert tower.effective(1 / 60).young_modulus == pytest.approx(1e6)
 
 
-def test_a_heavy_block_sinks_as_fast_as_it_should() -> None:
-    """Half again as dense as water, after 0.6 s: 3.6 and 3.2 cells deeper at 240 Hz x 20. At 60 Hz x 5 by what the energy law takes at the start less: 0.3 and 1.3 cells."""
-    h = 1 / 32
-    width = 33 * h
-    for young, truth in ((5e4, 13.4), (1e6, 13.8)):
-        with pbmpm.World(
-            2, h, gravity=(0, -G), solver=pbmpm.Solver.CONVERGENT, threads=1, iterations=5, capacity=10_000, domain=((0, 0), (width, 60 * h)), domain_friction=0
-        ) as world:
-            places = np.stack(np.meshgrid(np.arange(0.25, 33, 0.5) * h, np.arange(0.25, 24, 0.5) * h, indexing="ij"), -1).reshape(-1, 2)
-            inside = (abs(places[:, 0] - width / 2) < 3 * h) & (abs(places[:, 1] - 17 * h) < 3 * h)
-            block = world.add_particles(world.add_material(pbmpm.Elastic(young_modulus=young, density=1500)), places[inside])
-            world.add_particles(world.add_material(pbmpm.Liquid()), places[~inside])
-            for _ in range(36):
-                world.step(1 / 60)
-            assert place(world, block)[:, 1].mean() / h == pytest.approx(truth, abs=1.5)
-
+@pytest.mark.parametrize(
+    ("density", "young", "finer"), [(1500, 5e4, 0.244), (1500, 1e6, 0.190), (500, 5e4, 0.189), (500, 1e6, 0.205), (1200, 1e5, 0.091)]
+)
+def test_blocks_rise_and_sink_as_fast_as_they_should(density: float, young: float, finer: float) -> None:
+    """Six cells, in the middle of 36 of water, for 0.8 s at 60 Hz x 5. `finer`: the way at 240 Hz x 20, the mean of the dual, the primal and the convergent solver,
+    which differ by up to 18 %. None goes farther than a square in an endless liquid, with an added mass of 1.19 of its area and a drag coefficient of 2."""
+    h, seconds = 1 / 32, 0.8
+    with pbmpm.World(2, h, gravity=(0, -G), threads=1, iterations=5, capacity=10_000, domain=((0, 0), (33 * h, 60 * h)), domain_friction=0) as world:
+        places = np.stack(np.meshgrid(np.arange(0.25, 33, 0.5) * h, np.arange(0.25, 36, 0.5) * h, indexing="ij"), -1).reshape(-1, 2)
+        inside = (abs(places - (16.5 * h, 18 * h)) < 3 * h).all(1)
+        block = world.add_particles(world.add_material(pbmpm.Elastic(young_modulus=young, density=density)), places[inside])
+        world.add_particles(world.add_material(pbmpm.Liquid()), places[~inside])
+        for _ in range(48):
+            world.step(1 / 60)
+        way = (place(world, block)[:, 1].mean() - 18 * h) * np.sign(1000 - density)
+    excess = abs(density - 1000) / 1000
+    start, most = excess * G / (density / 1000 + 1.19), np.sqrt(2 * excess * G * 6 * h / 2)
+    assert 0.82 * finer < way < most**2 / start * np.log(np.cosh(start * seconds / most))
 
 
 def busy(threads: int) -> pbmpm.World:

@@ -90,15 +90,165 @@ def test_liquid_with_a_body_slips_at_any_friction() -> None:
     assert (states[0] == states[1]).all()
 
 
-@pytest.mark.parametrize(("density", "young_modulus"), [(1000, 2e4), (1100, 1e5), (1500, 2e4), (500, 1e5)])
-def test_a_jelly_in_a_glass_comes_to_rest(density: float, young_modulus: float) -> None:
-    """After the fall nothing drives it. Without the energy law it began to spin: 1 m/s for ever, by water that was crushed for it to three quarters."""
+@pytest.mark.parametrize(("density", "young_modulus", "most"), [(1000, 2e4, 0.04), (1100, 1e5, 0.04), (1500, 2e4, 0.06), (500, 1e5, 0.04)])
+def test_a_jelly_in_a_glass_comes_to_rest(density: float, young_modulus: float, most: float) -> None:
+    """After the fall nothing drives it, but water of 18 cells is deep for 60 Hz: alone it goes on at 0.01 to 0.025 m/s. The heaviest jelly lies on the floor, crushed to two
+    thirds of its volume. Where liquid pushed without turning along, all spun at 1 m/s for ever."""
     with pbmpm.World(2, 0.025, gravity=(0, -G), threads=1, iterations=5, capacity=4000, domain=((-0.25, 0), (0.25, 1))) as world:
         water, jelly = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=density, young_modulus=young_modulus))
         world.fill(pbmpm.Box((0, 0.225), (0.25, 0.225)), water)
         world.fill(pbmpm.Box((0.02, 0.65), (0.1, 0.1)), jelly)
-        for _ in range(300):
+        for _ in range(840):
             world.step(DT)
-        assert rms(world) < 0.03
+        squares = []
+        for _ in range(60):
+            world.step(DT)
+            squares.append(rms(world) ** 2)
+        assert np.sqrt(np.mean(squares)) < most
         room = 2 * np.array(world.positions)[:, 1].mean() * 0.5
         assert 0.9 < room / (0.5 * 0.45 + 0.04) < 1.05
+
+
+def spin_of(world: pbmpm.World, body: Any) -> float:
+    at = world.find(body)
+    r, v = np.array(world.positions)[at], np.array(world.velocities)[at]
+    r, v = r - r.mean(0), v - v.mean(0)
+    return float((r[:, 0] * v[:, 1] - r[:, 1] * v[:, 0]).sum() / (r**2).sum())
+
+
+def turned(world: pbmpm.World, size: tuple[float, float], middle: tuple[float, float], half: float, spin: float, young_modulus: float) -> Any:
+    """Fills a box with water and a square in it that turns."""
+    h = world.cell_size
+    places = np.stack(np.meshgrid(*(np.arange(h / 4, length, h / 2) for length in size), indexing="ij"), -1).reshape(-1, 2)
+    r = places - middle
+    inside = (abs(r) < half).all(1)
+    turn = spin * np.stack([-r[:, 1], r[:, 0]], -1)
+    body = world.add_particles(world.add_material(pbmpm.Elastic(young_modulus=young_modulus)), places[inside], velocities=turn[inside])
+    world.add_particles(world.add_material(pbmpm.Liquid()), places[~inside])
+    return body
+
+
+@pytest.mark.parametrize(
+    ("solver", "iterations", "most"), [(pbmpm.Solver.CONVERGENT, 5, 0.06), (pbmpm.Solver.CONVERGENT, 20, 0.06), (pbmpm.Solver.PRIMAL, 20, 0.2)]
+)
+def test_pressed_matter_does_not_spin_up(solver: pbmpm.Solver, iterations: int, most: float) -> None:
+    """A jelly of eight cells that turns in the depth of a glass. Where its pressure turned it, it turned five to nine times faster after two seconds. The primal's pools
+    stir by themselves."""
+    h, spin = 0.025, 1.0
+    with pbmpm.World(2, h, gravity=(0, -G), solver=solver, threads=1, iterations=iterations, capacity=4000, domain=((0, 0), (20 * h, 40 * h)), domain_friction=0) as world:
+        jelly = turned(world, (20 * h, 20 * h), (10 * h, 9 * h), 4 * h, spin, 2e4)
+        fastest = 0.0
+        for _ in range(120):
+            world.step(DT)
+            fastest = max(fastest, abs(spin_of(world, jelly)))
+        assert fastest < spin
+        assert rms(world) < most
+
+
+@pytest.mark.parametrize("young_modulus", [1e5, 1e6, 1e9])
+@pytest.mark.parametrize("spin", [10.0, 20.0])
+def test_stiff_bodies_that_spin_in_water_are_not_driven(spin: float, young_modulus: float) -> None:
+    """Without gravity, in water with room above. Where the stretch of their chords counted as a couple, they burst at 50 m/s. Slow ones are driven a little still:
+    turns_in_water of tests/field."""
+    h = 0.025
+    with pbmpm.World(2, h, gravity=(0, 0), threads=1, iterations=5, capacity=4000, domain=((0, 0), (24 * h, 32 * h)), domain_friction=0) as world:
+        block = turned(world, (24 * h, 24 * h), (12 * h, 12 * h), 4 * h, spin, young_modulus)
+        energy = float((np.array(world.velocities) ** 2).sum())
+        for _ in range(120):
+            world.step(DT)
+            assert abs(spin_of(world, block)) < spin
+            assert (np.array(world.velocities) ** 2).sum() < energy
+
+
+@pytest.mark.parametrize("spin", [10.0, 20.0])
+def test_a_rubber_ball_that_falls_spinning_into_water_stays_whole(spin: float) -> None:
+    """Nothing gets faster than the fall and the spin explain."""
+    h, radius = 0.05, 0.2
+    with pbmpm.World(2, h, gravity=(0, -G), threads=1, iterations=5, capacity=4000, domain=((0, 0), (2, 3))) as world:
+        world.fill(pbmpm.Box((1, 0.4), (1, 0.4)), world.add_material(pbmpm.Liquid()))
+        places = np.stack(np.meshgrid(np.arange(0.8 + h / 4, 1.2, h / 2), np.arange(1.3 + h / 4, 1.7, h / 2), indexing="ij"), -1).reshape(-1, 2)
+        r = places - (1, 1.5)
+        inside = np.hypot(*r.T) < radius
+        turn = spin * np.stack([-r[:, 1], r[:, 0]], -1)
+        world.add_particles(world.add_material(pbmpm.Elastic(density=700, young_modulus=1e6)), places[inside], velocities=turn[inside])
+        fastest = 0.0
+        for _ in range(180):
+            world.step(DT)
+            fastest = max(fastest, world.stats.max_speed)
+        assert fastest < np.sqrt(2 * G * 1.5) + spin * radius
+        assert rms(world) < 0.5
+
+
+@pytest.mark.parametrize(
+    ("depth", "cell", "density", "young_modulus", "place"),
+    [(30, 0.02, 1000, 2e4, 15), (40, 0.02, 500, 1e5, 45), (40, 0.02, 1000, 1e5, 20), (40, 0.03, 1500, 1e5, 45), (20, 0.025, 1100, 2e4, 25)],
+)
+def test_bodies_in_pools_too_deep_for_the_rate_stay_whole(depth: int, cell: float, density: float, young_modulus: float, place: int) -> None:
+    """Such pools stir: 40 cells of 2 cm at 60 Hz x 5 by 0.09 m/s without a body, 40 of 3 cm with a block that sank by 0.15 to 0.2. Where pressures turned with the liquid
+    they threw it about at 28 m/s. Nothing is faster than what falls from the surface to the floor."""
+    width, side = 24, 8
+    with pbmpm.World(2, cell, gravity=(0, -G), threads=1, iterations=5, domain=((0, 0), (width * cell, (depth + 40) * cell))) as world:
+        places = np.stack(np.meshgrid(np.arange(0.25, width, 0.5) * cell, np.arange(0.25, place + side, 0.5) * cell, indexing="ij"), -1).reshape(-1, 2)
+        inside = (abs(places - (width / 2 * cell, place * cell)) < side / 2 * cell).all(1)
+        world.add_particles(world.add_material(pbmpm.Liquid()), places[~inside & (places[:, 1] < depth * cell)])
+        world.add_particles(world.add_material(pbmpm.Elastic(density=density, young_modulus=young_modulus)), places[inside])
+        fastest = 0.0
+        for _ in range(300):
+            world.step(DT)
+            fastest = max(fastest, world.stats.max_speed)
+        assert fastest < np.sqrt(2 * G * depth * cell)
+        assert rms(world) < 0.3
+
+
+def test_no_gap_stays_around_what_falls_into_water() -> None:
+    """A gap displaces water, too. With one of g cells around it a cube of six cells and half of water's density floats as deep as (6 + 2 g)^2 (depth + g) = 6^3 / 2
+    says: 0.38 of it is below the level with 0.25. It was 0.33 where nothing closed the gap, which has half a cell then."""
+    h, side, depth = 0.06, 6, 10
+    with pbmpm.World(3, h, gravity=(0, -G, 0), threads=1, iterations=5, domain=((0, 0, 0), (20 * h, 26 * h, 20 * h))) as world:
+        water, body = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=500, young_modulus=5e4))
+        world.fill(pbmpm.Box((10 * h, depth / 2 * h, 10 * h), (10 * h, depth / 2 * h, 10 * h)), water)
+        world.fill(pbmpm.Box((10 * h, (depth + 1 + side / 2) * h, 10 * h), (side / 2 * h,) * 3), body)
+        for _ in range(210):
+            world.step(DT)
+        level = world.query_heights([[x * h, 0, z * h] for x in (2, 3, 17, 18) for z in (2, 18)]).mean()
+        heights = np.array(world.positions)[np.array(world.material_indices).ravel() == body.index][:, 1]
+        assert 0.38 < (heights < level).mean() < 0.55
+
+
+def wave_heights(with_float: bool) -> list[float]:
+    """Of each half period of three: how high a wave of one cell still stands, in a tank of 50 x 20 cells. The float is a jelly of six cells in its middle."""
+    h, width, depth, height = 0.04, 2.0, 0.8, 0.04
+    number = np.pi / width
+    half_period = np.pi / np.sqrt(G * number * np.tanh(number * depth))
+    with pbmpm.World(2, h, gravity=(0, -G), threads=1, iterations=5, domain=((0, 0), (width, 2 * depth))) as world:
+        places = np.stack(np.meshgrid(np.arange(0.5, 100) * h / 2, np.arange(0.5, 60) * h / 2, indexing="ij"), -1).reshape(-1, 2)
+        inside = (abs(places - (width / 2, depth)) < 3 * h).all(1) & with_float
+        below = places[:, 1] < depth + height * np.cos(number * places[:, 0])
+        world.add_particles(world.add_material(pbmpm.Liquid()), places[below & ~inside])
+        if with_float:
+            world.add_particles(world.add_material(pbmpm.Elastic(density=500, young_modulus=5e4)), places[inside])
+        tilt = []
+        for _ in range(round((6 * half_period + 0.15) / DT)):
+            world.step(DT)
+            left, right = (world.query_heights([[x, 0] for x in place]).mean() for place in ((0.06, 0.1, 0.14), (1.86, 1.9, 1.94)))
+            tilt.append(abs(left - right) / 2)
+    return [max(tilt[round((n * half_period - 0.15) / DT) : round((n * half_period + 0.15) / DT)]) / height for n in range(1, 7)]
+
+
+def test_a_wave_goes_on_beside_a_float() -> None:
+    """As high as without one. Where velocities paid for all that was gained, it kept a third of its height over three periods."""
+    assert wave_heights(with_float=True) == pytest.approx(wave_heights(with_float=False), rel=0.1)
+
+
+@pytest.mark.parametrize("young_modulus", [1e4, 1e6])
+def test_a_jelly_that_starts_afloat_rests(young_modulus: float) -> None:
+    """In a glass of 18 cells, half of it in the water; what it does for four seconds is to settle."""
+    h = 0.0125
+    with pbmpm.World(2, 2 * h, gravity=(0, -G), threads=1, iterations=5, domain=((0, 0), (40 * h, 80 * h))) as world:
+        places = np.stack(np.meshgrid(np.arange(0.5, 40) * h, np.arange(0.5, 60) * h, indexing="ij"), -1).reshape(-1, 2)
+        inside = (abs(places - (20 * h, 36 * h)) < 8 * h).all(1)
+        world.add_particles(world.add_material(pbmpm.Elastic(density=500, young_modulus=young_modulus)), places[inside])
+        world.add_particles(world.add_material(pbmpm.Liquid()), places[~inside & (places[:, 1] < 36 * h)])
+        for _ in range(300):
+            world.step(DT)
+        assert rms(world) < 0.005
