@@ -477,6 +477,24 @@ def pour(run: Run, width: float, depth: float, angle: float) -> None:
         assert emitter
 
 
+@case(block=dict(modulus=5e4), soft=dict(modulus=1e4))
+def soft_liquid(run: Run, modulus: float) -> None:
+    """A block of a soft liquid falls and spreads in a tank: its weight alone compresses it."""
+    cell, width, side = 0.0125, 0.8, 0.3
+    with run.world(2, cell, domain=((0, 0), (width, 1.2))) as world:
+        world.fill(Box((width / 2, 0.5), (side / 2, side / 2)), world.add_material(Liquid(bulk_modulus=modulus)))
+        depth = side**2 / width
+        strain = 1000 * G * depth / 2 / modulus
+        ratio = []
+
+        def watch(t: float) -> None:
+            if t > 3:
+                ratio.append(world.volume_ratios.array().mean())
+
+        run.steps(world, 4, after=watch)
+        run.check("volume over what its weight leaves", np.mean(ratio) / (1 - strain), 0.95, 1.05, why="p = K (1 - J): half the pressure below, on average")
+
+
 @case(tray=dict())
 def drips(run: Run) -> None:
     """Twelve drops fall into a tray, lie level and rest."""

@@ -42,7 +42,7 @@ Dense dense_of_particles(const Scene *scene, const RefGrid *base)
     for (int k = 0; k < o.rows; k++) {
         const RefParticle p = scene_particle(scene, (uint32_t)k);
         o.W[k] = 0.25 * p.mass / softness(&p);
-        o.b[k] = fmin(1.0 / p.volume_ratio - 1.0, (double)scene->world->args.growth_max);
+        o.b[k] = 1.0 / p.volume_ratio - 1.0;
         add_trace(&o, k, &p, 1.0);
     }
     return o;
@@ -69,7 +69,7 @@ Dense dense_of_cells(const Scene *scene, const RefGrid *base)
     for (int k = 0; k < cells; k++) {
         if (mass[k] == 0.0) continue;
         for (int j = 0; j < o.unknowns; j++) o.G[(int64_t)k * o.unknowns + j] /= mass[k];
-        o.b[k] = fmin(fmax(mass[k] / ratio[k] - 1.0, 0.0), (double)scene->world->args.growth_max);
+        o.b[k] = fmax(mass[k] / ratio[k] - 1.0, 0.0);
         o.W[k] = 0.25 * mass[k] * mass[k] / o.W[k];
     }
     free(mass);

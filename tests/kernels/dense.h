@@ -16,7 +16,7 @@ typedef struct Dense {
     double *u;         /* the minimiser */
 } Dense;
 
-/* Rows of particles, or of cells. All liquids are compressible. */
+/* Rows of particles, or of cells. All liquids are compressible, and miss less than the bound of growth. */
 Dense dense_of_particles(const Scene *scene, const RefGrid *base);
 Dense dense_of_cells(const Scene *scene, const RefGrid *base);
 

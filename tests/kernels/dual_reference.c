@@ -17,11 +17,13 @@ double reference_scale(const RefStep *step, double density)
 /* The root of a function that is known to be linear, from its values at 0 and 1; no less than 0. */
 static double linear_root(double at_0, double at_1) { return fmin(fmax(0.0, at_0 / (at_0 - at_1)), (double)K_INCREMENT_MAX); }
 
-/* Divided by L J^2, so that it also holds for an infinite L: s / (L J^2) + tr D + d (s - y) / w - growth. */
+/* Divided by L J^2, so that it also holds for an infinite L: s / (L J^2) + tr D + d (s - y) / w - growth. The matter grows by no more than the bound: the
+ * pressure is no more than one that asks for just that. */
 double reference_pressure(int n, const KernelMaterial *material, double ratio, double trace, double y)
 {
-    const double growth = fmin(1.0 / ratio - 1.0, REF_GROWTH_MAX), soft = (double)material->inverse_stiffness / (ratio * ratio);
-    return reference_cell_pressure(n, (double)material->relaxation, growth, soft, trace, y);
+    const double relaxation = (double)material->relaxation, soft = (double)material->inverse_stiffness / (ratio * ratio);
+    const double own = reference_cell_pressure(n, relaxation, 1.0 / ratio - 1.0, soft, trace, y);
+    return fmin(own, reference_cell_pressure(n, relaxation, REF_GROWTH_MAX, 0.0, trace, y));
 }
 
 double reference_cell_pressure(int n, double relaxation, double growth, double softness, double trace, double y)
