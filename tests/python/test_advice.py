@@ -35,6 +35,7 @@ def test_a_record_has_numbers_and_words() -> None:
         assert (ignored.code, ignored.material, ignored.figure, ignored.bound) == (AdviceCode.IGNORED, soft.index, 0.5, 1.0)
         assert "elasticity_ratio" in str(ignored) and "0.5" in str(ignored)
         assert "gravity 9.81 m/s^2" in str(nothing_pulls)
+        assert str(ignored) == f"material {soft.index}: {ignored.sentence}" and str(nothing_pulls) == nothing_pulls.sentence
 
 
 def test_a_remedy_is_what_its_figure_asks_for() -> None:

@@ -62,7 +62,7 @@ _UNITS = {Change.CELL_SIZE: " m", Change.GRAVITY: " m/s^2", Change.YOUNG_MODULUS
 
 @dataclass(frozen=True)
 class Advice:
-    """One thing that the present scene and settings do not hold. ``str()`` makes a sentence of it.
+    """One thing that the present scene and settings do not hold. ``str()`` makes a sentence of it, with the material or the obstacle that it is about.
 
     Attributes:
         code: what.
@@ -121,10 +121,22 @@ class Advice:
             return f"{name} (at a price that is not known)"
         return f"{name} ({self.price:+.0f} % of a step)" if self.price else name
 
-    def __str__(self) -> str:
+    @property
+    def sentence(self) -> str:
+        """The same as ``str()`` without whom it is about."""
         numbers = f" ({self.figure:.3g}{self._unit}; {self._wanted} {self.bound:.3g}{self._unit})" if self.figure or self.bound else ""
         remedy = f"; would help: {self.remedy}" if self.remedy else ""
         return f"{self.text}{numbers}{remedy}"
+
+    @property
+    def owner(self) -> str:
+        """Whom it is about: a material or an obstacle by its index; empty: the whole world."""
+        if self.material is not None:
+            return f"material {self.material}"
+        return f"collider {self.collider[0]}" if self.collider else ""
+
+    def __str__(self) -> str:
+        return f"{self.owner}: {self.sentence}" if self.owner else self.sentence
 
 
 def _advice_from_c(item: Any) -> Advice:

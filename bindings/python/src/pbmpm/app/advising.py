@@ -55,4 +55,4 @@ def _owner(simulation: Simulation, item: pbmpm.Advice) -> str:
 
 def _line(simulation: Simulation, item: pbmpm.Advice) -> str:
     owner = _owner(simulation, item)
-    return f"{owner}: {item}" if owner else str(item)
+    return f"{owner}: {item.sentence}" if owner else item.sentence
