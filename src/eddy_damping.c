@@ -3,11 +3,12 @@
 #include <math.h>
 #include <string.h>
 
+#include "depth.h"
 #include "islands.h"
 #include "joint.h"
 #include "walls.h"
 
-enum { GAIN, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
+enum { GAIN, BEFORE, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
 /* (k h)^2 / 4 of eddies of two cells, the smallest that the grid knows: k h = pi / 2. What it does at 60 Hz x 5 (tests/field, standing_wave and still_pool): with
  * 0.2 a wave keeps 0.83 of its height in nine periods, with 0.4 and 0.617 it keeps 0.90, with 1 it keeps 0.94; but with 1 pools that stand turned go on at 16 to
@@ -66,7 +67,8 @@ static void sum_block(const World *world, int32_t block, double *sum)
         if (mass == 0.0) continue;
         sum[MASS] += mass;
         for (size_t c = 0; c < 3; c++) {
-            const double u = (double)node[i + c], away = u - ((double)before[i + c] - (double)world->args.gravity[c]);
+            const double u = (double)node[i + c], brought = (double)before[i + c] - (double)world->args.gravity[c], away = u - brought;
+            sum[BEFORE] += 0.5 * mass * brought * brought;
             sum[GAIN] += (double)push[i + c] * u - 0.5 * mass * away * away;
             sum[KINETIC] += 0.5 * mass * u * u;
             sum[MOMENTUM + c] += mass * u;
@@ -90,12 +92,54 @@ float *eddy_damping_shares(World *world)
     return kept;
 }
 
-static float share_of(const double *sum)
+/* ---- Debts ---- */
+
+static uint64_t particles_of_group(const World *world)
+{
+    uint64_t count = 0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) count += world->particles.of_material[slot];
+    return count;
+}
+
+/* The share of a credit that is left after a substep. Matter falls through its depth in sqrt(2 depth / fall) substeps; without gravity never. */
+static double credit_kept(const World *world) { return exp(-0.5 * sqrt(gravity_fall(world, (double)world->args.dt) / (2.0 * matter_depth(world)))); }
+
+double eddy_damping_settle(World *world, const EddyGains *gains)
+{
+    EddyAccount *account = &world->dual.eddy_damping.account[islands_kinds(world)];
+    const uint64_t particles = particles_of_group(world);
+    const double unit = solver_joule(world);
+    const double carried = account->debt < 0.0 ? credit_kept(world) * account->debt : account->debt;
+    account->debt = account->particles == particles ? carried + unit * gains->before - account->left : 0.0;
+    account->left = unit * gains->left;
+    account->particles = particles;
+    return gains->gained > 0.0 ? 1.0 + fmax(0.0, account->debt) / (unit * gains->gained) : 1.0;
+}
+
+void eddy_damping_forget(World *world) { memset(world->dual.eddy_damping.account, 0, sizeof world->dual.eddy_damping.account); }
+
+/* ---- The dual's bodies ---- */
+
+static bool pays(const double *sum) { return sum[TOUCHES] > 0.0 && sum[GAIN] > 0.0; }
+
+static float share_of(const double *sum, double factor)
 {
     double kinetic = sum[KINETIC];
-    if (sum[TOUCHES] == 0.0) return 1.0f;
+    if (!pays(sum)) return 1.0f;
     for (int c = 0; c < 3; c++) kinetic -= 0.5 * sum[MOMENTUM + c] * sum[MOMENTUM + c] / sum[MASS];
-    return eddy_damping_share(sum[GAIN], kinetic);
+    return eddy_damping_share(factor * sum[GAIN], kinetic);
+}
+
+static EddyGains gains_of(const EddyDamping *damping)
+{
+    EddyGains gains = {0};
+    const double *sum = damping->body_sums.data;
+    for (int32_t i = 0; i < damping->bodies.count; i++, sum += SUMS) {
+        gains.before += sum[BEFORE];
+        gains.left += sum[KINETIC] - sum[GAIN];
+        if (pays(sum)) gains.gained += sum[GAIN];
+    }
+    return gains;
 }
 
 void eddy_damping_find(World *world)
@@ -113,5 +157,7 @@ void eddy_damping_find(World *world)
     memset(body, 0, SUMS * (size_t)damping->bodies.count * sizeof *body);
     for (int32_t block = 0; block < world->grid.node_blocks; block++)
         for (size_t k = 0; k < SUMS; k++) body[SUMS * (size_t)of_block[block] + k] += sums[SUMS * (size_t)block + k];
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) kept[block] = share_of(body + SUMS * (size_t)of_block[block]);
+    const EddyGains gains = gains_of(damping);
+    const double factor = eddy_damping_settle(world, &gains);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) kept[block] = share_of(body + SUMS * (size_t)of_block[block], factor);
 }

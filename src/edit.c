@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "eddy_damping.h"
 #include "field.h"
 #include "inspect.h"
 #include "numbers.h"
@@ -410,6 +411,7 @@ static void write_value(World *world, pbmpm_field field, uint32_t row, const flo
     }
     sleep_wake_row(world, row);
     particles_forget(p, row);
+    eddy_damping_forget(world);
     if (field == PBMPM_POSITION) {
         double position[3];
         for (int a = 0; a < d; a++) position[a] = (double)values[a] / (double)world->def.cell_size;

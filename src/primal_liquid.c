@@ -71,13 +71,6 @@ static bool all_can_pay(Primal *p)
     return can;
 }
 
-/* A kg cell^2 / substep^2 in Joule. */
-static double joule(const World *world)
-{
-    const double cells = (double)world->args.dt * (double)world->args.cells_per_metre;
-    return 1.0 / (cells * cells);
-}
-
 /* Volume feedback that lowers J stores energy that nothing paid for, and later substeps turn it into motion: a column that slumped gained 1.5 % by it.
  * What it brings back is volume that was lost, with the energy that went with it: so in all it may store what solutions have lost. */
 static void earn(Primal *p)
@@ -86,7 +79,7 @@ static void earn(Primal *p)
     double lost = 0.0;
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
         if (body[i].with_liquid) lost += fmax(0.0, body[i].before + body[i].work - body[i].after);
-    p->world->primal.credit += lost * joule(p->world);
+    p->world->primal.credit += lost * solver_joule(p->world);
     p->world->args.may_feed = p->world->primal.credit > 0.0;
 }
 
@@ -96,7 +89,7 @@ static void spend(World *world)
     double sum = 0.0;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++)
         if (!sleep_is_still(world, block)) sum += (double)fed[block];
-    world->primal.credit -= sum * joule(world);
+    world->primal.credit -= sum * solver_joule(world);
 }
 
 /* What forces do at a node of loose liquid explains its way beside the predictor, m (u - u*) = -f, or most of that way is an error of the search: steps that are good
@@ -133,13 +126,20 @@ static void damp_eddies(Primal *p)
 {
     BodySum *bodies = p->world->primal.body_sums.data;
     float *kept = eddy_damping_shares(p->world);
+    EddyGains gains = {0};
     primal_check_bodies(p);
-    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) bodies[i].kept = 1.0f;
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+        bodies[i].kept = 1.0f;
+        gains.before += bodies[i].before;
+        gains.left += bodies[i].before + bodies[i].work + bodies[i].fallen;
+        if (bodies[i].meets) gains.gained += fmax(0.0, gain_of(&bodies[i]));
+    }
+    const double factor = eddy_damping_settle(p->world, &gains);
     for (int32_t block = 0; kept && block < p->world->grid.particle_blocks; block++) {
         const BodySum *body = primal_body_of(p, block);
         double kinetic = body->kinetic;
         for (int c = 0; c < 3 && body->mass > 0.0; c++) kinetic -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
-        kept[block] = body->meets ? eddy_damping_share(gain_of(body), kinetic) : 1.0f;
+        kept[block] = body->meets ? eddy_damping_share(factor * gain_of(body), kinetic) : 1.0f;
     }
 }
 

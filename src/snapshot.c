@@ -295,13 +295,15 @@ typedef struct Counters {
     double slow_dt, slow_iterations;
     uint64_t strain_unchecked;
     double credit;
+    EddyAccount eddy_account[ISLAND_GROUPS + 1];
 } Counters;
 
 static void save_counters(const World *world, SnapshotOut *out)
 {
-    const Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
-                               world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                               world->strain_unchecked,  world->primal.credit};
+    Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
+                         world->simulated_seconds, world->slow_dt,       world->slow_iterations,
+                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}};
+    memcpy(counters.eddy_account, world->dual.eddy_damping.account, sizeof counters.eddy_account);
     snapshot_put_part(out, &counters, sizeof counters);
 }
 
@@ -310,8 +312,9 @@ static pbmpm_result check_counters(World *world, SnapshotIn in)
     Counters counters = {0};
     (void)world;
     if (!snapshot_take_part(&in, &counters, sizeof counters) || snapshot_goes_on(&in)) return snapshot_malformed();
-    const bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
+    bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
                       isfinite(counters.simulated_seconds + counters.slow_dt + counters.slow_iterations) && isfinite(counters.credit);
+    for (int i = 0; i <= ISLAND_GROUPS; i++) fits = fits && isfinite(counters.eddy_account[i].debt + counters.eddy_account[i].left);
     return fits ? PBMPM_OK : snapshot_malformed();
 }
 
@@ -327,6 +330,7 @@ static void load_counters(World *world, SnapshotIn in)
     world->slow_iterations = counters.slow_iterations;
     world->strain_unchecked = counters.strain_unchecked != 0;
     world->primal.credit = counters.credit;
+    memcpy(world->dual.eddy_damping.account, counters.eddy_account, sizeof counters.eddy_account);
 }
 
 /* ---- Colliders: poses and targets are loaded ---- */

@@ -307,6 +307,12 @@ bool solver_uses_dual(const World *world)
     return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == PBMPM_SOLVER_CONVERGENT;
 }
 
+double solver_joule(const World *world)
+{
+    const double cells = (double)world->args.dt * (double)world->args.cells_per_metre;
+    return 1.0 / (cells * cells);
+}
+
 /* Whether there are particles of sand. */
 bool solver_holds_sand(const World *world)
 {

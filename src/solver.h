@@ -37,6 +37,9 @@ bool solver_ends_by_primal(const World *world);
 /* Whether the dual solver works in this substep, alone or with the primal. */
 bool solver_uses_dual(const World *world);
 
+/* A kg cell^2 / substep^2 in Joule. */
+double solver_joule(const World *world);
+
 /* Solids get the moduli that the dual solver is asked for, or the primal. */
 void solver_set_solids(World *world, bool by_dual);
 

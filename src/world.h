@@ -48,9 +48,17 @@ typedef struct RoundsState {
     int64_t rows; /* particles in the blocks with solids */
 } RoundsState;
 
+/* Of the matter of a group, see eddy_damping.h. */
+typedef struct EddyAccount {
+    double debt;       /* [J]; below 0: credit */
+    double left;       /* energy that its last substep left, less what it gained [J] */
+    uint64_t particles; /* 0: there is no account */
+} EddyAccount;
+
 /* See eddy_damping.h. */
 typedef struct EddyDamping {
     Bodies bodies;
+    EddyAccount account[ISLAND_GROUPS + 1]; /* of each set of kinds */
     Array sums, body_sums; /* per node block, and per body */
     Array kept;            /* see KernelArgs.affine_kept */
 } EddyDamping;
