@@ -174,41 +174,39 @@ typedef struct TransferJob {
 /* What follows is written once for any width and compiled for each of the two that there are. */
 
 /* The part of the halo that a child fills along one axis: the one below lends its last node. */
-static void child_range(int side, int *from, int *to, int *size)
+typedef struct Part {
+    int from, to, size;
+} Part;
+
+static const Part part_of[3] = {{K_BLOCK_AXIS - 1, 0, 1}, {0, 1, K_BLOCK_AXIS}, {0, 1 + K_BLOCK_AXIS, K_BLOCK_AXIS}};
+
+/* Shortens a line of the halo to K_BLOCK_AXIS elements of `width` floats: the last one of the child below, then all of the next two. */
+static inline void sum_line(const float *below, const float *left, const float *right, float *restrict to, int width)
 {
-    *from = side == 0 ? K_BLOCK_AXIS - 1 : 0;
-    *to = side == 0 ? 0 : 1 + (side - 1) * K_BLOCK_AXIS;
-    *size = side == 0 ? 1 : K_BLOCK_AXIS;
+    const float *before[K_BLOCK_AXIS] = {below + 3 * width, left + width, left + 3 * width, right + width};
+    const float *at[K_BLOCK_AXIS] = {left, left + 2 * width, right, right + 2 * width};
+    const float *behind[K_BLOCK_AXIS] = {left + width, left + 3 * width, right + width, right + 3 * width};
+    for (int j = 0; j < K_BLOCK_AXIS; j++)
+        for (int c = 0; c < width; c++) to[j * width + c] = 0.5f * (before[j][c] + behind[j][c]) + at[j][c];
 }
 
-static inline void load_halo(const TransferJob *job, int32_t block, float *halo, int width)
+/* The lines through three children that are neighbours along x. */
+static inline void sum_children(const TransferJob *job, const int32_t child[3], Part y, Part z, float *flat, int width)
 {
-    const Multilevel *m = job->m;
-    const bool deep = m->dimension == 3;
-    const int32_t *child = (const int32_t *)job->level->child.data + block * children_of(m);
-    const size_t one = (size_t)width * sizeof(float), line = K_BLOCK_AXIS * one;
-    for (int n = 0; n < children_of(m); n++) {
-        int fx, fy, fz = 0, tx, ty, tz = 0, sx, sy, sz = 1;
-        child_range(n % 3, &fx, &tx, &sx);
-        child_range(n / 3 % 3, &fy, &ty, &sy);
-        if (deep) child_range(n / 9, &fz, &tz, &sz);
-        const float *source = child[n] < 0 ? NULL : job->from + (size_t)child[n] * (size_t)(m->block_cells * width);
-        for (int k = 0; k < sz; k++)
-            for (int j = 0; j < sy; j++) {
-                float *row = halo + (((tz + k) * HALO + ty + j) * HALO + tx) * width;
-                const int from = (((fz + k) * K_BLOCK_AXIS + fy + j) * K_BLOCK_AXIS + fx) * width;
-                if (!source)
-                    memset(row, 0, (size_t)sx * one);
-                else if (sx == 1)
-                    memcpy(row, source + from, one);
-                else
-                    memcpy(row, source + from, line);
-            }
-    }
+    static const float none[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    const size_t floats = (size_t)(job->m->block_cells * width);
+    const float *of[3];
+    for (int n = 0; n < 3; n++) of[n] = child[n] < 0 ? none : job->from + (size_t)child[n] * floats;
+    for (int k = 0; k < z.size; k++)
+        for (int j = 0; j < y.size; j++) {
+            const int from = ((z.from + k) * K_BLOCK_AXIS + y.from + j) * K_BLOCK_AXIS * width;
+            float *to = flat + ((z.to + k) * HALO + y.to + j) * K_BLOCK_AXIS * width;
+            sum_line(of[0] + from, of[1] + from, of[2] + from, to, width);
+        }
 }
 
-/* Shortens one axis: `count` lines of HALO elements, `stride` floats apart, become lines of K_BLOCK_AXIS. An element has `width` floats. */
-static inline void sum_axis(const float *from, float *to, int lines, int width)
+/* Shortens one axis: `lines` lines of HALO elements become lines of K_BLOCK_AXIS. An element has `width` floats. */
+static inline void sum_axis(const float *restrict from, float *restrict to, int lines, int width)
 {
     for (int line = 0; line < lines; line++)
         for (int j = 0; j < K_BLOCK_AXIS; j++) {
@@ -221,10 +219,10 @@ static inline void sum_axis(const float *from, float *to, int lines, int width)
 static inline void restrict_block(const TransferJob *job, int32_t block, int width)
 {
     const bool deep = job->m->dimension == 3;
-    float halo[HALO * HALO * HALO * W], flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    float flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
     float *to = job->to + (size_t)block * (size_t)(job->m->block_cells * width);
-    load_halo(job, block, halo, width);
-    sum_axis(halo, flat, deep ? HALO * HALO : HALO, width);
+    const int32_t *child = (const int32_t *)job->level->child.data + block * children_of(job->m);
+    for (int n = 0; n < children_of(job->m); n += 3) sum_children(job, child + n, part_of[n / 3 % 3], deep ? part_of[n / 9] : (Part){0, 0, 1}, flat, width);
     sum_axis(flat, deep ? thin : to, deep ? HALO : 1, K_BLOCK_AXIS * width);
     if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
 }
