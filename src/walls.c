@@ -8,19 +8,19 @@ enum { GRAIN = 64, WALL_NODE_NS = 20 };
 
 /* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
 typedef struct Vectors {
-    float (*momentum)[4], (*free)[4], (*moved)[4], (*back)[4];
+    Four *momentum, *free, *moved, *back;
 } Vectors;
 
 static Vectors vectors_of(const Walls *walls)
 {
-    float(*first)[4] = walls->vector.data;
+    Four *first = walls->vector.data;
     if (walls->nodes == 0) return (Vectors){NULL, NULL, NULL, NULL};
     return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + VECTORS * (size_t)walls->nodes};
 }
 
 void walls_free(Walls *walls, Memory *memory)
 {
-    Array *arrays[] = {&walls->node, &walls->entry, &walls->link, &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->vector};
+    Array *arrays[] = {&walls->node, &walls->motion, &walls->entry, &walls->link, &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->vector};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
@@ -54,11 +54,14 @@ bool walls_hold(const Walls *walls, uint32_t node)
     return place > 0 && ((const WallNode *)walls->node.data)[place - 1].follows;
 }
 
-static void times(const float m[6], const float v[4], float out[4])
+static Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
+
+/* What an entry takes from: the mean of its parents' u~. */
+static Four mean_of(const WallEntry *entry, const Four *free)
 {
-    out[0] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2];
-    out[1] = m[1] * v[0] + m[3] * v[1] + m[4] * v[2];
-    out[2] = m[2] * v[0] + m[4] * v[1] + m[5] * v[2];
+    Four mean = {0};
+    for (uint32_t k = 0; k < entry->corners; k++) mean += entry->weight[k] * free[entry->parent[k]];
+    return mean;
 }
 
 /* ---- Making motion admissible ---- */
@@ -71,82 +74,70 @@ typedef struct ApplyJob {
     const uint8_t *mark;
 } ApplyJob;
 
-static float *node_at(const ApplyJob *job, const WallNode *n) { return (float *)job->frame->grid->node.data + (size_t)n->node * K_NODE_WIDTH; }
+static float *node_at(const ApplyJob *job, uint32_t node) { return (float *)job->frame->grid->node.data + (size_t)node * K_NODE_WIDTH; }
+
+static Four load(const float *node) { return (Four){node[0], node[1], node[2], node[3]}; }
+
+/* All but the mass. */
+static void store(Four u, float *node)
+{
+    for (int a = 0; a < 3; a++) node[a] = u[a];
+}
 
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallNode *node = job->walls->node.data;
+    const WallMotion *motion = job->walls->motion.data;
     const WallEntry *entry = job->walls->entry.data;
     for (int32_t i = begin; i < end; i++) {
-        const float *u = node_at(job, &node[i]);
-        float *p = job->v.momentum[i], rest[4];
-        if (!job->mark || job->mark[node[i].node / (uint32_t)job->frame->grid->block_cells])
-            for (int a = 0; a < 3; a++) p[a] = node[i].mass * u[a];
-        for (int a = 0; a < 3; a++) rest[a] = p[a] - job->shifted * node[i].mass * node[i].shift[a];
-        for (uint32_t e = node[i].entry_begin; e < node[i].entry_moving; e++) times(entry[e].matrix, rest, job->v.back[e]);
+        const WallMotion *n = &motion[i];
+        if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
+        const Four rest = job->v.momentum[i] - job->shifted * n->carried;
+        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) job->v.back[e] = times(&entry[e].matrix, rest);
     }
 }
 
 /* E^T (p - m c0) at one node. */
-static void folded(const ApplyJob *job, uint32_t i, float sum[4])
+static Four folded(const ApplyJob *job, uint32_t i)
 {
-    const WallNode *n = (const WallNode *)job->walls->node.data + i;
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
     const WallLink *link = job->walls->link.data;
-    float rest[4];
-    for (int a = 0; a < 3; a++) rest[a] = job->v.momentum[i][a] - job->shifted * n->mass * n->shift[a];
-    times(n->own, rest, sum);
-    for (uint32_t l = n->link_begin; l < n->link_moving; l++)
-        for (int a = 0; a < 3; a++) sum[a] += link[l].weight * job->v.back[link[l].entry][a];
+    Four sum = times(&n->own, job->v.momentum[i] - job->shifted * n->carried);
+    for (uint32_t l = n->link_begin; l < n->link_moving; l++) sum += link[l].weight * job->v.back[link[l].entry];
+    return sum;
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallNode *node = job->walls->node.data;
+    const WallMotion *motion = job->walls->motion.data;
     for (int32_t i = begin; i < end; i++) {
-        float sum[4], *u = node_at(job, &node[i]);
-        folded(job, (uint32_t)i, sum);
-        times(node[i].inverse, sum, job->v.free[i]);
-        for (int a = 0; a < 3; a++) u[a] = job->v.free[i][a];
+        job->v.free[i] = times(&motion[i].inverse, folded(job, (uint32_t)i));
+        store(job->v.free[i], node_at(job, motion[i].node));
     }
 }
 
-/* u = E u~ + c0 at one node. */
-static void spread(const ApplyJob *job, uint32_t i, float u[4])
-{
-    const WallNode *n = (const WallNode *)job->walls->node.data + i;
-    times(n->own, job->v.free[i], u);
-    for (int a = 0; a < 3; a++) u[a] += job->shifted * n->shift[a];
-    for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) {
-        const WallEntry *entry = (const WallEntry *)job->walls->entry.data + e;
-        float mean[4] = {0}, part[4];
-        for (int k = 0; k < CORNERS_MAX; k++) {
-            const float *from = job->v.free[entry->parent[k]];
-            for (int a = 0; a < 3; a++) mean[a] += entry->weight[k] * from[a];
-        }
-        times(entry->matrix, mean, part);
-        for (int a = 0; a < 3; a++) u[a] += part[a];
-    }
-}
-
+/* Where contacts were obeyed in between. */
 static void take_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallNode *node = job->walls->node.data;
-    for (int32_t i = begin; i < end; i++)
-        for (int a = 0; a < 3; a++) job->v.free[i][a] = node_at(job, &node[i])[a];
+    const WallMotion *motion = job->walls->motion.data;
+    for (int32_t i = begin; i < end; i++) job->v.free[i] = load(node_at(job, motion[i].node));
 }
 
+/* u = E u~ + c0 */
 static void find_moved(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallNode *node = job->walls->node.data;
+    const WallMotion *motion = job->walls->motion.data;
+    const WallEntry *entry = job->walls->entry.data;
     for (int32_t i = begin; i < end; i++) {
-        float *u = node_at(job, &node[i]);
-        spread(job, (uint32_t)i, job->v.moved[i]);
-        for (int a = 0; a < 3; a++) u[a] = job->v.moved[i][a];
+        const WallMotion *n = &motion[i];
+        Four u = times(&n->own, job->v.free[i]) + job->shifted * n->shift;
+        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) u += times(&entry[e].matrix, mean_of(&entry[e], job->v.free));
+        job->v.moved[i] = u;
+        store(u, node_at(job, n->node));
     }
 }
 
@@ -154,24 +145,16 @@ static void find_moved(void *context, int32_t begin, int32_t end)
  * but for M u~ - E^T (p - m c0), which contacts and friction leave at the nodes that are free. */
 static void given(const ApplyJob *job, uint32_t i, double sum[3])
 {
-    const WallNode *n = (const WallNode *)job->walls->node.data + i;
-    const float *p = job->v.momentum[i], *u = job->v.moved[i];
-    float rest[4], own[4], still[4];
-    for (int a = 0; a < 3; a++) rest[a] = p[a] - job->shifted * n->mass * n->shift[a];
-    times(n->own, rest, own);
-    times(n->own, job->v.free[i], still);
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    const WallEntry *entry = job->walls->entry.data;
+    const Four p = job->v.momentum[i], u = job->v.moved[i];
+    const Four own = times(&n->own, p - job->shifted * n->carried), still = times(&n->own, job->v.free[i]);
     for (int a = 0; a < 3; a++) sum[a] = (double)n->mass * ((double)u[a] - (double)still[a]) - (double)p[a] + (double)own[a];
     for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) {
-        const WallEntry *entry = (const WallEntry *)job->walls->entry.data + e;
-        float mean[4] = {0}, part[4];
+        const Four counted = times(&entry[e].matrix, times(&entry[e].matrix, mean_of(&entry[e], job->v.free)));
         double weight = 0.0;
-        for (int k = 0; k < CORNERS_MAX; k++) {
-            weight += (double)entry->weight[k];
-            for (int a = 0; a < 3; a++) mean[a] += entry->weight[k] * job->v.free[entry->parent[k]][a];
-        }
-        times(entry->matrix, mean, part);
-        times(entry->matrix, part, mean);
-        for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[e][a] - (double)n->mass * (double)mean[a];
+        for (uint32_t k = 0; k < entry[e].corners; k++) weight += (double)entry[e].weight[k];
+        for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[e][a] - (double)n->mass * (double)counted[a];
     }
 }
 
@@ -187,6 +170,14 @@ static void press(void *context, int32_t begin, int32_t end)
     }
 }
 
+static void times_lump(const WallNode *n, const float v[3], float out[3])
+{
+    const float *m = n->lump;
+    out[0] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2];
+    out[1] = m[1] * v[0] + m[3] * v[1] + m[4] * v[2];
+    out[2] = m[2] * v[0] + m[4] * v[1] + m[5] * v[2];
+}
+
 /* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the nodes that follow in proportion to what they follow. */
 static void rub(void *context, int32_t begin, int32_t end)
 {
@@ -196,22 +187,23 @@ static void rub(void *context, int32_t begin, int32_t end)
     const WallLink *link = job->walls->link.data;
     for (int32_t i = begin; i < end; i++) {
         const WallNode *n = &node[i];
-        float *u = job->v.free[i], v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
+        Four *u = &job->v.free[i];
+        float v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
         for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
-        for (int a = 0; a < 3; a++) along += (u[a] - n->surface[a]) * n->normal[0][a];
+        for (int a = 0; a < 3; a++) along += ((*u)[a] - n->surface[a]) * n->normal[0][a];
         for (int a = 0; a < 3; a++) {
-            v[a] = u[a] - n->surface[a] - along * n->normal[0][a];
+            v[a] = (*u)[a] - n->surface[a] - along * n->normal[0][a];
             size2 += v[a] * v[a];
         }
         if (!(size2 > 0.0f)) continue;
-        float mv[4] = {v[0], v[1], v[2]}, m[4];
-        times(n->lump, mv, m);
+        float m[3];
+        times_lump(n, v, m);
         const float mass = (m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) / size2; /* in the direction of motion */
         const float lost = mass > 0.0f ? n->coefficient * impulse / (mass * sqrtf(size2)) : 1.0f;
-        for (int a = 0; a < 3; a++) u[a] -= fminf(lost, 1.0f) * v[a];
+        for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
     }
 }
 
@@ -234,8 +226,10 @@ void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool
     const Span all = {(int32_t)walls->nodes, GRAIN, (int64_t)walls->nodes * WALL_NODE_NS};
     LOOPS_ADD(loops, all, send_back, &job);
     LOOPS_ADD(loops, all, find_free, &job);
-    if (frame->colliders->contacts > 0) LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
-    LOOPS_ADD(loops, all, take_free, &job);
+    if (frame->colliders->contacts > 0) {
+        LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
+        LOOPS_ADD(loops, all, take_free, &job);
+    }
     LOOPS_ADD(loops, all, find_moved, &job);
     if (walls->rubs && !linear) {
         LOOPS_ADD(loops, all, press, &job);
@@ -254,7 +248,7 @@ void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool
 
 float walls_work(const Walls *walls, uint32_t node, const float *u)
 {
-    const float *p = vectors_of(walls).momentum[place_of(walls, node) - 1];
+    const Four p = vectors_of(walls).momentum[place_of(walls, node) - 1];
     return p[0] * u[0] + p[1] * u[1] + p[2] * u[2];
 }
 
@@ -290,10 +284,10 @@ void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
     for (uint32_t i = 0; i < walls->nodes; i++) {
         const WallNode *n = (const WallNode *)walls->node.data + i;
         double sum[3], gained[3];
-        float back[4], held[4];
+        float held[3];
         given(&job, i, sum);
-        folded(&job, i, back);
-        times(n->lump, job.v.free[i], held);
+        const Four back = folded(&job, i), u = job.v.free[i];
+        times_lump(n, (const float[]){u[0], u[1], u[2]}, held);
         for (int a = 0; a < 3; a++) sum[a] += (double)held[a] - (double)back[a];
         for (int j = 1; j < n->normals; j++) { /* along its own normal each wall, the rest the nearest one */
             double along = 0.0;
@@ -342,7 +336,7 @@ void walls_fold_volume(const Walls *walls, float *volume, float *open)
     for (uint32_t i = 0; i < walls->nodes; i++) {
         float sum = node[i].own_mirror * held[i];
         for (uint32_t e = node[i].entry_begin; e < node[i].entry_end; e++)
-            for (int k = 0; k < CORNERS_MAX && entry[e].mirrored; k++) sum += entry[e].weight[k] * held[entry[e].parent[k]];
+            for (uint32_t k = 0; k < entry[e].corners && entry[e].mirrored; k++) sum += entry[e].weight[k] * held[entry[e].parent[k]];
         if (volume[node[i].node] > 0.0f) volume[node[i].node] = sum; /* else nobody listens */
         open[node[i].node] = 1.0f;
     }

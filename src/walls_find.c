@@ -60,6 +60,8 @@ static void invert(const float m[6], float out[6])
         for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
 }
 
+static Columns columns_of(const float m[6]) { return (Columns){{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}; }
+
 /* ---- Geometry ---- */
 
 /* Nodes before a wall that are at least so far off [cells] move along its normal freely; half a cell, with what walls are rounded by. */
@@ -329,7 +331,7 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
         entry->parent[used] = listed(b, node[k]);
         entry->weight[used++] = (float)(weight * share[k] / sum);
     }
-    for (; used < CORNERS_MAX; used++) entry->parent[used] = entry->parent[0];
+    entry->corners = (uint32_t)used;
     return true;
 }
 
@@ -359,7 +361,7 @@ static bool leaves(const Builder *b, const WallEntry *entry, const Profile *prof
 {
     const float *grid_node = b->frame->grid->node.data;
     double along = 0.0;
-    for (int k = 0; k < CORNERS_MAX; k++) {
+    for (uint32_t k = 0; k < entry->corners; k++) {
         const float *u = grid_node + (size_t)((const WallNode *)b->walls->node.data)[entry->parent[k]].node * K_NODE_WIDTH;
         for (int a = 0; a < 3; a++) along += (double)entry->weight[k] * ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
     }
@@ -385,12 +387,13 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     if (!entry) return;
     const bool found = find_parents(b, bound, way, 1.0, profile, count, true, distance, entry);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
-    memcpy(entry->matrix, rest, sizeof entry->matrix);
+    float matrix[6];
+    memcpy(matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
         if (found && leaves(b, entry, &profile[j])) scale[j] = 1.0;
-        add_product(entry->matrix, scale[j], profile[j].axis);
+        add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
         if (!found && profile[j].distance >= CLEAR) add_product(node->own, 1.0, profile[j].axis);
@@ -398,11 +401,12 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
     if (sticks) {
         const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
-        for (int k = 0; k < 6; k++) entry->matrix[k] = (float)scale[0] * all[k];
+        for (int k = 0; k < 6; k++) matrix[k] = (float)scale[0] * all[k];
         for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
         memset(node->own, 0, sizeof node->own);
     }
     if (!found) return;
+    entry->matrix = columns_of(matrix);
     entry->follower = index;
     b->walls->entries++;
 }
@@ -519,7 +523,7 @@ static bool add_links(Walls *walls, Memory *memory)
     uint32_t links = 0;
     for (uint32_t i = 0; i < walls->nodes; i++) node[i].link_moving = node[i].link_end = 0;
     for (uint32_t e = 0; e < walls->entries; e++)
-        for (int k = 0; k < CORNERS_MAX && entry[e].weight[k] > 0.0f; k++) {
+        for (uint32_t k = 0; k < entry[e].corners; k++) {
             WallNode *parent = &node[entry[e].parent[k]];
             parent->link_moving += !entry[e].mirrored;
             parent->link_end++;
@@ -533,7 +537,7 @@ static bool add_links(Walls *walls, Memory *memory)
     if (!array_reserve(memory, &walls->link, links, sizeof(WallLink))) return false;
     WallLink *link = walls->link.data;
     for (uint32_t e = 0; e < walls->entries; e++)
-        for (int k = 0; k < CORNERS_MAX && entry[e].weight[k] > 0.0f; k++) {
+        for (uint32_t k = 0; k < entry[e].corners; k++) {
             WallNode *parent = &node[entry[e].parent[k]];
             link[entry[e].mirrored ? parent->link_end++ : parent->link_moving++] = (WallLink){e, entry[e].weight[k]};
         }
@@ -558,12 +562,25 @@ static void give_friction(Walls *walls)
         }
 }
 
-static void square(const float m[6], float out[6])
+static void square(const Columns *m, float out[6])
 {
-    const float row[3][4] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}};
+    const Four *row = m->column;
     int k = 0;
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
+}
+
+static void set_motion(const WallNode *node, WallMotion *motion)
+{
+    float inverse[6];
+    *motion = (WallMotion){node->node, node->entry_begin, node->entry_moving, node->link_begin, node->link_moving, .mass = node->mass};
+    for (int a = 0; a < 3; a++) {
+        motion->shift[a] = node->shift[a];
+        motion->carried[a] = node->mass * node->shift[a];
+    }
+    invert(node->lump, inverse);
+    motion->own = columns_of(node->own);
+    motion->inverse = columns_of(inverse);
 }
 
 /* M = sum m W A^2, what a node has itself included. */
@@ -578,11 +595,11 @@ static void lump(Walls *walls, int dimension)
         for (uint32_t l = node[i].link_begin; l < node[i].link_moving; l++) {
             const WallEntry *e = &entry[link[l].entry];
             const float mass = node[e->follower].mass * link[l].weight;
-            square(e->matrix, part);
+            square(&e->matrix, part);
             for (int k = 0; k < 6; k++) m[k] += mass * part[k];
         }
         if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
-        invert(m, node[i].inverse);
+        set_motion(&node[i], (WallMotion *)walls->motion.data + i);
     }
 }
 
@@ -666,7 +683,8 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         ok = bind_nodes(&builder, pool);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
-             array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, 4 * sizeof(float));
+             array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
+             array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
         walls_clear(walls);

@@ -7,11 +7,19 @@
 enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
 enum { VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */
 
-/* What a node takes from others: A u~ of a place between them, A a symmetric matrix (upper triangle, row by row). */
+/* Four floats that the CPU works on at once: a vector and one more, which means nothing. */
+typedef float Four __attribute__((vector_size(16)));
+
+typedef struct Columns {
+    Four column[3];
+} Columns;
+
+/* What a node takes from others: A u~ of a place between them. */
 typedef struct WallEntry {
     uint32_t parent[CORNERS_MAX]; /* nodes of the list */
     float weight[CORNERS_MAX];
-    float matrix[6];
+    Columns matrix; /* A */
+    uint32_t corners; /* parents */
     uint32_t follower;
     bool mirrored; /* for the density; else for the motion */
 } WallEntry;
@@ -21,9 +29,8 @@ typedef struct WallNode {
     uint32_t entry_begin, entry_moving, entry_end; /* those from entry_moving on are for the density alone */
     uint32_t link_begin, link_moving, link_end; /* those from link_moving on are for the density alone */
     float mass;
-    float own[6];      /* what of u~ it has itself */
-    float lump[6];     /* M */
-    float inverse[6];
+    float own[6];      /* what of u~ it has itself: a symmetric matrix, the upper triangle row by row */
+    float lump[6];     /* M, likewise */
     float shift[3];    /* c0 */
     float own_mirror;  /* share of the density that it keeps */
     float open;        /* share of its weight that is open; negative: not known */
@@ -34,6 +41,14 @@ typedef struct WallNode {
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
 } WallNode;
+
+/* Of a WallNode what each walls_apply() needs. */
+typedef struct WallMotion {
+    uint32_t node, entry_begin, entry_moving, link_begin, link_moving;
+    float mass;
+    Four shift, carried; /* c0, m c0 */
+    Columns own, inverse;       /* inverse: M^-1 */
+} WallMotion;
 
 typedef struct WallLink {
     uint32_t entry;
