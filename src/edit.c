@@ -188,9 +188,8 @@ static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm
 
 static double lattice_distance(const Lattice *lattice, const uint64_t index[3], double point[3])
 {
-    double normal[3];
     for (int a = 0; a < 3; a++) point[a] = lattice_coordinate(lattice, a, index[a]);
-    return solid_distance(&lattice->solid, point, normal);
+    return solid_gap(&lattice->solid, point);
 }
 
 /* A point counts up to this far outside of the shape [spacings]. */
@@ -328,9 +327,9 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
 
 static bool is_inside(const World *world, const Solid *solid, uint32_t row)
 {
-    double point[3] = {0}, normal[3];
+    double point[3] = {0};
     for (int a = 0; a < world->def.dimension; a++) point[a] = particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size;
-    return solid_distance(solid, point, normal) <= 0.0;
+    return solid_gap(solid, point) <= 0.0;
 }
 
 pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed)

@@ -64,16 +64,18 @@ void field_keep(Near *near, uint32_t groups)
 
 double field_distance(const Near *near, const double point[3])
 {
-    double least = INFINITY, normal[3];
-    for (int i = 0; i < near->count; i++) least = fmin(least, solid_distance(field_solid(near, near->obstacle[i]), point, normal));
+    double least = INFINITY;
+    for (int i = 0; i < near->count; i++) {
+        const double distance = solid_gap(field_solid(near, near->obstacle[i]), point);
+        least = distance < least ? distance : least;
+    }
     return least / near->cell_size;
 }
 
 static bool is_open(const Near *near, const double point[3])
 {
-    double normal[3];
     for (int i = 0; i < near->count; i++)
-        if (solid_distance(field_solid(near, near->obstacle[i]), point, normal) <= ON_SURFACE * near->cell_size) return false;
+        if (solid_gap(field_solid(near, near->obstacle[i]), point) <= ON_SURFACE * near->cell_size) return false;
     return true;
 }
 
@@ -147,8 +149,7 @@ static int faces_around(const Near *near, const double point[3], double reach, F
 static bool is_on_face(const Near *near, const Face *face, const double place[3])
 {
     const Solid *s = field_solid(near, face->obstacle);
-    double normal[3];
-    return s->kind != PBMPM_BOX || fabs(solid_distance(s, place, normal)) <= 1e-3 * near->cell_size;
+    return s->kind != PBMPM_BOX || fabs(solid_gap(s, place)) <= 1e-3 * near->cell_size;
 }
 
 static bool bounds_space(const Near *near, const Face *face)
@@ -299,10 +300,9 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
 {
     static const double STAY[3] = {0};
     const Solid *s = field_solid(near, first->obstacle);
-    double normal[3];
     Plane plane[PLANES_MAX];
     const int planes = concave_planes(s, near->cell_size, point, first->distance, first->normal, STAY, reach, plane);
-    const bool between = planes > 2 && fabs(solid_distance(s, first->foot, normal)) > rounding_of(near, first->obstacle) * near->cell_size;
+    const bool between = planes > 2 && fabs(solid_gap(s, first->foot)) > rounding_of(near, first->obstacle) * near->cell_size;
     if (!between) count = add_face(face, count, first, most);
     for (int i = 1; i < planes; i++) {
         const Face hollow = face_at(near, first->obstacle, point, plane[i].gap, plane[i].normal);
@@ -484,10 +484,10 @@ double field_open_share(const Near *near, const double point[3], double deepest,
 {
     Face face[FIELD_FACES];
     const Obstacle *only = NULL;
-    double normal[3], least = INFINITY, share = 1.0;
+    double least = INFINITY, share = 1.0;
     int close = 0;
     for (int i = 0; i < near->count; i++) {
-        const double distance = solid_distance(field_solid(near, near->obstacle[i]), point, normal) / near->cell_size;
+        const double distance = solid_gap(field_solid(near, near->obstacle[i]), point) / near->cell_size;
         least = fmin(least, distance);
         if (distance >= NODE_REACH * sqrt((double)near->dimension)) continue;
         only = near->obstacle[i];

@@ -82,7 +82,7 @@ static bool is_far_from_all(const Flight *flight, uint32_t row, const Motion *mo
     const Colliders *colliders = &world->colliders;
     const double dx = (double)world->def.cell_size, nodes = NODE_REACH * sqrt((double)world->def.dimension);
     const double way = fmin(motion->way + nodes * motion->strain, (double)world->settings.max_displacement);
-    double point[3] = {0}, normal[3];
+    double point[3] = {0};
     for (int a = 0; a < world->def.dimension; a++) point[a] = particles_coordinate(&world->particles, row, a) * dx;
     for (int i = 0; i < colliders->obstacle_count; i++) {
         float surface[3];
@@ -90,12 +90,12 @@ static bool is_far_from_all(const Flight *flight, uint32_t row, const Motion *mo
         obstacle_motion(&colliders->obstacle[i], point, dx, world->settings.max_displacement, surface);
         double reach = nodes + way + FELT;
         for (int a = 0; a < 3; a++) reach += fabs((double)surface[a]);
-        if (!(solid_distance(&colliders->obstacle[i].start, point, normal) > reach * dx)) return false;
+        if (!(solid_gap(&colliders->obstacle[i].start, point) > reach * dx)) return false;
     }
     for (uint32_t slot = 0; slot < world->forces.used; slot++) {
         const Force *force = &world->forces.slot[slot];
         if (force->generation == 0 || !force->def.enabled) continue;
-        if (!(solid_distance(&force->solid, point, normal) > force_reach(force) + nodes * dx)) return false;
+        if (!(solid_gap(&force->solid, point) > force_reach(force) + nodes * dx)) return false;
     }
     return true;
 }

@@ -259,10 +259,10 @@ static void change_node(const ForceJob *job, const Felt *felt, float *u, double 
 
 static double block_distance(const World *world, const Force *force, const double corner[3])
 {
-    double centre[3] = {0}, normal[3];
+    double centre[3] = {0};
     for (int a = 0; a < world->def.dimension; a++) centre[a] = corner[a] + 0.5 * (K_BLOCK_AXIS - 1) * (double)world->def.cell_size;
     const double half_diagonal = 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)world->def.dimension) * (double)world->def.cell_size;
-    return solid_distance(&force->solid, centre, normal) - half_diagonal;
+    return solid_gap(&force->solid, centre) - half_diagonal;
 }
 
 static Reaching reaching_block(const ForceJob *job, const double corner[3])

@@ -27,12 +27,12 @@ typedef struct GapJob {
 /* [cells], to the nearest obstacle that is not farther than FAR. */
 static double room_at(const ContactFrame *frame, const double point[3], uint32_t groups)
 {
-    double least = FAR, normal[3];
+    double least = FAR;
     for (int i = 0; i < frame->colliders->obstacle_count; i++) {
         const Solid *solid = &frame->colliders->obstacle[i].start;
         if (!obstacle_meets(&frame->colliders->obstacle[i], groups)) continue;
         if (solid->grid && solid_least(solid, point) / frame->cell_size > least) continue;
-        least = fmin(least, solid_distance(solid, point, normal) / frame->cell_size);
+        least = fmin(least, solid_gap(solid, point) / frame->cell_size);
     }
     return least;
 }

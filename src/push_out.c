@@ -122,9 +122,8 @@ static bool push_inside(const ContactFrame *frame, const Near *near, Particles *
 
 static bool is_behind_wall(const Near *near, const double point[3])
 {
-    double normal[3];
     for (int i = 0; i < near->count; i++)
-        if (near->obstacle[i]->wall && solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0) return true;
+        if (near->obstacle[i]->wall && solid_gap(field_solid(near, near->obstacle[i]), point) < 0.0) return true;
     return false;
 }
 
@@ -132,13 +131,12 @@ static bool is_behind_wall(const Near *near, const double point[3])
 static bool stays(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], int faces)
 {
     Face face;
-    double normal[3];
     int in = 0;
     if (!frame->stays || frame->stays[p->material[row]].kind != K_LIQUID) return false;
-    for (int i = 0; i < near->count; i++) in += solid_distance(field_solid(near, near->obstacle[i]), point, normal) < 0.0;
+    for (int i = 0; i < near->count; i++) in += solid_gap(field_solid(near, near->obstacle[i]), point) < 0.0;
     if (in > 1 || faces > 0 || !field_surface(near, point, &face)) return in > 1;
     for (int i = 0; i < near->count; i++)
-        if (near->obstacle[i] != face.obstacle && !near->obstacle[i]->wall && solid_distance(field_solid(near, near->obstacle[i]), face.foot, normal) < 0.0) return true;
+        if (near->obstacle[i] != face.obstacle && !near->obstacle[i]->wall && solid_gap(field_solid(near, near->obstacle[i]), face.foot) < 0.0) return true;
     return false;
 }
 

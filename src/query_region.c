@@ -24,13 +24,13 @@ static bool touches_region(const LookupBox *box, void *context)
 {
     Region *region = context;
     const double dx = (double)region->world->def.cell_size;
-    double middle[3] = {0}, normal[3], reach2 = 0.0;
+    double middle[3] = {0}, reach2 = 0.0;
     for (int a = 0; a < region->world->def.dimension; a++) {
         const double half = 0.5 * ((double)box->high[a] - box->low[a]) + 0.5; /* a particle is within 1/2 of its cell's node */
         middle[a] = 0.5 * ((double)box->low[a] + box->high[a]) * dx;
         reach2 += half * half * dx * dx;
     }
-    const double distance = solid_distance(region->solid, middle, normal) - region->margin, reach = sqrt(reach2) + SURELY * dx;
+    const double distance = solid_gap(region->solid, middle) - region->margin, reach = sqrt(reach2) + SURELY * dx;
     region->whole = distance < -reach;
     return distance < reach;
 }
@@ -41,10 +41,10 @@ static void add_rows(const LookupBox *box, uint32_t begin, uint32_t end, void *c
     Region *region = context;
     const World *world = region->world;
     for (uint32_t row = begin; row < end; row++) {
-        double point[3] = {0}, normal[3];
+        double point[3] = {0};
         for (int a = 0; a < world->def.dimension && !region->whole; a++)
             point[a] = particles_coordinate(&world->particles, row, a) * (double)world->def.cell_size;
-        if (region->whole || solid_distance(region->solid, point, normal) <= region->margin) region->add(world, row, region->result);
+        if (region->whole || solid_gap(region->solid, point) <= region->margin) region->add(world, row, region->result);
     }
 }
 

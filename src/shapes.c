@@ -111,7 +111,9 @@ pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], con
     return shape;
 }
 
-static double length_of(const double v[3], int d)
+/* What follows is compiled for each dimension `d`, and with and without the normal, which may be null. */
+
+static inline double length_of(const double v[3], int d)
 {
     double sum = 0.0;
     for (int a = 0; a < d; a++) sum += v[a] * v[a];
@@ -119,19 +121,20 @@ static double length_of(const double v[3], int d)
 }
 
 /* Distance to a point or segment's `offset` (from its nearest point), minus the radius. */
-static double round_distance(const Solid *s, const double offset[3], double normal[3])
+static inline double round_distance(const Solid *s, const double offset[3], double *normal, int d)
 {
-    const double length = length_of(offset, s->dimension);
+    const double length = length_of(offset, d);
+    if (!normal) return length - s->radius;
     for (int a = 0; a < 3; a++) normal[a] = length > 0.0 ? offset[a] / length : 0.0;
-    if (length == 0.0) normal[s->dimension == 2 ? 1 : 2] = 1.0; /* on the axis every direction is as good */
+    if (length == 0.0) normal[d == 2 ? 1 : 2] = 1.0; /* on the axis every direction is as good */
     return length - s->radius;
 }
 
-static double box_distance(const Solid *s, const double local[3], double normal[3])
+static inline double box_distance(const Solid *s, const double local[3], double *normal, int d)
 {
     double outside[3] = {0}, deepest = -INFINITY;
     int nearest_face = 0;
-    for (int a = 0; a < s->dimension; a++) {
+    for (int a = 0; a < d; a++) {
         const double over = fabs(local[a]) - s->half_extents[a];
         outside[a] = over > 0.0 ? copysign(over, local[a]) : 0.0;
         if (over > deepest) {
@@ -139,63 +142,65 @@ static double box_distance(const Solid *s, const double local[3], double normal[
             nearest_face = a;
         }
     }
-    memset(normal, 0, 3 * sizeof *normal);
+    if (normal) memset(normal, 0, 3 * sizeof *normal);
     if (deepest <= 0.0) {
-        normal[nearest_face] = local[nearest_face] < 0.0 ? -1.0 : 1.0;
+        if (normal) normal[nearest_face] = local[nearest_face] < 0.0 ? -1.0 : 1.0;
         return deepest;
     }
-    const double length = length_of(outside, s->dimension);
-    for (int a = 0; a < s->dimension; a++) normal[a] = outside[a] / length;
+    const double length = length_of(outside, d);
+    for (int a = 0; a < d && normal; a++) normal[a] = outside[a] / length;
     return length;
 }
 
-static double local_distance(const Solid *s, const double local[3], double normal[3])
+static inline double local_distance(const Solid *s, const double local[3], double *normal, int d)
 {
-    if (s->kind == PBMPM_BOX) return box_distance(s, local, normal);
-    if (s->grid) return distance_grid_at(s->grid, local, normal);
-    double offset[3] = {local[0], local[1], local[2]};
+    double unused[3], offset[3] = {local[0], local[1], local[2]};
+    if (s->kind == PBMPM_BOX) return box_distance(s, local, normal, d);
+    if (s->grid) return distance_grid_at(s->grid, local, normal ? normal : unused);
     if (s->kind == PBMPM_CAPSULE) offset[0] -= fmax(-s->half_extents[0], fmin(s->half_extents[0], local[0]));
-    return round_distance(s, offset, normal);
+    return round_distance(s, offset, normal, d);
 }
 
-static void to_local(const Solid *s, const double from_centre[3], double local[3])
+static inline void to_local(const Solid *s, const double point[3], double local[3], int d)
 {
-    const int d = s->dimension;
+    double from_centre[3];
+    for (int a = 0; a < d; a++) from_centre[a] = point[a] - s->position[a];
     local[0] = local[1] = local[2] = 0.0;
     for (int a = 0; a < d; a++)
         for (int b = 0; b < d; b++) local[a] += s->rotation[b * 3 + a] * from_centre[b];
 }
 
-double solid_distance(const Solid *s, const double point[3], double normal[3])
+static inline double distance_in(const Solid *s, const double point[3], double *normal, int d)
 {
-    double from_centre[3] = {0}, local[3], local_normal[3];
-    const int d = s->dimension;
-    for (int a = 0; a < d; a++) from_centre[a] = point[a] - s->position[a];
+    double local[3], local_normal[3], distance = 0.0;
     if (s->kind == PBMPM_PLANE) {
-        double distance = 0.0;
-        for (int a = 0; a < 3; a++) {
-            distance += from_centre[a] * s->normal[a];
-            normal[a] = s->normal[a];
-        }
+        for (int a = 0; a < d; a++) distance += (point[a] - s->position[a]) * s->normal[a];
+        if (normal) memcpy(normal, s->normal, sizeof s->normal);
         return distance;
     }
-    to_local(s, from_centre, local);
-    const double distance = local_distance(s, local, local_normal);
-    for (int a = 0; a < 3; a++) {
+    to_local(s, point, local, d);
+    distance = local_distance(s, local, normal ? local_normal : NULL, d);
+    for (int a = 0; a < 3 && normal; a++) {
         normal[a] = 0.0;
         for (int b = 0; b < d && a < d; b++) normal[a] += s->rotation[a * 3 + b] * local_normal[b];
     }
     return distance;
 }
 
+double solid_distance(const Solid *s, const double point[3], double normal[3])
+{
+    return s->dimension == 3 ? distance_in(s, point, normal, 3) : distance_in(s, point, normal, 2);
+}
+
+double solid_gap(const Solid *s, const double point[3]) { return s->dimension == 3 ? distance_in(s, point, NULL, 3) : distance_in(s, point, NULL, 2); }
+
 int solid_other_faces(const Solid *s, const double point[3], double reach, double normals[2][3])
 {
-    double from_centre[3] = {0}, local[3], nearest[3];
+    double local[3], nearest[3];
     int count = 0;
     if (s->kind != PBMPM_BOX) return 0;
-    for (int a = 0; a < s->dimension; a++) from_centre[a] = point[a] - s->position[a];
-    to_local(s, from_centre, local);
-    if (box_distance(s, local, nearest) > 0.0) return 0;
+    to_local(s, point, local, s->dimension);
+    if (box_distance(s, local, nearest, s->dimension) > 0.0) return 0;
     for (int a = 0; a < s->dimension; a++) {
         const double side = local[a] < 0.0 ? -1.0 : 1.0;
         if (nearest[a] != 0.0 || s->half_extents[a] - side * local[a] > reach) continue;
@@ -207,10 +212,9 @@ int solid_other_faces(const Solid *s, const double point[3], double reach, doubl
 
 double solid_least(const Solid *s, const double point[3])
 {
-    double from_centre[3] = {0}, local[3], normal[3];
-    if (!s->grid) return solid_distance(s, point, normal);
-    for (int a = 0; a < s->dimension; a++) from_centre[a] = point[a] - s->position[a];
-    to_local(s, from_centre, local);
+    double local[3];
+    if (!s->grid) return solid_gap(s, point);
+    to_local(s, point, local, s->dimension);
     return distance_grid_least(s->grid, local);
 }
 

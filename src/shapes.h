@@ -37,6 +37,8 @@ pbmpm_shape shape_between(const pbmpm_shape *start, const float position[3], con
 /* Distance of a point from the surface, negative inside, and the outward unit normal of the nearest surface point. In
  * 2D the third component is neither read nor written to anything but 0. */
 double solid_distance(const Solid *solid, const double point[3], double normal[3]);
+/* The distance alone. */
+double solid_gap(const Solid *solid, const double point[3]);
 
 /* Of a point in a box: the outward unit normals of the faces that it is within `reach` [m] of, but for the nearest one; how many they are. Each
  * axis has one, on the nearer side. Other shapes have no faces. */

@@ -109,17 +109,17 @@ static uint32_t drain_block(World *world, Drain *drain, int32_t block)
 {
     Particles *p = &world->particles;
     const uint32_t *begin = world->grid.block_begin.data;
-    double normal[3], mass = 0.0;
+    double mass = 0.0;
     uint32_t count = 0;
     if (is_block(world, block)) {
         const Around around = around_block(world, block);
-        if (solid_distance(&drain->solid, around.centre, normal) > around.radius) return 0;
+        if (solid_gap(&drain->solid, around.centre) > around.radius) return 0;
     }
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         double point[3];
         if (p->status[row] != K_ALIVE || !takes(world, drain, row)) continue;
         place_of(world, row, point);
-        if (solid_distance(&drain->solid, point, normal) > 0.0) continue;
+        if (solid_gap(&drain->solid, point) > 0.0) continue;
         p->status[row] = K_REMOVED;
         mass += (double)p->mass[row];
         count++;

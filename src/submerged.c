@@ -86,9 +86,9 @@ static void take(Sounding *s, size_t node, float share) { s->raw[node] = fmaxf(0
 static void close_solid(Sounding *s, const Solid *solid, bool acts, float *inside)
 {
     for (size_t node = 0; node < s->nodes; node++) {
-        double point[3], normal[3];
+        double point[3];
         place_of(s, node, point);
-        const float share = (float)share_inside(solid_distance(solid, point, normal) / s->spacing);
+        const float share = (float)share_inside(solid_gap(solid, point) / s->spacing);
         if (inside) inside[node] = share;
         if (acts) take(s, node, share);
     }
