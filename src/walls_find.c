@@ -305,22 +305,23 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
     }
     for (int k = 0; k < corners; k++) {
         int offset[3] = {0};
-        share[k] = 1.0;
-        for (int j = 0; j < count; j++) off[k][j] = profile[j].distance;
+        double of_corner = 1.0;
+        share[k] = 0.0;
         for (int a = 0; a < dimension; a++) {
-            const int up = k >> a & 1;
-            offset[a] = (int)low[a] + up;
-            share[k] *= up ? part[a] : 1.0 - part[a];
-            for (int j = 0; j < count; j++) off[k][j] += offset[a] * profile[j].normal[a];
+            offset[a] = (int)low[a] + (k >> a & 1);
+            of_corner *= k >> a & 1 ? part[a] : 1.0 - part[a];
         }
-        node[k] = share[k] > 1e-6 ? grid_node_beside(b->frame->grid, bound->block, bound->local, offset) : GRID_NOWHERE;
-        if (node[k] == GRID_NOWHERE) share[k] = 0.0;
-        const Bound *other = node[k] == GRID_NOWHERE ? NULL : bound_at(b, node[k]);
+        if (of_corner <= 1e-6) continue;
+        node[k] = grid_node_beside(b->frame->grid, bound->block, bound->local, offset);
+        if (node[k] == GRID_NOWHERE) continue;
+        const Bound *other = bound_at(b, node[k]);
+        for (int j = 0; j < count; j++) off[k][j] = profile[j].distance + offset[0] * profile[j].normal[0] + offset[1] * profile[j].normal[1] + offset[2] * profile[j].normal[2];
         if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
-        if (other && other->face[0].distance < CLEAR && clear) share[k] = 0.0;
-        for (int j = 0; j < count && clear; j++)
-            if (off[k][j] < CLEAR) share[k] = 0.0;
-        sum += share[k];
+        bool free = !(other && other->face[0].distance < CLEAR);
+        for (int j = 0; j < count; j++) free = free && off[k][j] >= CLEAR;
+        if (clear && !free) continue;
+        share[k] = of_corner;
+        sum += of_corner;
     }
     if (sum < 1e-3) return false;
     int used = 0;
