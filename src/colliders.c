@@ -8,6 +8,7 @@
 #include "numbers.h"
 #include "reach.h"
 #include "result.h"
+#include "sight.h"
 #include "walls.h"
 
 /* Colliders, walls, and what holds nodes. */
@@ -460,9 +461,11 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
     return count;
 }
 
+/* How far obstacles [cells] matter to a node in another one: those beside it, seen from its reflection. */
+static const double BESIDE = 4.5;
+
 static void look_around(const ContactFrame *frame, int32_t block, Around *around)
 {
-    static const double BESIDE = 4.5; /* [cells]: how far obstacles matter to a node in another one: those beside it, seen from its reflection */
     const double half_diagonal = 1.5 * sqrt((double)frame->grid->dimension);
     double centre[3];
     const uint32_t groups = contacts_block_groups(frame, block);
@@ -518,6 +521,13 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
+/* The distances of the last substep, if they hold; infinite at nodes that had no mass then. */
+static const float *gaps_before(const ContactFrame *frame, int32_t block)
+{
+    const int32_t from = sight_from(frame, block);
+    return from == GRID_NOWHERE ? NULL : (const float *)frame->sight->gap.data + (size_t)from * (size_t)frame->grid->block_cells;
+}
+
 static void measure_blocks(void *context, int32_t begin, int32_t end)
 {
     const FindJob *job = context;
@@ -529,10 +539,17 @@ static void measure_blocks(void *context, int32_t begin, int32_t end)
         const float *node = (const float *)frame->grid->node.data + (size_t)block * cells * K_NODE_WIDTH;
         float *gap = (float *)frame->colliders->gap.data + (size_t)block * cells;
         look_around(frame, block, &around);
+        const bool steady = around.most <= BESIDE;
+        const float *before = steady ? gaps_before(frame, block) : NULL;
+        if (frame->sight) ((bool *)frame->sight->steady.data)[block] = steady;
         for (size_t i = 0; i < cells; i++) {
             double point[3];
             gap[i] = INFINITY;
             if (around.near.count == 0 || !(node[i * K_NODE_WIDTH + 3] > 0.0f)) continue;
+            if (before && before[i] < INFINITY) {
+                gap[i] = before[i];
+                continue;
+            }
             contacts_node_position(frame, block, (int)i, point);
             gap[i] = (float)field_distance(field_meeting(&around.near, contacts_node_groups(frame, (size_t)block * cells + i), &some), point);
         }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "sight.h"
 #include "walls.h"
 
 /* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not
@@ -25,6 +26,16 @@ typedef struct OpenJob {
     bool resting_only;
     float *open; /* per node */
 } OpenJob;
+
+int contacts_opened(const ContactFrame *frame, bool resting_only) { return 1 + (frame->walls != NULL) + 2 * resting_only; }
+
+/* The shares of the last substep, if they hold; 1 where nobody asked. */
+static const float *shares_before(const OpenJob *job, int32_t block)
+{
+    const int32_t from = sight_from(job->frame, block);
+    if (from == GRID_NOWHERE || job->frame->sight->opened != contacts_opened(job->frame, job->resting_only)) return NULL;
+    return (const float *)job->frame->sight->open.data + (size_t)from * (size_t)job->frame->grid->block_cells;
+}
 
 /* Obstacles near a block that act on matter there. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */
 static void find_near(const OpenJob *job, int32_t block, Near *near, bool *edged)
@@ -61,6 +72,7 @@ static void find_open(void *context, int32_t begin, int32_t end)
         bool edged;
         find_near(job, block, &near, &edged);
         marks[block] = edged;
+        const float *before = shares_before(job, block);
         for (int node = 0; node < cells; node++) {
             double point[3];
             open[node] = 1.0f;
@@ -68,6 +80,10 @@ static void find_open(void *context, int32_t begin, int32_t end)
             if (near.count == 0 || !(listed || (gap[node] < NODE_REACH && volume[node] > 0.0f))) continue;
             open[node] = walls_open_share(job->frame->walls, (uint32_t)(block * cells + node));
             if (open[node] >= 0.0f) continue;
+            if (before && before[node] < 1.0f) {
+                open[node] = before[node];
+                continue;
+            }
             contacts_node_position(job->frame, block, node, point);
             const Near *meeting = field_meeting(&near, contacts_node_groups(job->frame, (size_t)(block * cells + node)), &some);
             open[node] = (float)field_open_share(meeting, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0);

@@ -29,7 +29,8 @@ typedef struct Walls {
     Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */
     Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
     Array begin;      /* uint32_t per node block: how many such nodes are in blocks before */
-    Array bound;      /* per node at a wall: its faces */
+    Array bound;      /* per such node: its faces */
+    Array faced;      /* Bound * of those that have any */
     Array vector;     /* per node: what is passed between loops */
     uint32_t nodes, entries, links;
     bool rubs;        /* a wall has friction */

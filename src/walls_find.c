@@ -3,6 +3,7 @@
 
 #include "reach.h"
 #include "result.h"
+#include "sight.h"
 #include "vector.h"
 #include "walls_list.h"
 
@@ -93,30 +94,6 @@ static float wetness(const Site *site, const Face *face)
 /* Below this share of the other side's matter a side of a thin wall counts as dry. */
 static const float DRY = 0.02f;
 
-/* The faces that a node is bound to. In a wall thinner than two reaches of a node's spline that is the one before which matter is; `both`: matter is on both sides,
- * and the node serves neither but goes with the wall. */
-static int faces_of(const Site *site, Face face[FIELD_FACES], bool *both)
-{
-    const double reach = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
-    const int count = field_faces(site->near, site->point, reach, face);
-    double behind[3];
-    Face other;
-    *both = false;
-    if (count == 0 || face[0].distance >= CLEAR) return count;
-    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
-    if (field_distance(site->near, behind) <= 0.0 || !field_opposite(site->near, site->point, &face[0], &other)) return count;
-    const float here = wetness(site, &face[0]), there = wetness(site, &other);
-    if (there <= DRY * here) return count;
-    if (here > DRY * there) {
-        *both = true;
-        return 1;
-    }
-    face[0] = other;
-    return field_faces_beside(site->near, site->point, reach, face);
-}
-
-/* ---- The nodes that follow ---- */
-
 /* A node at walls: the faces that it is bound to. */
 typedef struct Bound {
     uint32_t node; /* of the grid */
@@ -124,15 +101,41 @@ typedef struct Bound {
     int local[3];
     Face face[FIELD_FACES];
     int faces;
-    bool both; /* see faces_of() */
+    bool both, thin; /* see find_faces() */
     float open; /* share */
 } Bound;
+
+/* The faces that a node is bound to. In a thin wall, thinner than two reaches of a node's spline, that is the one before which matter is; `both`: matter is on both
+ * sides, and the node serves neither but goes with the wall. */
+static void find_faces(const Site *site, Bound *bound)
+{
+    const double reach = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
+    Face *face = bound->face, other;
+    double behind[3];
+    bound->faces = field_faces(site->near, site->point, reach, face);
+    bound->both = bound->thin = false;
+    if (bound->faces == 0 || face[0].distance >= CLEAR) return;
+    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
+    bound->thin = field_distance(site->near, behind) > 0.0 && field_opposite(site->near, site->point, &face[0], &other);
+    if (!bound->thin) return;
+    const float here = wetness(site, &face[0]), there = wetness(site, &other);
+    if (there <= DRY * here) return;
+    bound->both = here > DRY * there;
+    if (bound->both) {
+        bound->faces = 1;
+        return;
+    }
+    face[0] = other;
+    bound->faces = field_faces_beside(site->near, site->point, reach, face);
+}
+
+/* ---- The nodes that follow ---- */
 
 typedef struct Builder {
     Walls *walls;
     Memory *memory;
     const ContactFrame *frame;
-    const Bound *bound; /* the first nodes of the list */
+    const Bound *const *bound; /* the first nodes of the list */
     uint32_t bounds;
     bool failed;
 } Builder;
@@ -170,7 +173,7 @@ static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *t
 static const Bound *bound_at(const Builder *b, int64_t node)
 {
     const uint32_t at = ((const uint32_t *)b->walls->place.data)[node];
-    return at > 0 && at <= b->bounds ? &b->bound[at - 1] : NULL;
+    return at > 0 && at <= b->bounds ? b->bound[at - 1] : NULL;
 }
 
 /* A wall as the spline of a node sees it. */
@@ -439,7 +442,7 @@ static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Pr
 static void add_follower(Builder *b, uint32_t index)
 {
     Walls *walls = b->walls;
-    const Bound *bound = &b->bound[index];
+    const Bound *bound = b->bound[index];
     Profile profile[NORMALS_MAX];
     const Obstacle *owner[NORMALS_MAX];
     int count = profiles_of(b, bound, profile, owner);
@@ -485,14 +488,11 @@ typedef struct FindJob {
     const ContactFrame *frame;
 } FindJob;
 
-/* What a node may see [cells]: planes at 2.5 from its reflection, which is at most 1.5 behind it and as far before. */
-static const double SEEN = 5.5;
-
 static void look_near_block(const ContactFrame *frame, int32_t block, Near *near)
 {
     double centre[3];
     contacts_block_centre(frame, block, centre);
-    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SEEN, false);
+    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SIGHT_REACH, false);
 }
 
 static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
@@ -611,35 +611,59 @@ typedef struct BindJob {
     Bound *bound;
 } BindJob;
 
-static void bind_blocks(void *context, int32_t first, int32_t end)
-{
-    const BindJob *job = context;
-    const ContactFrame *frame = job->frame;
-    for (int32_t block = first; block < end; block++) {
-        if (job->marks[block] == 0) continue;
-        Bound *bound = job->bound + job->begin[block];
-        Near near, some;
-        look_near_block(frame, block, &near);
-        for (int i = 0; i < frame->grid->block_cells; i++) {
-            if (!(job->marks[block] >> i & 1)) continue;
-            const Near *meeting = field_meeting(&near, contacts_node_groups(frame, (size_t)(block * frame->grid->block_cells + i)), &some);
-            Site site = {.frame = frame, .near = meeting, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}};
-            contacts_node_position(frame, block, i, site.point);
-            *bound = (Bound){.node = (uint32_t)(block * frame->grid->block_cells + i), .block = block, .open = -1.0f};
-            memcpy(bound->local, site.local, sizeof bound->local);
-            bound->faces = faces_of(&site, bound->face, &bound->both);
-            if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
-            if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces);
-            bound++;
-        }
-    }
-}
-
 static int count_bits(uint64_t bits)
 {
     int count = 0;
     for (; bits; bits &= bits - 1) count++;
     return count;
+}
+
+/* What was found of a node in the last substep, if it holds: what thin walls do hangs on matter. */
+static const Bound *bound_before(const ContactFrame *frame, int32_t block, int node)
+{
+    const Sight *sight = frame->sight;
+    const int32_t from = sight_from(frame, block);
+    if (from == GRID_NOWHERE || !sight->walled) return NULL;
+    const uint64_t marks = ((const uint64_t *)sight->marked.data)[from], bit = (uint64_t)1 << node;
+    const Bound *bound = (const Bound *)sight->bound.data + ((const uint32_t *)sight->begin.data)[from] + count_bits(marks & (bit - 1));
+    return marks & bit && !bound->thin ? bound : NULL;
+}
+
+static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
+{
+    Near some;
+    const Near *meeting = field_meeting(near, contacts_node_groups(frame, bound->node), &some);
+    Site site = {.frame = frame, .near = meeting, .block = bound->block};
+    memcpy(site.local, bound->local, sizeof site.local);
+    contacts_node_position(frame, bound->block, node, site.point);
+    find_faces(&site, bound);
+    if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
+    if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces);
+}
+
+static void bind_blocks(void *context, int32_t first, int32_t end)
+{
+    const BindJob *job = context;
+    const ContactFrame *frame = job->frame;
+    Near near;
+    for (int32_t block = first; block < end; block++) {
+        Bound *bound = job->bound + job->begin[block];
+        bool looked = false;
+        for (int i = 0; i < frame->grid->block_cells; i++) {
+            if (!(job->marks[block] >> i & 1)) continue;
+            const Bound *before = bound_before(frame, block, i);
+            if (before)
+                *bound = *before;
+            else
+                *bound = (Bound){.local = {i & 3, i >> 2 & 3, i >> 4}, .open = -1.0f};
+            bound->node = (uint32_t)(block * frame->grid->block_cells + i);
+            bound->block = block;
+            if (!before && !looked) look_near_block(frame, block, &near);
+            looked = looked || !before;
+            if (!before) bind_node(frame, &near, bound, i);
+            bound++;
+        }
+    }
 }
 
 /* Finds the nodes at walls. Returns how many there are. */
@@ -657,16 +681,16 @@ static bool bind_nodes(Builder *b, Pool *pool)
         begin[block] = count;
         count += (uint32_t)count_bits(marks[block]);
     }
-    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound))) return false;
+    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound)) || !array_reserve(b->memory, &walls->faced, count, sizeof(Bound *))) return false;
     Bound *bound = walls->bound.data;
+    const Bound **faced = walls->faced.data;
     BindJob bind = {b->frame, marks, begin, bound};
     pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
-    b->bound = bound;
+    b->bound = faced;
     for (uint32_t i = 0; i < count && !b->failed; i++) {
         if (bound[i].faces == 0) continue;
-        if (b->bounds < i) bound[b->bounds] = bound[i];
-        b->bounds++;
-        listed(b, bound[b->bounds - 1].node);
+        faced[b->bounds++] = &bound[i];
+        listed(b, bound[i].node);
     }
     return !b->failed;
 }

@@ -159,6 +159,7 @@ void world_destroy(World *world)
     dual_free(world);
     guess_free(world);
     walls_free(&world->walls, &world->memory);
+    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_free(&world->sight[kinds], &world->memory);
     joint_free(world);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);

@@ -20,6 +20,7 @@
 #include "particles.h"
 #include "pbmpm/pbmpm.h"
 #include "pool.h"
+#include "sight.h"
 #include "sinks.h"
 #include "sleep.h"
 #include "walls.h"
@@ -136,6 +137,7 @@ typedef struct World {
     DualState dual;
     GuessState guess;
     Walls walls;
+    Sight sight[ISLAND_GROUPS + 1]; /* of each set of kinds */
     PrimalState primal;
     JointState joint;
     Sleep sleep;
