@@ -502,6 +502,18 @@ uint32_t colliders_contacts(const Colliders *colliders)
     return count;
 }
 
+/* Whether an obstacle is near to a node of a block. */
+static bool may_touch(const ContactFrame *frame, int32_t block)
+{
+    if (frame->colliders->obstacle_count == 0) return false;
+    const size_t cells = (size_t)frame->grid->block_cells;
+    const float *gap = frame->gap + (size_t)block * cells;
+    float least = INFINITY;
+    if (frame->groups || frame->staying) return true; /* there it hangs on the node */
+    for (size_t i = 0; i < cells; i++) least = gap[i] < least ? gap[i] : least;
+    return least < INFINITY;
+}
+
 static void find_in_blocks(void *context, int32_t begin, int32_t end)
 {
     const FindJob *job = context;
@@ -512,7 +524,9 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         const bool listed = job->write && colliders->contact.data;
         uint32_t contacts = 0;
-        look_around(frame, block, &around);
+        if (job->write && contact_begin[block + 1] == contact_begin[block]) continue;
+        around.near.count = 0;
+        if (may_touch(frame, block)) look_around(frame, block, &around);
         if (around.near.count > 0) contacts = contacts_of_block(frame, &around, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] : NULL);
         if (frame->held && frame->held[block]) {
             contacts += contacts_of_held(frame, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL);

@@ -50,19 +50,14 @@ static float least_softness(const World *world)
  * once, and what it gives back in one substep becomes a velocity, missing volume * depth / dt. */
 static const float GUESS_GROWTH_MAX = 0.05f;
 
-/* What a guess may ask of the matter in a cell. */
-typedef struct Asked {
-    float share, fallen2; /* of what is missing; times what is missing, the square of the most */
-} Asked;
-
 /* A column of n cells that is short of e per cell has sunk by n e, and its top is thrown up by n a / dt if it is asked for a. Where a light liquid gives way
  * below a heavy one e is large, and the heavy one would come up higher than it fell from. So (n a / dt)^2 is at most g n e, half of what that fall gives: the
  * iterations after the guess ask for the rest. */
-static Asked asked_of(const World *world)
+static GuessAsked asked_of(const World *world)
 {
     const double fall = gravity_fall(world, (double)world->args.dt);
     const bool gives_way = materials_density_contrast(&world->materials, &world->particles) > 1.0 && fall > 0.0;
-    return (Asked){fminf(1.0f, 60.0f * world->args.dt), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
+    return (GuessAsked){fminf(1.0f, 60.0f * world->args.dt), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
 }
 
 /* The arrays of the conjugate gradients, one value per cell, and the numbers of an iteration. */
@@ -72,14 +67,18 @@ typedef struct Guess {
     float *residual, *better, *direction, *response, *mask, *soft;
     Loops loops;                   /* that have not run yet */
     KernelArgs probe;              /* for the responses of nodes and cells to pressures alone */
-    Asked asked;
-    float density;                 /* see guess_density() */
-    float little;                  /* cells with less mass are not asked */
-    float least, step, keep, mean; /* softness that all cells have; of conjugate gradients; of a field over the mask */
+    GuessMeasures measures;        /* of the substep */
+    float step, keep, mean;        /* of conjugate gradients; of a field over the mask */
 } Guess;
 
 /* Of a full cell's mass. What a few particles at the edge of their reach say of a cell behind a wall would count as much as what a full cell says. */
 static const double LITTLE = 0.01;
+
+static GuessMeasures measures_of(const World *world)
+{
+    const double lightest = materials_lightest(&world->materials, &world->particles);
+    return (GuessMeasures){asked_of(world), (float)guess_density(world), (float)(LITTLE * lightest), least_softness(world)};
+}
 
 static void open_guess(Guess *g, World *world, const ContactFrame *contacts)
 {
@@ -93,10 +92,7 @@ static void open_guess(Guess *g, World *world, const ContactFrame *contacts)
     g->response = cells + 3 * n;
     g->mask = cells + 4 * n;
     g->soft = cells + 5 * n;
-    g->asked = asked_of(world);
-    g->density = (float)guess_density(world);
-    g->little = (float)(LITTLE * materials_lightest(&world->materials, &world->particles));
-    g->least = least_softness(world);
+    g->measures = world->guess.measures;
     g->step = g->keep = g->mean = 0.0f;
     g->probe = world->args;
     g->probe.probing = 1;
@@ -218,7 +214,7 @@ static void press_everywhere(const Guess *g, size_t begin, size_t end, double *s
 static float lightness_of(const Guess *g, size_t node)
 {
     const float *density = g->world->args.node_density;
-    return g->density > 0.0f && density && density[node] > 0.0f ? g->density / density[node] : 1.0f;
+    return g->measures.density > 0.0f && density && density[node] > 0.0f ? g->measures.density / density[node] : 1.0f;
 }
 
 /* The energy of a pressure field s is 4 sum_i m_i |u_i|^2 with m_i u_i = sum_p m w s (x_i - x_p). Where matter is all around, that is
@@ -230,7 +226,7 @@ static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
     for (size_t i = begin; i < end; i++) {
         const float *u = node + i * K_NODE_WIDTH;
         const float light = lightness_of(g, i), energy = energy_of_node(u);
-        g->soft[i] = g->world->args.cell_softness[i] + g->least;
+        g->soft[i] = g->world->args.cell_softness[i] + g->measures.least;
         stiffness[i] = u[3] * light * light;
         load[i] = energy + mass[i] * g->soft[i];
         sum[0] += (double)(work_on_node(g, i) / (light * light) + mass[i] / light * g->soft[i]); /* as if all were as dense */
@@ -241,6 +237,7 @@ static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
 void guess_begin(World *world, const ContactFrame *contacts)
 {
     Guess g;
+    world->guess.measures = measures_of(world);
     open_guess(&g, world, contacts);
     over_cells(&g, press_everywhere);
     respond(&g, g.response);
@@ -299,7 +296,7 @@ static double precondition(Guess *g)
 /* ---- The solution ---- */
 
 /* By how much the matter in a cell is to grow: liquid too dense, solids crushed. */
-static float growth_of(const KernelArgs *a, Asked asked, size_t cell)
+static float growth_of(const KernelArgs *a, GuessAsked asked, size_t cell)
 {
     const float missing = a->cell_growth[cell];
     const float most = fminf(sqrtf(asked.fallen2 * missing), GUESS_GROWTH_MAX);
@@ -311,8 +308,8 @@ static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
     (void)sum;
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
-        const float r = growth_of(a, g->asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > g->little && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        const float r = growth_of(a, g->measures.asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
+        g->mask[i] = a->cell_mass[i] > g->measures.little && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
 }
@@ -404,7 +401,7 @@ static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
         const float *u = a->node + i * K_NODE_WIDTH, *base = a->node_base + i * K_NODE_WIDTH, *q = a->node_push + i * K_NODE_WIDTH;
-        const float growth = growth_of(a, g->asked, i), p = a->cell_pressure[i];
+        const float growth = growth_of(a, g->measures.asked, i), p = a->cell_pressure[i];
         float gain = 0.25f * a->cell_mass[i] * p * (growth - 0.5f * a->cell_softness[i] * p);
         if (walls_list(&g->world->walls, (uint32_t)i))
             gain += walls_value(&g->world->walls, (uint32_t)i, u, base, q);

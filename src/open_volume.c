@@ -77,7 +77,8 @@ static void find_open(void *context, int32_t begin, int32_t end)
             double point[3];
             open[node] = 1.0f;
             const bool listed = walls_list(job->frame->walls, (uint32_t)(block * cells + node)); /* perhaps without mass */
-            if (near.count == 0 || !(listed || (gap[node] < NODE_REACH && volume[node] > 0.0f))) continue;
+            const bool clear = gap[node] >= NODE_REACH && gap[node] < INFINITY; /* infinite where it was not measured */
+            if (near.count == 0 || clear || !(listed || (gap[node] < NODE_REACH && volume[node] > 0.0f))) continue;
             open[node] = walls_open_share(job->frame->walls, (uint32_t)(block * cells + node));
             if (open[node] >= 0.0f) continue;
             if (before && before[node] < 1.0f) {

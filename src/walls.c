@@ -31,16 +31,9 @@ void walls_clear(Walls *walls)
     walls->rubs = false;
 }
 
-static uint32_t place_of(const Walls *walls, uint32_t node)
-{
-    return walls && walls->nodes > 0 ? ((const uint32_t *)walls->place.data)[node] : 0;
-}
-
-bool walls_list(const Walls *walls, uint32_t node) { return place_of(walls, node) > 0; }
-
 int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3])
 {
-    const WallNode *n = (const WallNode *)walls->node.data + place_of(walls, node) - 1;
+    const WallNode *n = (const WallNode *)walls->node.data + walls_place(walls, node) - 1;
     for (int k = 0; k < n->normals; k++) {
         obstacle[k] = n->obstacle[k];
         normal[k] = n->normal[k];
@@ -50,7 +43,7 @@ int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const f
 
 bool walls_hold(const Walls *walls, uint32_t node)
 {
-    const uint32_t place = place_of(walls, node);
+    const uint32_t place = walls_place(walls, node);
     return place > 0 && ((const WallNode *)walls->node.data)[place - 1].follows;
 }
 
@@ -248,13 +241,13 @@ void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool
 
 float walls_work(const Walls *walls, uint32_t node, const float *u)
 {
-    const Four p = vectors_of(walls).momentum[place_of(walls, node) - 1];
+    const Four p = vectors_of(walls).momentum[walls_place(walls, node) - 1];
     return p[0] * u[0] + p[1] * u[1] + p[2] * u[2];
 }
 
 float walls_value(const Walls *walls, uint32_t node, const float *u, const float *base, const float *push)
 {
-    const WallNode *n = (const WallNode *)walls->node.data + place_of(walls, node) - 1;
+    const WallNode *n = (const WallNode *)walls->node.data + walls_place(walls, node) - 1;
     float value = 0.0f;
     for (int a = 0; a < 3; a++) {
         const float free = n->mass * (base[a] - n->shift[a]) + push[a];
@@ -307,7 +300,7 @@ void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
 
 float walls_open_share(const Walls *walls, uint32_t node)
 {
-    const uint32_t place = place_of(walls, node);
+    const uint32_t place = walls_place(walls, node);
     return place > 0 ? ((const WallNode *)walls->node.data)[place - 1].open : -1.0f;
 }
 

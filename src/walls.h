@@ -43,11 +43,15 @@ static inline bool walls_any(const Walls *walls) { return walls->nodes > 0; }
 /* Lists the nodes at walls; needs the masses of the predictor and frame->gap. */
 pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool);
 
-/* Whether a node of the grid is listed, and whether its normal part follows others: then it has no contact of its own. `walls` may be null. */
-bool walls_list(const Walls *walls, uint32_t node);
+/* Which of the listed nodes a node of the grid is, + 1; 0: none. `walls` may be null. */
+static inline uint32_t walls_place(const Walls *walls, uint32_t node) { return walls && walls->nodes > 0 ? ((const uint32_t *)walls->place.data)[node] : 0; }
+
+/* Whether it is listed, and whether its normal part follows others: then it has no contact of its own. */
+static inline bool walls_list(const Walls *walls, uint32_t node) { return walls_place(walls, node) > 0; }
+bool walls_hold(const Walls *walls, uint32_t node);
+
 /* The obstacles that a listed node is at, the nearest first, and their normals there. Returns their number. */
 int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3]);
-bool walls_hold(const Walls *walls, uint32_t node);
 
 /* Makes the displacements of the nodes admissible. In between contacts of nodes farther off are obeyed. `linear`: for responses, without the walls' own motion,
  * without friction and contacts but for those of nodes that touch. `mark`: only nodes in marked blocks have new momenta; null: all. */

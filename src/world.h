@@ -72,11 +72,25 @@ typedef struct DualState {
     EddyDamping eddy_damping;
 } DualState;
 
+/* What a guess may ask of the matter in a cell. */
+typedef struct GuessAsked {
+    float share, fallen2; /* of what is missing; times what is missing, the square of the most */
+} GuessAsked;
+
+/* Of a substep. */
+typedef struct GuessMeasures {
+    GuessAsked asked;
+    float density; /* see guess_density() */
+    float little;  /* cells with less mass are not asked */
+    float least;   /* softness that all cells have */
+} GuessMeasures;
+
 /* What the guess of the pressure keeps. */
 typedef struct GuessState {
     Array cells, sums; /* see guess.c */
     Multilevel multilevel;
     bool closed; /* matter fills a closed box */
+    GuessMeasures measures;
 } GuessState;
 
 /* A step on a thread of its own; see background.c. */
