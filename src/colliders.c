@@ -553,9 +553,7 @@ static void measure_blocks(void *context, int32_t begin, int32_t end)
         const float *node = (const float *)frame->grid->node.data + (size_t)block * cells * K_NODE_WIDTH;
         float *gap = (float *)frame->colliders->gap.data + (size_t)block * cells;
         look_around(frame, block, &around);
-        const bool steady = around.most <= BESIDE;
-        const float *before = steady ? gaps_before(frame, block) : NULL;
-        if (frame->sight) ((bool *)frame->sight->steady.data)[block] = steady;
+        const float *before = around.most <= BESIDE ? gaps_before(frame, block) : NULL; /* else obstacles matter that are farther off */
         for (size_t i = 0; i < cells; i++) {
             double point[3];
             gap[i] = INFINITY;

@@ -12,7 +12,7 @@ typedef struct Stood {
 
 void sight_free(Sight *sight, Memory *memory)
 {
-    Array *arrays[] = {&sight->stood, &sight->changed, &sight->coordinate, &sight->table,  &sight->from, &sight->steady,
+    Array *arrays[] = {&sight->stood, &sight->changed, &sight->coordinate, &sight->table,  &sight->from,
                        &sight->gap,   &sight->open,    &sight->marked,     &sight->begin, &sight->bound};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     sight_forget(sight);
@@ -120,14 +120,9 @@ void sight_open(ContactFrame *frame, Sight *sight, Memory *memory)
     }
     if (keeps && !(find_changes(sight, colliders, memory) && find_blocks(sight, grid, memory))) sight_forget(sight);
     int32_t *from = sight->from.data;
-    for (int32_t block = 0; block < grid->node_blocks && sight->blocks > 0; block++) {
-        const bool holds = from[block] != GRID_NOWHERE && ((const bool *)sight->steady.data)[from[block]];
-        if (!holds || is_near_change(sight, frame, block)) from[block] = GRID_NOWHERE;
-    }
-    if (array_reserve(memory, &sight->steady, (size_t)grid->node_blocks, sizeof(bool)))
-        frame->sight = sight;
-    else
-        sight_forget(sight);
+    for (int32_t block = 0; block < grid->node_blocks && sight->blocks > 0; block++)
+        if (is_near_change(sight, frame, block)) from[block] = GRID_NOWHERE;
+    frame->sight = sight;
 }
 
 static void swap(Array *a, Array *b)

@@ -27,7 +27,6 @@ typedef struct Sight {
     Array coordinate; /* as the grid's */
     Array table;      /* hash table: index of a block + 1, or 0 */
     Array from;       /* int32_t per node block of this substep: the one that it takes over from, or GRID_NOWHERE */
-    Array steady;     /* bool per node block: its distances are known as far as a slow node asks, see contacts_measure() */
     Array gap, open, marked, begin, bound; /* as those of Colliders and Walls */
 } Sight;
 
