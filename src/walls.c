@@ -20,7 +20,7 @@ static Vectors vectors_of(const Walls *walls)
 
 void walls_free(Walls *walls, Memory *memory)
 {
-    Array *arrays[] = {&walls->node, &walls->motion, &walls->entry, &walls->link, &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
+    Array *arrays[] = {&walls->node, &walls->motion, &walls->matrices, &walls->entry, &walls->link, &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
@@ -77,6 +77,9 @@ static void store(Four u, float *node)
     for (int a = 0; a < 3; a++) node[a] = u[a];
 }
 
+/* p - m c0 */
+static Four rest_of(const ApplyJob *job, const WallMotion *n, Four p) { return p - job->shifted * (n->mass * n->shift); }
+
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
 {
@@ -86,7 +89,7 @@ static void send_back(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         const WallMotion *n = &motion[i];
         if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
-        const Four rest = job->v.momentum[i] - job->shifted * n->carried;
+        const Four rest = rest_of(job, n, job->v.momentum[i]);
         for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) job->v.back[e] = times(&entry[e].matrix, rest);
     }
 }
@@ -95,8 +98,9 @@ static void send_back(void *context, int32_t begin, int32_t end)
 static Four folded(const ApplyJob *job, uint32_t i)
 {
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    const WallMatrices *matrices = (const WallMatrices *)job->walls->matrices.data + i;
     const WallLink *link = job->walls->link.data;
-    Four sum = times(&n->own, job->v.momentum[i] - job->shifted * n->carried);
+    Four sum = times(&matrices->own, rest_of(job, n, job->v.momentum[i]));
     for (uint32_t l = n->link_begin; l < n->link_moving; l++) sum += link[l].weight * job->v.back[link[l].entry];
     return sum;
 }
@@ -105,8 +109,9 @@ static void find_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallMotion *motion = job->walls->motion.data;
+    const WallMatrices *matrices = job->walls->matrices.data;
     for (int32_t i = begin; i < end; i++) {
-        job->v.free[i] = times(&motion[i].inverse, folded(job, (uint32_t)i));
+        job->v.free[i] = times(&matrices[i].inverse, folded(job, (uint32_t)i));
         store(job->v.free[i], node_at(job, motion[i].node));
     }
 }
@@ -124,10 +129,11 @@ static void find_moved(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallMotion *motion = job->walls->motion.data;
+    const WallMatrices *matrices = job->walls->matrices.data;
     const WallEntry *entry = job->walls->entry.data;
     for (int32_t i = begin; i < end; i++) {
         const WallMotion *n = &motion[i];
-        Four u = times(&n->own, job->v.free[i]) + job->shifted * n->shift;
+        Four u = times(&matrices[i].own, job->v.free[i]) + job->shifted * n->shift;
         for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) u += times(&entry[e].matrix, mean_of(&entry[e], job->v.free));
         job->v.moved[i] = u;
         store(u, node_at(job, n->node));
@@ -141,7 +147,8 @@ static void given(const ApplyJob *job, uint32_t i, double sum[3])
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
     const WallEntry *entry = job->walls->entry.data;
     const Four p = job->v.momentum[i], u = job->v.moved[i];
-    const Four own = times(&n->own, p - job->shifted * n->carried), still = times(&n->own, job->v.free[i]);
+    const Columns *of_own = &((const WallMatrices *)job->walls->matrices.data)[i].own;
+    const Four own = times(of_own, rest_of(job, n, p)), still = times(of_own, job->v.free[i]);
     for (int a = 0; a < 3; a++) sum[a] = (double)n->mass * ((double)u[a] - (double)still[a]) - (double)p[a] + (double)own[a];
     for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) {
         const Four counted = times(&entry[e].matrix, times(&entry[e].matrix, mean_of(&entry[e], job->v.free)));

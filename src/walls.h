@@ -23,7 +23,8 @@
 
 typedef struct Walls {
     Array node;       /* WallNode: nodes at walls, then those that they follow */
-    Array motion;     /* WallMotion of each */
+    Array motion;     /* WallMotion of each, */
+    Array matrices;   /* and WallMatrices */
     Array entry;      /* WallEntry, in the order of the nodes that follow */
     Array link;       /* WallLink: per node that is followed, who follows */
     Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */

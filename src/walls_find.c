@@ -571,17 +571,14 @@ static void square(const Columns *m, float out[6])
         for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
 }
 
-static void set_motion(const WallNode *node, WallMotion *motion)
+static void set_motion(Walls *walls, uint32_t i)
 {
+    const WallNode *node = (const WallNode *)walls->node.data + i;
     float inverse[6];
-    *motion = (WallMotion){node->node, node->entry_begin, node->entry_moving, node->link_begin, node->link_moving, .mass = node->mass};
-    for (int a = 0; a < 3; a++) {
-        motion->shift[a] = node->shift[a];
-        motion->carried[a] = node->mass * node->shift[a];
-    }
     invert(node->lump, inverse);
-    motion->own = columns_of(node->own);
-    motion->inverse = columns_of(inverse);
+    ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry_begin, node->entry_moving, node->link_begin, node->link_moving, node->mass,
+                                                         {node->shift[0], node->shift[1], node->shift[2]}};
+    ((WallMatrices *)walls->matrices.data)[i] = (WallMatrices){columns_of(node->own), columns_of(inverse)};
 }
 
 /* M = sum m W A^2, what a node has itself included. */
@@ -600,7 +597,7 @@ static void lump(Walls *walls, int dimension)
             for (int k = 0; k < 6; k++) m[k] += mass * part[k];
         }
         if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
-        set_motion(&node[i], (WallMotion *)walls->motion.data + i);
+        set_motion(walls, i);
     }
 }
 
@@ -709,6 +706,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
+             array_reserve(memory, &walls->matrices, walls->nodes, sizeof(WallMatrices)) &&
              array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {

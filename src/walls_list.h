@@ -46,9 +46,12 @@ typedef struct WallNode {
 typedef struct WallMotion {
     uint32_t node, entry_begin, entry_moving, link_begin, link_moving;
     float mass;
-    Four shift, carried; /* c0, m c0 */
-    Columns own, inverse;       /* inverse: M^-1 */
+    Four shift; /* c0 */
 } WallMotion;
+
+typedef struct WallMatrices {
+    Columns own, inverse; /* inverse: M^-1 */
+} WallMatrices;
 
 typedef struct WallLink {
     uint32_t entry;
