@@ -299,8 +299,8 @@ static double precondition(Guess *g)
 static float growth_of(const KernelArgs *a, GuessAsked asked, size_t cell)
 {
     const float missing = a->cell_growth[cell];
-    const float most = fminf(sqrtf(asked.fallen2 * missing), GUESS_GROWTH_MAX);
-    return fminf(asked.share * missing, most) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
+    const float fallen = sqrtf(asked.fallen2 * missing), most = fallen < GUESS_GROWTH_MAX ? fallen : GUESS_GROWTH_MAX, share = asked.share * missing;
+    return (share < most ? share : most) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
 }
 
 static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)

@@ -126,16 +126,29 @@ static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t
     return true;
 }
 
+/* Whether the levels are those of the last substep: it had the same blocks. */
+static bool is_built(const Multilevel *m, const Grid *grid, int width, int32_t shift)
+{
+    const int32_t *now = grid->coordinate.data, *before = m->level[0].coordinate.data;
+    bool same = m->built && m->width == width && m->shift == shift && m->level[0].blocks == grid->node_blocks;
+    for (int32_t i = 0; i < 3 * grid->node_blocks && same; i++) same = i % 3 >= grid->dimension || before[i] == now[i] + shift;
+    return same;
+}
+
 bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end)
 {
     enum { LEVELS_FAR_BEYOND = 8 };
     const int most_levels = end == LEVELS_BEYOND ? LEVELS_FAR_BEYOND : MULTILEVEL_MAX;
+    /* The grid counts blocks from those with the lowest particles; the ones below have -1, and would have it on all levels. */
+    const int32_t shift = end == LEVELS_BEYOND ? 0 : 1;
+    if (is_built(m, grid, width, shift)) return true;
+    m->built = false;
+    m->shift = shift;
     m->width = width;
     m->dimension = grid->dimension;
     m->block_cells = grid->block_cells;
     m->levels = 1;
-    /* The grid counts blocks from those with the lowest particles; the ones below have -1, and would have it on all levels. */
-    if (!list_finest(m, memory, grid, end == LEVELS_BEYOND ? 0 : 1)) return false;
+    if (!list_finest(m, memory, grid, shift)) return false;
     while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
         const Level *finer = &m->level[m->levels - 1];
         Level *level = &m->level[m->levels];
@@ -146,6 +159,7 @@ bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width
         list_children(m, level, finer);
         m->levels++;
     }
+    m->built = true;
     return true;
 }
 
@@ -157,6 +171,7 @@ void multilevel_free(Multilevel *m, Memory *memory)
         for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     }
     array_free(memory, &m->table);
+    m->built = false;
 }
 
 /* ---- Up: sums with the weights 1/2, 1, 1/2 per axis ---- */

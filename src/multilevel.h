@@ -41,9 +41,11 @@ typedef struct Multilevel {
     int levels;                   /* with the finest, whose vectors and inverse are the caller's */
     Level level[MULTILEVEL_MAX];
     Array table;                  /* hash table of blocks while a level is built */
+    int32_t shift;                /* of the finest level's blocks against the grid's */
+    bool built;                   /* the levels are complete; as long as the grid has the same blocks they stay */
 } Multilevel;
 
-/* Lists the blocks of all levels; false without memory. */
+/* Lists the blocks of all levels, unless they are as listed before; false without memory. */
 bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end);
 void multilevel_free(Multilevel *m, Memory *memory);
 

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "result.h"
 #include "walls.h"
 
 typedef struct Stood {
@@ -94,12 +95,11 @@ static bool shift_of(const Sight *sight, const Grid *grid, int32_t shift[3])
     return true;
 }
 
-static bool find_blocks(Sight *sight, const Grid *grid, Memory *memory)
+static bool find_blocks(Sight *sight, const Grid *grid, const int32_t shift[3], Memory *memory)
 {
-    int32_t *from = sight->from.data, shift[3];
+    int32_t *from = sight->from.data;
     const int32_t *coordinate = grid->coordinate.data;
-    const bool same = shift_of(sight, grid, shift);
-    if (!same || !list_blocks(sight, memory)) return false;
+    if (!list_blocks(sight, memory)) return false;
     for (int32_t block = 0; block < grid->node_blocks; block++) {
         int32_t place[3];
         for (int a = 0; a < 3; a++) place[a] = coordinate[3 * block + a] + shift[a];
@@ -108,21 +108,29 @@ static bool find_blocks(Sight *sight, const Grid *grid, Memory *memory)
     return true;
 }
 
-void sight_open(ContactFrame *frame, Sight *sight, Memory *memory)
+static pbmpm_result no_memory(Sight *sight, const ContactFrame *frame)
+{
+    sight_forget(sight);
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to keep what obstacles are to %d blocks", frame->grid->node_blocks);
+}
+
+pbmpm_result sight_open(ContactFrame *frame, Sight *sight, Memory *memory)
 {
     const Grid *grid = frame->grid;
     const Colliders *colliders = frame->colliders;
-    const bool keeps = sight->blocks > 0 && sight->first == colliders->obstacle;
-    sight->blocks = keeps ? sight->blocks : 0;
-    if (frame->groups || colliders->obstacle_count == 0 || !array_reserve(memory, &sight->from, (size_t)grid->node_blocks, sizeof(int32_t))) {
-        sight_forget(sight);
-        return;
-    }
-    if (keeps && !(find_changes(sight, colliders, memory) && find_blocks(sight, grid, memory))) sight_forget(sight);
-    int32_t *from = sight->from.data;
-    for (int32_t block = 0; block < grid->node_blocks && sight->blocks > 0; block++)
-        if (is_near_change(sight, frame, block)) from[block] = GRID_NOWHERE;
+    int32_t shift[3];
+    const bool wanted = !frame->groups && colliders->obstacle_count > 0;
+    if (!wanted || sight->first != colliders->obstacle || !shift_of(sight, grid, shift)) sight_forget(sight);
+    if (!wanted) return PBMPM_OK;
     frame->sight = sight;
+    if (sight->blocks == 0) return PBMPM_OK;
+    if (!array_reserve(memory, &sight->from, (size_t)grid->node_blocks, sizeof(int32_t)) || !find_changes(sight, colliders, memory) ||
+        !find_blocks(sight, grid, shift, memory))
+        return no_memory(sight, frame);
+    int32_t *from = sight->from.data;
+    for (int32_t block = 0; block < grid->node_blocks; block++)
+        if (is_near_change(sight, frame, block)) from[block] = GRID_NOWHERE;
+    return PBMPM_OK;
 }
 
 static void swap(Array *a, Array *b)
@@ -132,17 +140,17 @@ static void swap(Array *a, Array *b)
     *b = kept;
 }
 
-void sight_keep(const ContactFrame *frame, Walls *walls, int opened, Memory *memory)
+pbmpm_result sight_keep(const ContactFrame *frame, Walls *walls, int opened, Memory *memory)
 {
     Sight *sight = frame->sight;
     Colliders *colliders = frame->colliders;
     const Grid *grid = frame->grid;
     const size_t blocks = (size_t)grid->node_blocks;
-    if (!sight) return;
+    if (!sight) return PBMPM_OK;
     sight_forget(sight);
     if (!array_reserve(memory, &sight->stood, (size_t)colliders->obstacle_count, sizeof(Stood)) || !array_reserve(memory, &sight->coordinate, 3 * blocks, sizeof(int32_t)) ||
         !array_reserve(memory, &sight->marked, blocks, sizeof(uint64_t)))
-        return;
+        return no_memory(sight, frame);
     for (int i = 0; i < colliders->obstacle_count; i++) ((Stood *)sight->stood.data)[i] = (Stood){colliders->obstacle[i].start, colliders->obstacle[i].moves};
     memcpy(sight->coordinate.data, grid->coordinate.data, 3 * blocks * sizeof(int32_t));
     memcpy(sight->anchor, grid->anchor, sizeof sight->anchor);
@@ -158,4 +166,5 @@ void sight_keep(const ContactFrame *frame, Walls *walls, int opened, Memory *mem
     sight->first = colliders->obstacle;
     sight->obstacles = colliders->obstacle_count;
     sight->blocks = grid->node_blocks;
+    return PBMPM_OK;
 }

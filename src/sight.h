@@ -35,10 +35,10 @@ void sight_free(Sight *sight, Memory *memory);
 void sight_forget(Sight *sight);
 
 /* Finds what is taken over and sets frame->sight; it stays null if nothing is to be kept. */
-void sight_open(ContactFrame *frame, Sight *sight, Memory *memory);
+pbmpm_result sight_open(ContactFrame *frame, Sight *sight, Memory *memory);
 
 /* Keeps what was found for the next substep. `walls` null: there are none. `opened`: as above. */
-void sight_keep(const ContactFrame *frame, struct Walls *walls, int opened, Memory *memory);
+pbmpm_result sight_keep(const ContactFrame *frame, struct Walls *walls, int opened, Memory *memory);
 
 /* The block of the last substep that one takes over from, or GRID_NOWHERE. */
 static inline int32_t sight_from(const ContactFrame *frame, int32_t block)

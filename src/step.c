@@ -196,7 +196,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
-    if (result == PBMPM_OK) sight_open(contacts, sight, &world->memory);
+    if (result == PBMPM_OK) result = sight_open(contacts, sight, &world->memory);
     if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
     if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
@@ -211,7 +211,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     if (result != PBMPM_OK)
         sight_forget(sight);
     else
-        sight_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
+        result = sight_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
     return result;
 }
 
