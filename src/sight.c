@@ -25,8 +25,8 @@ void sight_forget(Sight *sight) { sight->blocks = 0; }
 
 static bool same_solid(const Solid *a, const Solid *b)
 {
-    return a->kind == b->kind && a->grid == b->grid && memcmp(&a->radius, &b->radius, sizeof a->radius) == 0 && memcmp(a->position, b->position, sizeof a->position) == 0 &&
-           memcmp(a->rotation, b->rotation, sizeof a->rotation) == 0 && memcmp(a->half_extents, b->half_extents, sizeof a->half_extents) == 0 &&
+    return a->kind == b->kind && a->grid == b->grid && memcmp(&a->radius, &b->radius, sizeof a->radius) == 0 &&
+           memcmp(a->position, b->position, sizeof a->position) == 0 && memcmp(a->rotation, b->rotation, sizeof a->rotation) == 0 && memcmp(a->half_extents, b->half_extents, sizeof a->half_extents) == 0 &&
            memcmp(a->normal, b->normal, sizeof a->normal) == 0;
 }
 
@@ -148,7 +148,8 @@ pbmpm_result sight_keep(const ContactFrame *frame, Walls *walls, int opened, Mem
     const size_t blocks = (size_t)grid->node_blocks;
     if (!sight) return PBMPM_OK;
     sight_forget(sight);
-    if (!array_reserve(memory, &sight->stood, (size_t)colliders->obstacle_count, sizeof(Stood)) || !array_reserve(memory, &sight->coordinate, 3 * blocks, sizeof(int32_t)) ||
+    if (!array_reserve(memory, &sight->stood, (size_t)colliders->obstacle_count, sizeof(Stood)) ||
+        !array_reserve(memory, &sight->coordinate, 3 * blocks, sizeof(int32_t)) ||
         !array_reserve(memory, &sight->marked, blocks, sizeof(uint64_t)))
         return no_memory(sight, frame);
     for (int i = 0; i < colliders->obstacle_count; i++) ((Stood *)sight->stood.data)[i] = (Stood){colliders->obstacle[i].start, colliders->obstacle[i].moves};

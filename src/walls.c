@@ -20,7 +20,8 @@ static Vectors vectors_of(const Walls *walls)
 
 void walls_free(Walls *walls, Memory *memory)
 {
-    Array *arrays[] = {&walls->node, &walls->motion, &walls->matrices, &walls->entry, &walls->link, &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
+    Array *arrays[] = {&walls->node,  &walls->motion, &walls->matrices, &walls->entry, &walls->link,
+                       &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }

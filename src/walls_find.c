@@ -318,7 +318,10 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
         node[k] = grid_node_beside(b->frame->grid, bound->block, bound->local, offset);
         if (node[k] == GRID_NOWHERE) continue;
         const Bound *other = bound_at(b, node[k]);
-        for (int j = 0; j < count; j++) off[k][j] = profile[j].distance + offset[0] * profile[j].normal[0] + offset[1] * profile[j].normal[1] + offset[2] * profile[j].normal[2];
+        for (int j = 0; j < count; j++) {
+            const double *n = profile[j].normal;
+            off[k][j] = profile[j].distance + offset[0] * n[0] + offset[1] * n[1] + offset[2] * n[2];
+        }
         if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
         bool free = !(other && other->face[0].distance < CLEAR);
         for (int j = 0; j < count; j++) free = free && off[k][j] >= CLEAR;

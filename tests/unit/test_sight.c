@@ -169,7 +169,8 @@ static void change_solver(Scene *scene, int step)
     pbmpm_settings settings = scene->world->settings;
     settings.solver = solvers[step / 2 % 4];
     OK(pbmpm_world_set_settings(scene->id, &settings));
-    OK(pbmpm_collider_move(scene->id, scene->ball, scene->world->colliders.slot[scene->ball.index].shape.position, NULL)); /* what moves leaves no room in the paper's */
+    const float *place = scene->world->colliders.slot[scene->ball.index].shape.position;
+    OK(pbmpm_collider_move(scene->id, scene->ball, place, NULL)); /* what moves takes no room in the paper's */
 }
 
 /* ---- Two that go together ---- */
