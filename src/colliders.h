@@ -128,6 +128,9 @@ typedef struct ContactFrame {
     const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
     const uint32_t *groups;             /* Colliders.groups, likewise */
     uint32_t present;                   /* all groups of the matter that there is, likewise */
+    const Particles *pressed;     /* what presses on walls; null: nothing does */
+    const float *pressure;        /* its pressures, if the solver keeps them; else null */
+    const KernelMaterial *kernel; /* per material, of what presses */
     const KernelMaterial *stays; /* per material: liquid that obstacles trap where they overlap stays there; null: it is put on one's surface */
 } ContactFrame;
 

@@ -191,6 +191,9 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .max_displacement = world->settings.max_displacement,
                                .fall = gravity_fall(world, (double)world->args.dt),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
+                               .pressed = &world->particles,
+                               .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
+                               .kernel = world->materials.kernel,
                                .apart = solver == PBMPM_SOLVER_CONVERGENT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);

@@ -360,19 +360,67 @@ static double share_of_set(const Profile *profile, int count, int set)
     return share;
 }
 
-/* Matter that is about to leave a wall by more than this [cells] in a substep is not held: bound to the wall, what is behind it would move the other way. At rest
- * and in waves matter stays far below it. */
-static const double LEAVES = 0.5;
-
-static bool leaves(const Builder *b, const WallEntry *entry, const Profile *profile)
+/* p / rho of a particle [cells^2 / substep^2], a fourth of its multiplier: kept by the dual, by the law of liquids with the explicit solver. */
+static double pressure_of(const ContactFrame *frame, const KernelMaterial *material, uint32_t row)
 {
-    const float *grid_node = b->frame->grid->node.data;
-    double along = 0.0;
-    for (uint32_t k = 0; k < entry->corners; k++) {
-        const float *u = grid_node + (size_t)((const WallNode *)b->walls->node.data)[entry->parent[k]].node * K_NODE_WIDTH;
-        for (int a = 0; a < 3; a++) along += (double)entry->weight[k] * ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
+    const double ratio = (double)frame->pressed->volume_ratio[row];
+    if (frame->pressure) return 0.25 * (double)frame->pressure[row] / (double)material->pascal;
+    return 0.25 * (double)material->dilation * ratio * fmax(0.0, 1.0 - ratio);
+}
+
+/* Adds mass and mass times p / rho of the liquid and sand nearest to a node. */
+static void add_pressure(const ContactFrame *frame, int64_t node, double *mass, double *sum)
+{
+    const Grid *grid = frame->grid;
+    const int32_t block = (int32_t)(node / grid->block_cells);
+    const uint32_t cell = (uint32_t)(node % grid->block_cells), *run = grid->block_run.data;
+    if (block >= grid->particle_blocks) return;
+    for (uint32_t r = run[block]; r < run[block + 1]; r++) {
+        const KernelMaterial *material = &frame->kernel[grid->run_key[r] >> K_RUN_CELL_BITS];
+        if ((grid->run_key[r] & K_RUN_CELL_MASK) != cell || (material->kind != K_LIQUID && material->yields != K_SAND)) continue;
+        for (uint32_t row = grid->run_begin[r]; row < grid->run_begin[r + 1]; row++) {
+            *mass += (double)frame->pressed->mass[row];
+            *sum += (double)frame->pressed->mass[row] * pressure_of(frame, material, row);
+        }
     }
-    return along > LEAVES;
+}
+
+/* The mean of p / rho around a node: of single particles it is noise. */
+static double pressure_at(const ContactFrame *frame, uint32_t node)
+{
+    const Grid *grid = frame->grid;
+    const int32_t block = (int32_t)(node / (uint32_t)grid->block_cells);
+    const int cell = (int)(node % (uint32_t)grid->block_cells), local[3] = {cell & 3, cell >> 2 & 3, cell >> 4};
+    double sum = 0.0, mass = 0.0;
+    for (int n = 0; n < grid->neighbours && frame->pressed; n++) {
+        int32_t way[3];
+        grid_neighbour_offset(n, grid->dimension, way);
+        const int64_t beside = grid_node_beside(grid, block, local, way);
+        if (beside != GRID_NOWHERE) add_pressure(frame, beside, &mass, &sum);
+    }
+    return mass > 0.0 ? sum / mass : 0.0;
+}
+
+/* The normal motion of a node of the grid against the wall that a profile stands for. */
+static double motion_along(const Builder *b, uint32_t node, const Profile *profile)
+{
+    const float *u = (const float *)b->frame->grid->node.data + (size_t)node * K_NODE_WIDTH;
+    double along = 0.0;
+    for (int a = 0; a < 3; a++) along += ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
+    return along;
+}
+
+/* A wall pushes and does not pull: it is the pressure p before it that keeps matter there. By Bernoulli's law that turns what leaves no faster than v^2 = 2 p / rho; a
+ * fall of one cell, the pressure that the grid does not see, counts as in clings(). What leaves is what the node has beyond its share, `scale`, of the motion before it.
+ * Held, a sheet that slides over an edge, before whose other face nothing is, would lose half of its speed there and creep round it. */
+static bool leaves(const Builder *b, const Bound *bound, const WallEntry *entry, const Profile *profile, double scale)
+{
+    const WallNode *list = b->walls->node.data;
+    double beyond = motion_along(b, bound->node, profile), pressure = 0.0;
+    for (uint32_t k = 0; k < entry->corners; k++) beyond -= scale * (double)entry->weight[k] * motion_along(b, list[entry->parent[k]].node, profile);
+    if (beyond <= 0.0 || beyond * beyond <= 2.0 * b->frame->fall) return false;
+    for (uint32_t k = 0; k < entry->corners; k++) pressure += (double)entry->weight[k] * pressure_at(b->frame, list[entry->parent[k]].node);
+    return beyond * beyond > 2.0 * (pressure + b->frame->fall);
 }
 
 /* The way to a place that is clear of the faces, by whole cells along their normals. In acute edges a way out of one leads to the other. */
@@ -399,7 +447,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
-        if (found && leaves(b, entry, &profile[j])) scale[j] = 1.0;
+        if (found && leaves(b, bound, entry, &profile[j], scale[j])) scale[j] = 1.0;
         add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);

@@ -137,6 +137,40 @@ static void test_shear_fades_as_viscosity_says(void)
     }
 }
 
+/* ---- Edges ---- */
+
+/* What a sheet keeps of its velocity when it slides along a wall `thick` cells thick and off its edge, without gravity; the edge lies `off` cells from a node. */
+static double kept_over_edge(const way *chosen, float thick, float off)
+{
+    const float cell = 0.1f, speed = 0.6f, edge = off * cell;
+    const pbmpm_world_def def = default_world(2, cell, 256);
+    pbmpm_material_def water = default_material(PBMPM_LIQUID);
+    pbmpm_material_id id;
+    const pbmpm_world_id world = create_world(&def);
+    water.bulk_modulus = chosen->solver == PBMPM_SOLVER_DUAL ? 0 : 1e5f;
+    OK(pbmpm_material_create(world, &water, &id));
+    use_way(world, chosen);
+    set_rate(world, chosen->solver == PBMPM_SOLVER_EXPLICIT ? 8 : 1, 5);
+    create_collider(world, box_shape(edge + 0.5f * thick * cell, edge - 1, 0, 0.5f * thick * cell, 1, 0), false);
+    fill_shape(world, id, box_shape(edge - 0.05f, edge - 0.6f, 0, 0.05f, 0.4f, 0), (const float[3]){0, speed, 0});
+    for (int step = 0; step < 160; step++) OK(pbmpm_world_step(world, DT));
+    const pbmpm_stats last = world_stats(world);
+    OK(pbmpm_world_destroy(world));
+    return last.momentum[1] / last.mass / (double)speed;
+}
+
+/* A wall pushes and does not pull: what leaves it flies on, however thick the wall is and wherever its edge lies on the grid. */
+static void test_a_sheet_flies_on_over_an_edge(void)
+{
+    static const float thick[] = {1, 2, 4}, off[] = {0, 0.3f, 0.5f, 0.7f};
+    for (int i = 0; i < way_count; i++)
+        for (int k = 0; k < 12; k++) {
+            char label[100];
+            snprintf(label, sizeof label, "%s, %g cells thick, %g off", ways[i].name, (double)thick[k / 4], (double)off[k % 4]);
+            TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(0.1, 1.0, kept_over_edge(&ways[i], thick[k / 4], off[k % 4]), label);
+        }
+}
+
 int main(void)
 {
     support_skip_without_isa();
@@ -144,5 +178,6 @@ int main(void)
     RUN_TEST(test_a_dam_breaks_in_2d);
     RUN_TEST(test_a_dam_breaks_in_3d);
     RUN_TEST(test_shear_fades_as_viscosity_says);
+    RUN_TEST(test_a_sheet_flies_on_over_an_edge);
     return UNITY_END();
 }

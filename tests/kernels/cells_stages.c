@@ -53,13 +53,11 @@ static double lightness_of(const RefParticle *p) { return (double)p->material.li
 
 static void first_quantities(const DualStage *stage, uint32_t row, const RefParticle *p, double value[4])
 {
-    const World *world = stage->scene.world;
-    const double scale = reference_scale(&stage->scene.step, (double)world->materials.def[world->particles.material[row]].density);
     const double light = lightness_of(p);
     value[0] = light;
     value[1] = light * p->volume_ratio;
     value[2] = light * light * (double)p->material.inverse_stiffness / (p->volume_ratio * p->volume_ratio);
-    value[3] = dual_carried_share(world) * scale * (double)world->particles.pressure[row];
+    value[3] = dual_first_pressure(stage, row, stage->scene.world->particles.pressure[row]);
 }
 
 /* Runs a kernel that leaves four sums per cell in the tiles. */
@@ -256,8 +254,7 @@ void cells_check_carry(DualStage *stage, float fine)
     KernelArgs *a = &world->args;
     const uint32_t count = world->particles.count;
     double *own = malloc(count * sizeof *own);
-    for (uint32_t i = 0; i < count; i++)
-        own[i] = dual_carried_share(world) * reference_scale(&scene->step, (double)world->materials.def[world->particles.material[i]].density) * (double)a->pressure[i];
+    for (uint32_t i = 0; i < count; i++) own[i] = dual_first_pressure(stage, i, a->pressure[i]);
     RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
     a->fine_carried = fine;
     scene_run_particles(scene, scene->kernels->cells_carry);

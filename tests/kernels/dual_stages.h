@@ -30,6 +30,9 @@ void dual_check_once(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32
 void dual_multiplier(const DualStage *stage, uint32_t row, double S[9]);
 void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9]);
 
+/* What a particle of this pressure [Pa] starts from: 4 dt^2 / (dx^2 density) times it, and the share that is carried, see dual_carried_share(). */
+double dual_first_pressure(const DualStage *stage, uint32_t row, float pascal);
+
 /* Runs a kernel that makes the next multipliers, and compares them, of liquids too if asked, and what blocks report of them. */
 void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids);
 

@@ -45,6 +45,7 @@ OTHER_RATES = (
     ("H04", 240, 2),
     ("H08", 30, 1),
     ("H08", 240, 2),
+    ("H08", 240, 10),
     ("H10", 60, 1),
     ("H16", 120, 10),
     ("H17", 15, 1),
@@ -78,7 +79,6 @@ GOALS = {
 
 
 KNOWN_MISSES = {
-    ("H08", "5 cells/step, wall of 2 cells", "dual", "liquid", 2): "one particle passes round the edge: matter is let go of by whole nodes",
     ("H13", "spinning disc, BDF2", "primal", "elastic", 2): "the first step, which has no past, now keeps its spin: 5.6 % more than the law of BDF2 says",
     ("H13", "spinning disc, BDF2", "primal", "elastic", 3): "the same in 3D",
 }
@@ -137,6 +137,22 @@ def test_liquid_let_go_from_between_walls_does_not_burst(rate_hz: float, iterati
 def test_crushed_liquid_leaves_no_faster_at_a_higher_rate_with_the_dual() -> None:
     """It was asked to grow by 0.3 per substep, however short that is: a sheet one cell wide parted at 31 m/s at 480 Hz."""
     checks = find_case("H16").function(Setting("liquid", 2, "trapped between boxes", 480, 5, solver="dual"))
+    assert all(check.passed for check in checks), checks
+
+
+@pytest.mark.parametrize(("iterations", "seed"), [(2, 1), (2, 3), (2, 4), (2, 5), (5, 4)])
+def test_liquid_crushed_in_a_slit_does_not_burst_when_it_is_let_go(iterations: int, seed: int) -> None:
+    """Between walls that have closed nothing answers to the growth that is asked for: pressures that were carried on in full added up from substep to
+    substep and threw the liquid out at 33 to 82 m/s, where it may reach 21."""
+    checks = find_case("H03").function(Setting("liquid", 2, "plain", 240, iterations, solver="dual", seed=seed))
+    assert all(check.passed for check in checks if check.kind is Kind.BOUND), checks
+
+
+@pytest.mark.parametrize(("rate_hz", "iterations", "seed"), [(15, 5, 2), (15, 10, 3), (60, 5, 1), (60, 10, 4), (240, 5, 1)])
+def test_a_jet_flies_on_over_the_edge_of_a_wall(rate_hz: float, iterations: int, seed: int) -> None:
+    """The far face of the edge, before which nothing is, held what slid over it: it stopped there, and pressures drove particles round the edge."""
+    setting = Setting("liquid", 2, "5 cells/step, wall of 2 cells", rate_hz, iterations, solver="dual", seed=seed)
+    checks = find_case("H08").function(setting)
     assert all(check.passed for check in checks), checks
 
 
