@@ -7,8 +7,8 @@
 #include <unity.h>
 
 #include "check.h"
-#include "cpu.h"
-#include "solver.h"
+#include "base/cpu.h"
+#include "solvers/solver.h"
 
 pbmpm_material_def scene_material(pbmpm_material_kind kind)
 {

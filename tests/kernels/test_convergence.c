@@ -11,7 +11,7 @@
 #include "dual_stages.h"
 #include "isas.h"
 #include "matrices.h"
-#include "solver.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -7,11 +7,11 @@
 
 #include "bounds.h"
 #include "check.h"
-#include "cpu.h"
-#include "open_volume.h"
+#include "base/cpu.h"
+#include "contact/open_volume.h"
 #include "scene.h"
-#include "solver.h"
-#include "walls.h"
+#include "solvers/solver.h"
+#include "contact/walls.h"
 
 void setUp(void) {}
 void tearDown(void) {}

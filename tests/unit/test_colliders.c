@@ -4,10 +4,10 @@
 #include <unity.h>
 
 #include "books.h"
-#include "colliders.h"
-#include "field.h"
+#include "world/colliders.h"
+#include "contact/field.h"
 #include "random.h"
-#include "world.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

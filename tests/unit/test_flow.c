@@ -5,9 +5,9 @@
 
 #include "books.h"
 #include "random.h"
-#include "solver.h"
-#include "step.h"
-#include "world.h"
+#include "solvers/solver.h"
+#include "step/step.h"
+#include "world/world.h"
 
 enum { PARTICLES = 3000 };
 

@@ -2,9 +2,9 @@
 #include <stdlib.h>
 #include <unity.h>
 
-#include "islands.h"
-#include "step.h"
-#include "world.h"
+#include "grid/islands.h"
+#include "step/step.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -3,8 +3,8 @@
 #include <unity.h>
 
 #include "random.h"
-#include "reach.h"
-#include "solver.h"
+#include "contact/reach.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}

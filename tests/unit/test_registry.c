@@ -3,7 +3,7 @@
 #include <pthread.h>
 #include <unity.h>
 
-#include "registry.h"
+#include "services/registry.h"
 
 void setUp(void) {}
 void tearDown(void) {}

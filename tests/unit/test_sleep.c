@@ -3,11 +3,11 @@
 #include <string.h>
 #include <unity.h>
 
-#include "crowd.h"
+#include "step/crowd.h"
 #include "random.h"
-#include "sleep.h"
-#include "step.h"
-#include "world.h"
+#include "step/sleep.h"
+#include "step/step.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -8,12 +8,12 @@
 #include <unity.h>
 
 #include "books.h"
-#include "edit.h"
-#include "inspect.h"
+#include "services/edit.h"
+#include "services/inspect.h"
 #include "random.h"
-#include "registry.h"
-#include "snapshot.h"
-#include "step.h"
+#include "services/registry.h"
+#include "snapshot/snapshot.h"
+#include "step/step.h"
 
 enum { HEADER_BYTES = 32, VERSION_AT = 8, SECTIONS_AT = 12, BYTES_AT = 16, PARTICLES_TAG = 6 };
 

@@ -4,13 +4,13 @@
 #include <string.h>
 #include <unity.h>
 
-#include "clock.h"
-#include "depth.h"
-#include "dual.h"
-#include "dual_error.h"
+#include "base/clock.h"
+#include "world/depth.h"
+#include "solvers/dual/dual.h"
+#include "solvers/dual/dual_error.h"
 #include "random.h"
-#include "rounds.h"
-#include "solver.h"
+#include "solvers/dual/rounds.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}
