@@ -8,6 +8,7 @@
 #include "api/layout.h"
 #include "base/assertion.h"
 #include "base/cpu.h"
+#include "base/generations.h"
 #include "base/numbers.h"
 #include "services/background.h"
 #include "services/copy.h"
@@ -245,7 +246,7 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     const char *problem = material_problem(&own);
     if (!problem) problem = keyed_problem(w, KEYED_MATERIALS, own.key, -1);
     if (problem) LET_GO(api_invalid(problem));
-    const pbmpm_result result = materials_add(&w->materials, &own, registry_next_generation(), material);
+    const pbmpm_result result = materials_add(&w->materials, &own, generation_next(), material);
     if (result == PBMPM_OK) colliders_forget_material(&w->colliders, material->index);
     LET_GO(result);
 }
@@ -339,7 +340,7 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     HOLD(world);
     const char *problem = wrong_collider(w, &own, &form, -1);
     if (problem) LET_GO(api_invalid(problem));
-    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, &own, &form, grid_of(w, &form), registry_next_generation(), collider);
+    const pbmpm_result result = colliders_add(&w->colliders, &w->memory, &own, &form, grid_of(w, &form), generation_next(), collider);
     if (result == PBMPM_OK) wake_near_collider(w, colliders_find(&w->colliders, *collider));
     LET_GO(result);
 }
@@ -462,7 +463,7 @@ pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def
 {
     READ(pbmpm_particles_def, own, def, particles_def_defaults());
     HOLD(world);
-    LET_GO(edit_add(w, &own, registry_next_particle_generation(), ids));
+    LET_GO(edit_add(w, &own, generation_next_of_particles(), ids));
 }
 
 pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added)
@@ -470,7 +471,7 @@ pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *de
     READ(pbmpm_fill_def, own, def, fill_def_defaults());
     READ(pbmpm_shape, form, shape, shape_defaults());
     HOLD(world);
-    LET_GO(edit_fill(w, &own, &form, registry_next_particle_generation(), added));
+    LET_GO(edit_fill(w, &own, &form, generation_next_of_particles(), added));
 }
 
 pbmpm_result pbmpm_particles_remove(pbmpm_world_id world, const pbmpm_particle_id *ids, uint32_t count)

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "api/api_call.h"
-#include "services/registry.h"
+#include "base/generations.h"
 #include "step/sleep.h"
 #include "world/emitters.h"
 #include "world/forces.h"
@@ -36,7 +36,7 @@ pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def 
     HOLD(world);
     const pbmpm_result checked = check_emitter(w, &own, &form, -1);
     if (checked != PBMPM_OK) LET_GO(checked);
-    LET_GO(emitters_add(&w->emitters, &w->memory, &own, &form, registry_next_generation(), emitter));
+    LET_GO(emitters_add(&w->emitters, &w->memory, &own, &form, generation_next(), emitter));
 }
 
 static pbmpm_result no_emitter(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such emitter in this world"); }
@@ -126,7 +126,7 @@ pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def
     HOLD(world);
     const pbmpm_result checked = check_drain(w, &own, &form, -1);
     if (checked != PBMPM_OK) LET_GO(checked);
-    const pbmpm_result result = sinks_add(&w->sinks, &w->memory, &own, &form, w->def.dimension, registry_next_generation(), drain);
+    const pbmpm_result result = sinks_add(&w->sinks, &w->memory, &own, &form, w->def.dimension, generation_next(), drain);
     if (result == PBMPM_OK) sleep_wake_near(w, &sinks_find(&w->sinks, *drain)->solid, SLEEP_FELT);
     LET_GO(result);
 }
@@ -240,7 +240,7 @@ pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def
     const char *problem = force_problem(&own, &form, w->def.dimension);
     if (!problem) problem = keyed_problem(w, KEYED_FORCES, own.key, -1);
     if (problem) LET_GO(api_invalid(problem));
-    const pbmpm_result result = forces_add(&w->forces, &w->memory, &own, &form, w->def.dimension, registry_next_generation(), force);
+    const pbmpm_result result = forces_add(&w->forces, &w->memory, &own, &form, w->def.dimension, generation_next(), force);
     if (result == PBMPM_OK) wake_in_reach(w, forces_find(&w->forces, *force));
     LET_GO(result);
 }

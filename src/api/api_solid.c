@@ -3,7 +3,7 @@
 
 #include "api/api_call.h"
 #include "base/cpu.h"
-#include "services/registry.h"
+#include "base/generations.h"
 #include "shape/bake.h"
 
 /* ---- Baking: no world ---- */
@@ -72,7 +72,7 @@ pbmpm_result pbmpm_baked_create(pbmpm_world_id world, const void *data, uint64_t
     *baked = (pbmpm_baked_id){0, 0};
     REQUIRE(data);
     HOLD(world);
-    LET_GO(baked_add(&w->baked, &w->memory, w->def.dimension, data, size, registry_next_generation(), baked));
+    LET_GO(baked_add(&w->baked, &w->memory, w->def.dimension, data, size, generation_next(), baked));
 }
 
 static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such baked solid in this world"); }

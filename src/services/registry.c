@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "base/assertion.h"
+#include "base/generations.h"
 #include "base/result.h"
 #include "services/background.h"
 
@@ -17,29 +18,12 @@ typedef struct Slot {
 } Slot;
 
 static Slot slots[PBMPM_MAX_WORLDS];
-static atomic_uint last_generation, last_particle_generation;
-
-static uint32_t next_of(atomic_uint *last)
-{
-    const uint32_t generation = atomic_fetch_add(last, 1) + 1;
-    return generation ? generation : next_of(last);
-}
-
-uint32_t registry_next_generation(void) { return next_of(&last_generation); }
-
-uint32_t registry_next_particle_generation(void) { return next_of(&last_particle_generation); }
-
-void registry_skip_particle_generations(uint32_t last)
-{
-    unsigned seen = atomic_load(&last_particle_generation);
-    while (seen < last && !atomic_compare_exchange_weak(&last_particle_generation, &seen, last)) continue;
-}
 
 pbmpm_result registry_add(World *world, pbmpm_world_id *id)
 {
     for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
         if (atomic_load(&slots[i].taken) || atomic_exchange(&slots[i].taken, true)) continue;
-        *id = (pbmpm_world_id){i, registry_next_generation()};
+        *id = (pbmpm_world_id){i, generation_next()};
         slots[i].world = world;
         atomic_store(&slots[i].generation, id->generation);
         return PBMPM_OK;

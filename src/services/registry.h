@@ -4,18 +4,6 @@
 
 #include "world/world.h"
 
-/* A number that no object of this process had before; never 0. */
-uint32_t registry_next_generation(void);
-
-/* The same for particles, which have numbers of their own: those of stored data must not use up the other ones. */
-uint32_t registry_next_particle_generation(void);
-
-/* Numbers of particles up to this are taken: they stand in stored data. */
-void registry_skip_particle_generations(uint32_t last);
-
-/* What stored data may hold: so many numbers are left then that they do not begin anew while anybody keeps an old one. */
-#define REGISTRY_STORED_GENERATION_MAX (UINT32_MAX - (1u << 24))
-
 /* Makes a world known. */
 pbmpm_result registry_add(World *world, pbmpm_world_id *id);
 

@@ -3,8 +3,8 @@
 #include <float.h>
 #include <string.h>
 
+#include "base/generations.h"
 #include "base/result.h"
-#include "services/registry.h"
 
 /* What the payload begins with. Then: a SavedField per field, their arrays component by component, the free identifiers. */
 typedef struct Contents {
@@ -161,7 +161,7 @@ static bool values_fit(const World *world, const Reading *reading)
     return true;
 }
 
-static bool generation_fits(uint32_t generation) { return generation > 0 && generation <= REGISTRY_STORED_GENERATION_MAX; }
+static bool generation_fits(uint32_t generation) { return generation > 0 && generation <= GENERATION_STORED_MAX; }
 
 /* Used and free indices together are all that were ever touched, each once. */
 static bool identifiers_fit(World *world, const Reading *reading)
@@ -223,7 +223,7 @@ static void load_identifiers(Particles *p, const Reading *reading)
     memcpy(p->free_slot + never_used, free_indices(reading), contents->freed * sizeof *p->free_slot);
     p->free_count = p->capacity - p->count;
     p->rows_valid = false;
-    registry_skip_particle_generations(newest);
+    generation_skip_of_particles(newest);
 }
 
 static void load_particles(World *world, SnapshotIn in)

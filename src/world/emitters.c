@@ -3,10 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/generations.h"
 #include "base/numbers.h"
 #include "base/result.h"
 #include "base/scatter.h"
-#include "services/registry.h"
 #include "step/crowd.h"
 #include "world/world.h"
 
@@ -439,7 +439,7 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
     const EmitterState before = *state;
     const double rate = particle_rate(world, &emitter->def), parts = world->settings.substeps;
     const double spacing = (double)world->def.cell_size / (double)emitter->def.particles_per_axis;
-    const uint32_t generation = registry_next_particle_generation();
+    const uint32_t generation = generation_next_of_particles();
     const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
     Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + 1) / parts));
     uint64_t j = 1;
