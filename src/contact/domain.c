@@ -4,7 +4,11 @@
 #include <string.h>
 
 #include "base/numbers.h"
-#include "world/colliders.h"
+
+bool friction_known(pbmpm_friction friction)
+{
+    return friction == PBMPM_FRICTION_COULOMB || friction == PBMPM_FRICTION_STICK || friction == PBMPM_FRICTION_SLIP;
+}
 
 static pbmpm_domain_wall wall_of(const pbmpm_world_def *def)
 {

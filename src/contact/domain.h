@@ -18,6 +18,8 @@ typedef struct Domain {
 /* The place of a wall among them. */
 static inline int domain_place(int axis, bool upper) { return 2 * axis + (upper ? 1 : 0); }
 
+bool friction_known(pbmpm_friction friction);
+
 /* As the definition has it. */
 Domain domain_of(const pbmpm_world_def *def);
 

@@ -8,7 +8,7 @@
 
 #include <math.h>
 
-#include "world/colliders.h"
+#include "contact/contacts.h"
 
 enum { FIELD_FACES = 3 };
 

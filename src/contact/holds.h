@@ -3,7 +3,7 @@
 #ifndef PBMPM_SRC_CONTACT_HOLDS_H
 #define PBMPM_SRC_CONTACT_HOLDS_H
 
-#include "world/colliders.h"
+#include "contact/contacts.h"
 
 /* Moves displacements (K_NODE_WIDTH floats per node) to what the contacts allow; without friction. */
 void holds_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end);

@@ -2,7 +2,7 @@
 #ifndef PBMPM_SRC_CONTACT_OPEN_VOLUME_H
 #define PBMPM_SRC_CONTACT_OPEN_VOLUME_H
 
-#include "world/colliders.h"
+#include "contact/contacts.h"
 
 /* The share of the support of a node [m] that the obstacles leave open at the end of the substep; never 0. */
 double open_share_at(const ContactFrame *frame, const double node[3], uint32_t groups);

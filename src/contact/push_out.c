@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "contact/field.h"
+#include "contact/push_out.h"
 
 /* An obstacle as a block sees it. Places are relative to the block's first node: the products and differences that lead there are exact in double
  * precision, while a place far from the origin would lose the last bits of its fraction, and the same scene a million cells away end elsewhere. */

@@ -6,7 +6,7 @@
 #ifndef PBMPM_SRC_CONTACT_REACH_H
 #define PBMPM_SRC_CONTACT_REACH_H
 
-#include "world/colliders.h"
+#include "contact/contacts.h"
 
 /* Finds frame->solid. */
 pbmpm_result reach_find(ContactFrame *frame, const KernelMaterial *material, Memory *memory);

@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "base/vector.h"
 #include "contact/reach.h"
+#include "contact/walls.h"
 #include "contact/walls_list.h"
 
 /* ---- Symmetric matrices ---- */

@@ -2,7 +2,8 @@
 #ifndef PBMPM_SRC_CONTACT_WALLS_LIST_H
 #define PBMPM_SRC_CONTACT_WALLS_LIST_H
 
-#include "contact/walls.h"
+#include <stdbool.h>
+#include <stdint.h>
 
 enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
 enum { VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "contact/contacts_find.h"
 #include "contact/walls.h"
 #include "solvers/dual/dual.h"
 #include "solvers/primal/primal.h"

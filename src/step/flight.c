@@ -6,7 +6,7 @@
 #include "solvers/solver.h"
 #include "world/colliders.h"
 
-/* How far [cells] obstacles and forces may matter to what is at a particle's nodes: obstacles beside a near one are looked at too, see look_around() in colliders.c. */
+/* How far [cells] obstacles and forces may matter to what is at a particle's nodes: obstacles beside a near one are looked at too, see look_around() in contacts_find.c. */
 static const double FELT = 4.5;
 
 static bool is_felt_everywhere(const Forces *forces)

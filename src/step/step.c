@@ -6,7 +6,9 @@
 
 #include "base/clock.h"
 #include "base/result.h"
+#include "contact/contacts_find.h"
 #include "contact/open_volume.h"
+#include "contact/push_out.h"
 #include "contact/reach.h"
 #include "grid/islands.h"
 #include "solvers/joint.h"
