@@ -23,6 +23,7 @@
 #include "step/step.h"
 #include "world/colliders.h"
 #include "world/keyed.h"
+#include "world/sleep_wake.h"
 
 pbmpm_result api_hold(pbmpm_world_id id, int kind, Hold *held)
 {

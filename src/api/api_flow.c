@@ -4,11 +4,11 @@
 
 #include "api/api_call.h"
 #include "base/generations.h"
-#include "step/sleep.h"
 #include "world/emitters.h"
 #include "world/forces.h"
 #include "world/keyed.h"
 #include "world/sinks.h"
+#include "world/sleep_wake.h"
 
 /* ---- emitter.h ---- */
 

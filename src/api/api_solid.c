@@ -5,6 +5,7 @@
 #include "base/cpu.h"
 #include "base/generations.h"
 #include "shape/bake.h"
+#include "world/sleep_wake.h"
 
 /* ---- Baking: no world ---- */
 

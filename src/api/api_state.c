@@ -6,7 +6,7 @@
 #include "services/background.h"
 #include "services/query.h"
 #include "snapshot/snapshot.h"
-#include "step/sleep.h"
+#include "world/sleep_wake.h"
 
 /* ---- snapshot.h ---- */
 

@@ -9,6 +9,8 @@
 #include "contact/field.h"
 #include "services/inspect.h"
 #include "solvers/eddy_damping.h"
+#include "world/sleep_rows.h"
+#include "world/sleep_wake.h"
 
 static const double VALUE_LIMIT = 1e9; /* of velocities and their gradients: far above any use, far below float overflow */
 

@@ -7,6 +7,8 @@
 #include "base/result.h"
 #include "snapshot/snapshot_flow.h"
 #include "snapshot/snapshot_particles.h"
+#include "world/sleep_rows.h"
+#include "world/sleep_wake.h"
 
 /* What a snapshot begins with. */
 typedef struct Header {

@@ -7,7 +7,8 @@
 
 #include "base/result.h"
 #include "solvers/solver.h"
-#include "world/world.h"
+#include "world/sleep_rows.h"
+#include "world/sleep_wake.h"
 
 /* ---- Beginning and ending ---- */
 
@@ -346,11 +347,6 @@ pbmpm_result sleep_build(World *world, float dt, bool with_volume)
 }
 
 /* ---- The solution ---- */
-
-bool sleep_is_still(const World *world, int32_t block)
-{
-    return block < world->grid.still_blocks && !sleep_list_block(&world->sleep.active, (uint32_t)block)->woken;
-}
 
 pbmpm_result sleep_prepare(World *world)
 {

@@ -13,8 +13,14 @@
 #include "grid/islands.h"
 #include "solvers/joint.h"
 #include "solvers/solver.h"
+#include "step/draining.h"
+#include "step/emitting.h"
 #include "step/flight.h"
+#include "step/forcing.h"
+#include "step/sleep.h"
 #include "world/depth.h"
+#include "world/sleep_rows.h"
+#include "world/sleep_wake.h"
 
 /* With fewer particles waking threads costs more than it brings. */
 enum { SERIAL_BELOW = 3000, BLOCK_GRAIN = 2 };

@@ -8,7 +8,8 @@
 #include "pbmpm/drain.h"
 #include "pbmpm/emitter.h"
 
-struct World;
+/* Of the bounds of an emitter; with its float per node that is 16 MB. A way in one part of a step that adds as many nodes is a jump. */
+static const double EMITTER_CELLS_MAX = 4194304.0;
 
 /* What changes as an emitter works. */
 typedef struct EmitterState {
@@ -44,14 +45,14 @@ pbmpm_result emitters_add(Emitters *emitters, Memory *memory, const pbmpm_emitte
                            pbmpm_emitter_id *id);
 Emitter *emitters_find(const Emitters *emitters, pbmpm_emitter_id id); /* null if not live */
 void emitter_set(Emitter *emitter, const pbmpm_emitter_def *def, const pbmpm_shape *shape);
+/* The shape whose bounds hold the region: for a disc the ball around it. */
+pbmpm_shape emitter_enclosing_shape(const pbmpm_emitter_def *def, const pbmpm_shape *shape);
 void emitter_move(Emitter *emitter, const float position[3], const float *rotation);
+/* It is where it is going to. */
+void emitter_arrive(Emitter *emitter);
 bool emitters_use(const Emitters *emitters, pbmpm_material_id material);
 void emitter_report(const Emitter *emitter, pbmpm_emitter_status *status);
 
-/* Takes the memory that emitters_run() needs for part `part` of a step. */
-pbmpm_result emitters_prepare(struct World *world, int part, float dt);
-/* Adds what is due in that part, at its end. The obstacles are those of that part. */
-void emitters_run(struct World *world, int part, float dt);
 /* After the last part: the targets are reached. */
 void emitters_end_step(Emitters *emitters);
 

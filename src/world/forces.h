@@ -1,12 +1,10 @@
-/* Forces on the nodes of the predictor. */
+/* Force fields. */
 #ifndef PBMPM_SRC_WORLD_FORCES_H
 #define PBMPM_SRC_WORLD_FORCES_H
 
 #include "base/memory.h"
 #include "pbmpm/force.h"
 #include "shape/shapes.h"
-
-struct World;
 
 typedef struct Force {
     uint32_t generation; /* 0: free slot */
@@ -36,13 +34,8 @@ pbmpm_result forces_add(Forces *forces, Memory *memory, const pbmpm_force_def *d
 Force *forces_find(const Forces *forces, pbmpm_force_id id); /* null if not live */
 /* Beyond this distance from its shape a force is not felt [m]; may be INFINITY. */
 double force_reach(const Force *force);
-void force_set(Force *force, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension);
-
 /* A new step: nothing has been done yet. */
 void forces_begin_step(Forces *forces);
-/* Changes the predictor of a substep. On failure (no memory) it is as it was. */
-pbmpm_result forces_apply(struct World *world, float dt);
-/* That substep is done: what the forces did in it counts. */
-void forces_account(Forces *forces, int32_t node_blocks);
+void force_set(Force *force, const pbmpm_force_def *def, const pbmpm_shape *shape, int dimension);
 
 #endif

@@ -6,8 +6,6 @@
 #include "pbmpm/drain.h"
 #include "shape/shapes.h"
 
-struct World;
-
 typedef struct Drain {
     uint32_t generation; /* 0: free slot */
     pbmpm_drain_def def;
@@ -34,8 +32,5 @@ pbmpm_result sinks_add(Sinks *sinks, Memory *memory, const pbmpm_drain_def *def,
                        pbmpm_drain_id *id);
 Drain *sinks_find(const Sinks *sinks, pbmpm_drain_id id); /* null if not live */
 void drain_set(Drain *drain, const pbmpm_drain_def *def, const pbmpm_shape *shape, int dimension);
-
-/* Gives the particles that drains and bounds take the status K_REMOVED, and says how many. The particles are as the grid sorted them. */
-uint32_t sinks_mark(struct World *world, uint32_t substep);
 
 #endif

@@ -1,8 +1,8 @@
-/* Lists of blocks by place. */
+#include "world/sleep_list.h"
+
 #include <string.h>
 
 #include "grid/grid.h"
-#include "step/sleep.h"
 
 /* At most half full. */
 static uint32_t slots_for(uint32_t blocks)

@@ -1,8 +1,12 @@
-/* Where the particles of blocks that sleep stand among the others. */
+#include "world/sleep_rows.h"
+
 #include <math.h>
 #include <string.h>
 
-#include "world/world.h"
+bool sleep_is_still(const World *world, int32_t block)
+{
+    return block < world->grid.still_blocks && !sleep_list_block(&world->sleep.active, (uint32_t)block)->woken;
+}
 
 static bool is_to_go(const SleepBlock *block) { return block->woken || block->stage == SLEEP_DROWSY; }
 

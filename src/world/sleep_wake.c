@@ -1,9 +1,6 @@
-/* Why blocks wake or stay awake. */
-#include <math.h>
+#include "world/sleep_wake.h"
 
-#include "step/sleep.h"
-#include "world/colliders.h"
-#include "world/world.h"
+#include <math.h>
 
 const double SLEEP_FELT = 2.0;
 

@@ -17,7 +17,7 @@
 #include "matter/materials.h"
 #include "matter/particles.h"
 #include "pbmpm/pbmpm.h"
-#include "step/sleep.h"
+#include "world/sleep_list.h"
 #include "world/colliders.h"
 #include "world/emitters.h"
 #include "world/events.h"

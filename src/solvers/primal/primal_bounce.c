@@ -14,6 +14,7 @@
 
 #include "contact/holds.h"
 #include "solvers/primal/primal_solve.h"
+#include "world/sleep_rows.h"
 
 static const double KEPT = 1.0;      /* so that what bounces comes to rest */
 static const double IMPACT = 2.0;    /* times its weight: what pushes a body less carries it, or it rolls */

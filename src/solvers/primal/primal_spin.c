@@ -9,6 +9,7 @@
 
 #include "contact/holds.h"
 #include "solvers/primal/primal_solve.h"
+#include "world/sleep_rows.h"
 
 static const double ROUNDING = 1e-7; /* [radians per substep]: less would not change a velocity */
 
