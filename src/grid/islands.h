@@ -14,9 +14,6 @@
 #include "pbmpm/material.h"
 #include "pbmpm/world.h"
 
-struct World;
-struct StepRecord;
-
 enum { KIND_SOLID = 1, KIND_LIQUID = 2, KIND_SAND = 4, ISLAND_KINDS = 3, ISLAND_GROUPS = GRID_PARTS };
 _Static_assert((int)ISLAND_GROUPS == (1 << ISLAND_KINDS) - 1, "one part per set of kinds");
 
@@ -32,26 +29,14 @@ typedef struct Islands {
 
 void islands_free(Islands *islands, Memory *memory);
 
-/* Which of KIND_SOLID and so on the particles are that are counted in particles.of_material. */
-uint32_t islands_kinds(const struct World *world);
-
-/* The one of a material. */
+/* The kind of a material: KIND_SOLID and so on. */
 uint32_t islands_kind(const Materials *materials, uint32_t slot);
 
-/* In place of grid_build(): finds the islands and builds the grid of each group. */
-pbmpm_result islands_build(struct World *world);
+/* Finds the islands and the groups that they make. Of the grid only what it finds blocks with is changed. False: no memory. */
+bool islands_find(Islands *islands, Grid *grid, Memory *memory, const Particles *p, const Materials *materials);
 
-/* Whether more than one group may come of it: the convergent solver, and matter of several kinds. */
-bool islands_wanted(const struct World *world);
-
-/* Between steps: finds the groups that the next substep will have, without their grids. False: no memory. */
-bool islands_foresee(struct World *world);
-
-/* All that is done between them is done to one group. */
-void islands_enter(struct World *world, int group);
-void islands_leave(struct World *world, int group);
-
-/* Between steps: the grid of a group of the last substep. */
-const Grid *islands_grid(const struct World *world, int group);
+/* After that: the group of a particle, and how many particles of each material each group has. */
+int islands_group_of(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t row);
+void islands_count(Islands *islands, const Grid *grid, const Particles *p, const Materials *materials);
 
 #endif

@@ -3,12 +3,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "grid/islands.h"
 #include "solvers/dual/dual.h"
 #include "solvers/joint.h"
 #include "solvers/paper.h"
 #include "solvers/primal/primal.h"
 #include "solvers/solver.h"
+#include "world/island_groups.h"
 
 /* The laws of the paper's solver: its N rounds remove the share w of a strain error each, which acts like the modulus
  * rho w N dx^2 / (4 dt^2) against a shape error and like a d-th of it against a volume error. */

@@ -6,6 +6,7 @@
 #include "base/numbers.h"
 #include "base/result.h"
 #include "services/readers.h"
+#include "world/island_groups.h"
 
 /* ---- Views ---- */
 

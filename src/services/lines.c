@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "world/island_groups.h"
+
 #define TURN 6.283185307179586
 
 enum { CIRCLE_LINES = 24, PLANE_CELLS = 20, CONTOUR_NODES = 4 };

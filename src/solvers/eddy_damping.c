@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "contact/walls.h"
-#include "grid/islands.h"
 #include "solvers/joint.h"
 #include "world/depth.h"
+#include "world/island_groups.h"
 
 enum { GAIN, BEFORE, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 

@@ -16,6 +16,7 @@
 #include "solvers/primal/primal.h"
 #include "solvers/viscosity.h"
 #include "world/depth.h"
+#include "world/island_groups.h"
 #include "world/sleep_rows.h"
 
 enum { BLOCK_GRAIN = 2 };

@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <unity.h>
 
-#include "grid/islands.h"
 #include "step/step.h"
+#include "world/island_groups.h"
 #include "world/world.h"
 
 void setUp(void) {}

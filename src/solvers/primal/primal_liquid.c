@@ -16,6 +16,7 @@
 #include "solvers/eddy_damping.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/depth.h"
+#include "world/island_groups.h"
 #include "world/sleep_rows.h"
 
 /* By what share the weight of a pool compresses its bottom at most where it stands for an incompressible one; the level is too low by half of that. The stiffer it is,
