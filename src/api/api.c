@@ -15,6 +15,7 @@
 #include "services/edit.h"
 #include "services/effective.h"
 #include "services/inspect.h"
+#include "services/lifecycle.h"
 #include "services/origin.h"
 #include "services/query.h"
 #include "services/readers.h"

@@ -6,6 +6,7 @@
 #include "base/sized.h"
 #include "services/effective.h"
 #include "services/survey.h"
+#include "solvers/passes.h"
 #include "solvers/solver.h"
 #include "world/depth.h"
 

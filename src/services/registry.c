@@ -7,6 +7,7 @@
 #include "base/generations.h"
 #include "base/result.h"
 #include "services/background.h"
+#include "services/lifecycle.h"
 
 /* A slot lives forever, so an identifier can be looked at without a lock whatever became of its world. There is no lock at all: one that another
  * thread has while a process forks stays locked in the child. */

@@ -5,6 +5,7 @@
 
 #include "base/assertion.h"
 #include "base/result.h"
+#include "snapshot/payload.h"
 #include "snapshot/snapshot_flow.h"
 #include "snapshot/snapshot_particles.h"
 #include "world/sleep_rows.h"
@@ -27,8 +28,8 @@ typedef struct SectionHeader {
 
 static const char MAGIC[8] = {'p', 'b', 'm', 'p', 'm', 'S', 'n', 'p'};
 
-enum { WORD = 8, CHECKED_BEFORE = offsetof(Header, checksum) };
-_Static_assert(sizeof(Header) % WORD == 0 && sizeof(SectionHeader) % WORD == 0 && CHECKED_BEFORE % WORD == 0, "whole words");
+enum { CHECKED_BEFORE = offsetof(Header, checksum) };
+_Static_assert(sizeof(Header) % SNAPSHOT_WORD == 0 && sizeof(SectionHeader) % SNAPSHOT_WORD == 0 && CHECKED_BEFORE % SNAPSHOT_WORD == 0, "whole words");
 
 /* ---- Checksum ---- */
 
@@ -43,7 +44,7 @@ static uint64_t mix_word(uint64_t hash, uint64_t word)
 static uint64_t word_at(const char *bytes, uint64_t word)
 {
     uint64_t value;
-    memcpy(&value, bytes + word * WORD, WORD);
+    memcpy(&value, bytes + word * SNAPSHOT_WORD, SNAPSHOT_WORD);
     return value;
 }
 
@@ -52,114 +53,14 @@ static uint64_t word_at(const char *bytes, uint64_t word)
 static uint64_t checksum_of(const char *snapshot, uint64_t bytes)
 {
     uint64_t lane[LANES] = {1, 2, 3, 4};
-    for (uint64_t w = 0; w < CHECKED_BEFORE / WORD; w++) lane[w % LANES] = mix_word(lane[w % LANES], word_at(snapshot, w));
+    for (uint64_t w = 0; w < CHECKED_BEFORE / SNAPSHOT_WORD; w++) lane[w % LANES] = mix_word(lane[w % LANES], word_at(snapshot, w));
     const char *rest = snapshot + sizeof(Header);
-    const uint64_t words = (bytes - sizeof(Header)) / WORD;
+    const uint64_t words = (bytes - sizeof(Header)) / SNAPSHOT_WORD;
     uint64_t w = 0;
     for (; w + LANES <= words; w += LANES)
         for (int k = 0; k < LANES; k++) lane[k] = mix_word(lane[k], word_at(rest, w + (uint64_t)k));
     for (; w < words; w++) lane[w % LANES] = mix_word(lane[w % LANES], word_at(rest, w));
     return mix_word(mix_word(mix_word(lane[0], lane[1]), lane[2]), lane[3]);
-}
-
-/* ---- Payloads ---- */
-
-void snapshot_put(SnapshotOut *out, const void *data, size_t bytes)
-{
-    if (out->data && bytes) memcpy(out->data + out->at, data, bytes);
-    out->at += bytes;
-}
-
-bool snapshot_take(SnapshotIn *in, void *data, size_t bytes)
-{
-    const bool enough = in->bytes - in->at >= bytes;
-    if (enough && bytes) memcpy(data, in->data + in->at, bytes);
-    if (!enough) memset(data, 0, bytes);
-    in->at += enough ? bytes : 0;
-    return enough;
-}
-
-static uint64_t padded(uint64_t bytes) { return (bytes + WORD - 1) / WORD * WORD; }
-
-void snapshot_put_part(SnapshotOut *out, const void *part, size_t bytes)
-{
-    static const char zeros[WORD] = {0};
-    const uint64_t length = bytes;
-    snapshot_put(out, &length, sizeof length);
-    snapshot_put(out, part, bytes);
-    snapshot_put(out, zeros, padded(bytes) - bytes);
-}
-
-bool snapshot_take_part(SnapshotIn *in, void *part, size_t bytes)
-{
-    uint64_t length;
-    if (!snapshot_take(in, &length, sizeof length) || length > in->bytes - in->at || padded(length) > in->bytes - in->at) return false;
-    const char *data = in->data + in->at;
-    in->at += padded(length);
-    memcpy(part, data, length < bytes ? length : bytes);
-    for (uint64_t i = bytes; i < length; i++)
-        if (data[i] != 0) return false;
-    return true;
-}
-
-bool snapshot_goes_on(const SnapshotIn *in) { return in->at < in->bytes; }
-
-/* ---- Lists of things ---- */
-
-typedef struct Name {
-    uint64_t key;
-    uint32_t slot;
-    uint32_t reserved; /* 0 */
-} Name;
-
-void snapshot_put_name(SnapshotOut *out, uint32_t slot, uint64_t key)
-{
-    const Name name = {.key = key, .slot = slot};
-    snapshot_put(out, &name, sizeof name);
-}
-
-static int32_t place_of(const World *world, KeyedKind kind, const Name *name)
-{
-    const int32_t place = name->key ? keyed_find(world, kind, name->key) : -1;
-    if (place >= 0) return place;
-    return keyed_generation(world, kind, name->slot) != 0 ? (int32_t)name->slot : -1;
-}
-
-pbmpm_result snapshot_take_name(const World *world, SnapshotIn *in, KeyedKind kind, Matched *matched, int32_t *place, uint32_t *saved)
-{
-    Name name;
-    const bool whole = snapshot_take(in, &name, sizeof name);
-    *place = -1;
-    if (saved) *saved = name.slot;
-    if (!whole) return snapshot_malformed();
-    *place = place_of(world, kind, &name);
-    if (*place < 0 && in->restoring->keeps) return PBMPM_OK;
-    if (*place < 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot has more %s than the world: that of index %u is not there", keyed_name(kind), name.slot);
-    uint64_t *word = &matched->seen[*place / 64], bit = (uint64_t)1 << *place % 64;
-    if (*word & bit) return fail(PBMPM_ERROR_FOREIGN, "two %s of the snapshot are the one at index %d of the world: give them keys", keyed_name(kind), *place);
-    *word |= bit;
-    return PBMPM_OK;
-}
-
-pbmpm_result snapshot_all_matched(const World *world, const SnapshotIn *in, KeyedKind kind, const Matched *matched)
-{
-    for (uint32_t slot = 0; slot < keyed_slots(world, kind) && !in->restoring->keeps; slot++)
-        if (keyed_generation(world, kind, slot) != 0 && !(matched->seen[slot / 64] >> slot % 64 & 1))
-            return fail(PBMPM_ERROR_FOREIGN, "the snapshot has not all %s of the world: that of index %u is not there", keyed_name(kind), slot);
-    return PBMPM_OK;
-}
-
-pbmpm_shape snapshot_posed(const pbmpm_shape *shape, const pbmpm_shape *pose)
-{
-    pbmpm_shape posed = *shape;
-    memcpy(posed.position, pose->position, sizeof posed.position);
-    memcpy(posed.rotation, pose->rotation, sizeof posed.rotation);
-    return posed;
-}
-
-pbmpm_result snapshot_malformed(void)
-{
-    return fail(PBMPM_ERROR_FOREIGN, "a section of the snapshot is not laid out as this version writes it");
 }
 
 /* ---- What the world is made of: compared, not loaded, but for the origin ---- */
@@ -493,7 +394,7 @@ uint64_t snapshot_size(const World *world)
     uint64_t bytes = sizeof(Header);
     for (int i = 0; i < SECTIONS; i++) {
         const uint64_t payload = payload_bytes(world, sections[i]);
-        if (payload) bytes += sizeof(SectionHeader) + padded(payload);
+        if (payload) bytes += sizeof(SectionHeader) + snapshot_padded(payload);
     }
     return bytes;
 }
@@ -515,8 +416,8 @@ void snapshot_save(const World *world, void *buffer)
         SnapshotOut out = {.data = data + header.bytes};
         sections[i]->save(world, &out);
         ASSERT(out.at == section.bytes);
-        memset(out.data + out.at, 0, padded(out.at) - out.at);
-        header.bytes += padded(out.at);
+        memset(out.data + out.at, 0, snapshot_padded(out.at) - out.at);
+        header.bytes += snapshot_padded(out.at);
         header.sections++;
     }
     ASSERT(header.bytes == snapshot_size(world));
@@ -539,7 +440,7 @@ static pbmpm_result check_header(const char *snapshot, uint64_t bytes, Header *h
     if (bytes < sizeof *header) return fail(PBMPM_ERROR_DAMAGED, "a snapshot has more than %llu bytes", (unsigned long long)bytes);
     memcpy(header, snapshot, sizeof *header);
     if (memcmp(header->magic, MAGIC, sizeof MAGIC) != 0) return fail(PBMPM_ERROR_DAMAGED, "this is not a snapshot");
-    if (header->bytes > bytes || header->bytes < sizeof *header || header->bytes % WORD != 0)
+    if (header->bytes > bytes || header->bytes < sizeof *header || header->bytes % SNAPSHOT_WORD != 0)
         return fail(PBMPM_ERROR_DAMAGED, "the snapshot is truncated or damaged: it says %llu bytes, and there are %llu",
                     (unsigned long long)header->bytes, (unsigned long long)bytes);
     if (checksum_of(snapshot, header->bytes) != header->checksum)
@@ -571,7 +472,7 @@ static pbmpm_result find_payloads(const char *snapshot, const Header *header, Sn
         if (i < 0) return fail(PBMPM_ERROR_FOREIGN, "the snapshot holds state that this version does not know (section %u)", section.tag);
         if (section.bytes == 0 || section.bytes > header->bytes - at || found[i].data) return snapshot_malformed();
         found[i] = (SnapshotIn){.data = snapshot + at, .bytes = section.bytes};
-        at += padded(section.bytes); /* both ends are whole words, so this is not beyond the last */
+        at += snapshot_padded(section.bytes); /* both ends are whole words, so this is not beyond the last */
     }
     return at == header->bytes ? PBMPM_OK : snapshot_malformed();
 }

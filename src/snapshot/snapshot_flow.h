@@ -3,7 +3,7 @@
 #ifndef PBMPM_SRC_SNAPSHOT_SNAPSHOT_FLOW_H
 #define PBMPM_SRC_SNAPSHOT_SNAPSHOT_FLOW_H
 
-#include "snapshot/snapshot.h"
+#include "snapshot/payload.h"
 
 extern const SnapshotSection sleep_section; /* snapshot_sleep.c */
 extern const SnapshotSection emitters_section;

@@ -2,7 +2,7 @@
 #ifndef PBMPM_SRC_SNAPSHOT_SNAPSHOT_PARTICLES_H
 #define PBMPM_SRC_SNAPSHOT_SNAPSHOT_PARTICLES_H
 
-#include "snapshot/snapshot.h"
+#include "snapshot/payload.h"
 
 extern const SnapshotSection particles_section;
 

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "contact/walls.h"
-#include "solvers/joint.h"
+#include "solvers/passes.h"
 #include "world/depth.h"
 #include "world/island_groups.h"
 

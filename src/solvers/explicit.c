@@ -1,10 +1,15 @@
 #include "solvers/explicit.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/result.h"
+#include "solvers/moduli.h"
+#include "solvers/passes.h"
 
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
+
+void explicit_set_materials(World *world, float dt) { moduli_set(world, dt, FLT_MAX); }
 
 pbmpm_result explicit_prepare(World *world)
 {

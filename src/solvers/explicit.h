@@ -3,7 +3,10 @@
 #ifndef PBMPM_SRC_SOLVERS_EXPLICIT_H
 #define PBMPM_SRC_SOLVERS_EXPLICIT_H
 
-#include "solvers/solver.h"
+#include "world/world.h"
+
+/* What the kernels need to know of materials in substeps of `dt` seconds. */
+void explicit_set_materials(World *world, float dt);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result explicit_prepare(World *world);

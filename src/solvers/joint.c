@@ -7,6 +7,8 @@
 #include "contact/contacts_find.h"
 #include "contact/walls.h"
 #include "solvers/dual/dual.h"
+#include "solvers/moduli.h"
+#include "solvers/passes.h"
 #include "solvers/primal/primal.h"
 
 enum { W = K_NODE_WIDTH, BLOCK_GRAIN = 8 };
@@ -24,6 +26,8 @@ double joint_stiffness_share(const World *world, const pbmpm_material_def *def, 
     const double n = (double)world->settings.iterations;
     return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(world, def, substep));
 }
+
+void joint_set_materials(World *world, float dt) { dual_set_materials(world, dt); }
 
 static size_t nodes_of(const World *world) { return (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells; }
 
@@ -142,15 +146,23 @@ static void push_staying(const World *world, Contact *contact, size_t at)
     for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] = u[c] - (gradient[c] + world->args.node_push[at + c]) / base[3];
 }
 
+/* As stiff as the primal holds them among liquid. */
+static void set_solids(World *world)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID)
+            moduli_set_solid(world, slot, world->args.dt, joint_stiffness_share(world, &world->materials.def[slot], (double)world->args.dt));
+}
+
 static void begin_primal(World *world)
 {
     exchange_contacts(world);
     for_staying(world, stay_here);
-    solver_set_solids(world, false);
+    set_solids(world);
     solver_over_particles(world, world->kernels->hold_pressure);
 }
 
-void joint_sketch(World *world, const ContactFrame *contacts)
+static void sketch(World *world, const ContactFrame *contacts)
 {
     over_blocks(world, start_solids);
     begin_primal(world);
@@ -159,7 +171,7 @@ void joint_sketch(World *world, const ContactFrame *contacts)
     over_blocks(world, move_predictor);
     for_staying(world, push_staying);
     exchange_contacts(world);
-    solver_set_solids(world, true);
+    dual_set_solids(world, world->args.dt);
 }
 
 /* ---- The substep ---- */
@@ -198,7 +210,7 @@ void joint_solve(World *world, const ContactFrame *contacts)
 {
     const size_t bytes = nodes_of(world) * W * sizeof(float);
     bind(world);
-    dual_solve(world, contacts);
+    dual_solve_with(world, contacts, sketch);
     const StepRecord dual = world->record;
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     memcpy(world->joint.node.data, world->grid.node.data, bytes);

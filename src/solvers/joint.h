@@ -20,13 +20,13 @@
 #ifndef PBMPM_SRC_SOLVERS_JOINT_H
 #define PBMPM_SRC_SOLVERS_JOINT_H
 
-#include "solvers/solver.h"
-
-/* Whether it is the solver of this substep. */
-static inline bool joint_is_chosen(const World *world) { return world->record.solver == PBMPM_SOLVER_CONVERGENT; }
+#include "world/world.h"
 
 /* The share of its stiffness that an elastic material among liquid gets. */
 double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+
+/* What the kernels need to know of materials in substeps of `dt` seconds, while the dual works. */
+void joint_set_materials(World *world, float dt);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result joint_prepare(World *world);
@@ -36,8 +36,5 @@ void joint_free(World *world);
 pbmpm_result joint_find_contacts(World *world, const ContactFrame *contacts);
 
 void joint_solve(World *world, const ContactFrame *contacts);
-
-/* In the dual's guess, once liquids have pushed with the pressures that they start from. */
-void joint_sketch(World *world, const ContactFrame *contacts);
 
 #endif

@@ -3,8 +3,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "solvers/passes.h"
 #include "solvers/plastic.h"
-#include "solvers/solver.h"
 #include "world/depth.h"
 
 /* ---- The bound of the pressure ---- */

@@ -5,7 +5,7 @@
 #ifndef PBMPM_SRC_SOLVERS_PAPER_H
 #define PBMPM_SRC_SOLVERS_PAPER_H
 
-#include "solvers/solver.h"
+#include "world/world.h"
 
 /* What the projections need to know about a substep of `dt` seconds. */
 void paper_set_materials(World *world, float dt);

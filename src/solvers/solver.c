@@ -4,14 +4,12 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/clock.h"
 #include "base/result.h"
 #include "solvers/dual/dual.h"
-#include "solvers/dual/guess.h"
 #include "solvers/explicit.h"
 #include "solvers/joint.h"
 #include "solvers/paper.h"
-#include "solvers/plastic.h"
+#include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
 #include "solvers/primal/primal.h"
 #include "solvers/viscosity.h"
@@ -21,25 +19,25 @@
 
 enum { BLOCK_GRAIN = 2 };
 
-/* ---- Parameters of the substep ---- */
+typedef struct SolverKind {
+    void (*set_materials)(World *world, float dt);
+    pbmpm_result (*prepare)(World *world); /* takes memory; the paper's needs none */
+    void (*solve)(World *world, const ContactFrame *contacts);
+} SolverKind;
 
-/* The share per substep that makes the same share per 1/60 s at any rate: what J is corrected by becomes a velocity, correction / dt, and
- * so noise of the density heats liquid the more the shorter the substep. */
-float solver_feedback_share(const pbmpm_material_def *def, float dt)
-{
-    return (float)(1.0 - pow(1.0 - (double)def->volume_feedback, fmin(60.0 * (double)dt, 1.0)));
-}
+static const SolverKind kinds[] = {
+    [PBMPM_SOLVER_PAPER] = {paper_set_materials, NULL, paper_solve},
+    [PBMPM_SOLVER_DUAL] = {dual_set_materials, dual_prepare, dual_solve},
+    [PBMPM_SOLVER_PRIMAL] = {primal_set_materials, primal_prepare, primal_solve},
+    [PBMPM_SOLVER_EXPLICIT] = {explicit_set_materials, explicit_prepare, explicit_solve},
+    [PBMPM_SOLVER_CONVERGENT] = {joint_set_materials, joint_prepare, joint_solve},
+};
+
+/* ---- Parameters of the substep ---- */
 
 /* Of the feedback's share, that by which the mean of J over a block follows the grid. Pools of 4 to 48 cells kept their height with it; it takes 0.8 s. Without gravity
  * nothing presses gaps shut, and a drop that only goes along would come to breathe: what the control corrects is strain, for which it corrects more. */
 static const double CONTROL_SHARE = 0.2;
-
-/* Whether J of a material follows what the grid holds: of what keeps no shape, and of sand with the dual solver, see ispc/granular.isph. */
-static bool follows_grid(const World *world, uint32_t slot)
-{
-    const bool sand = world->materials.kernel[slot].yields == K_SAND;
-    return material_flows(&world->materials.def[slot]) || (sand && solver_uses_dual(world));
-}
 
 static void set_volume_control(World *world, float dt)
 {
@@ -47,7 +45,7 @@ static void set_volume_control(World *world, float dt)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
-        const bool controlled = follows_grid(world, slot) && material->yields != K_VISCO;
+        const bool controlled = solver_follows_grid(world, slot) && material->yields != K_VISCO;
         material->volume_share = controlled ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
     }
 }
@@ -55,72 +53,6 @@ static void set_volume_control(World *world, float dt)
 /* Where the dual and the primal solver's liquid is slower than this [cells/s], feedback fades. By itself it moves matter by less: 6 per second (0.1 per 1/60 s) of
  * 5 % of noise are 0.3 cells/s. */
 static const double CALM_SPEED = 2.4;
-
-/* Moduli without units: c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
-static double unit_of(const World *world, const pbmpm_material_def *def, float dt)
-{
-    const double cells = (double)dt / (double)world->def.cell_size;
-    return 4.0 * cells * cells / (double)def->density;
-}
-
-static void set_liquid(World *world, uint32_t slot, float dt, float stiffest)
-{
-    const pbmpm_material_def *def = &world->materials.def[slot];
-    KernelMaterial *material = &world->materials.kernel[slot];
-    const double c = unit_of(world, def, dt);
-    const bool incompressible = def->bulk_modulus == 0.0f;
-    material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
-    if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
-    material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
-    material->rebound_max = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_growth(material->dilation) : FLT_MAX;
-    material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
-    material->pascal = (float)fmin(1.0 / c, 1e30);
-    material->viscous_share = (float)viscosity_share(world, def, (double)dt);
-}
-
-static void set_solid(World *world, uint32_t slot, float dt, bool by_dual)
-{
-    const pbmpm_material_def *def = &world->materials.def[slot];
-    KernelMaterial *material = &world->materials.kernel[slot];
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
-    const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
-    double c = unit_of(world, def, dt);
-    material->relaxation = def->relaxation;
-    if (by_dual) {
-        c *= dual_stiffness_cap(world, def, (double)dt);
-        material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
-    } else if (joint_is_chosen(world)) {
-        c *= joint_stiffness_share(world, def, (double)dt);
-    }
-    material->shear = (float)fmin(c * shear, 1e30);
-    material->dilation = (float)fmin(c * lambda, 1e30);
-    if (material->yields == K_SAND) dual_set_sand(world, slot, c);
-    plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
-}
-
-static void set_moduli(World *world, float dt)
-{
-    const double measure = guess_density(world);
-    const float stiffest = world->record.solver == PBMPM_SOLVER_PRIMAL ? primal_liquid_dilation(world, dt) : FLT_MAX;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        if (world->materials.generation[slot] == 0) continue;
-        const pbmpm_material_def *def = &world->materials.def[slot];
-        KernelMaterial *material = &world->materials.kernel[slot];
-        material->relaxation = def->relaxation;
-        if (material_flows(def) || material->yields == K_SAND) material->volume_feedback = follows_grid(world, slot) ? solver_feedback_share(def, dt) : 0.0f;
-        material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID)
-            set_liquid(world, slot, dt, stiffest);
-        else
-            set_solid(world, slot, dt, solver_uses_dual(world));
-    }
-}
-
-void solver_set_solids(World *world, bool by_dual)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID) set_solid(world, slot, world->args.dt, by_dual);
-}
 
 /* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that
  * carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds r times as much and leaps. Made stiffer slowly it
@@ -134,8 +66,6 @@ static void follow_iterations(World *world, float dt)
     const double risen = solver_uses_dual(world) ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
-
-/* ---- Running kernels ---- */
 
 /* Whether liquids find each other by their mass, see held_for() in ispc/liquids.isph. The paper's solver bounds what crushed liquid grows with instead. */
 static bool weighs_liquids(const World *world)
@@ -184,10 +114,7 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
     follow_iterations(world, dt);
-    if (world->record.solver == PBMPM_SOLVER_PAPER)
-        paper_set_materials(world, dt);
-    else
-        set_moduli(world, dt);
+    kinds[world->record.solver].set_materials(world, dt);
     set_volume_control(world, dt);
     memcpy(a->fraction, p->fraction, sizeof a->fraction);
     memcpy(a->cell, p->cell, sizeof a->cell);
@@ -201,58 +128,6 @@ void solver_bind(World *world, float dt, bool with_volume)
     }
 }
 
-typedef struct KernelJob {
-    Kernel *kernel;
-    KernelArgs *args;
-    const ContactFrame *contacts; /* for kernels that update nodes; else null */
-} KernelJob;
-
-static void run_kernel(void *context, int32_t begin, int32_t end)
-{
-    const KernelJob *job = context;
-    job->kernel(job->args, begin, end);
-    if (job->contacts) contacts_apply(job->contacts, begin, end);
-}
-
-void solver_add_rows(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args)
-{
-    const KernelJob job = {kernel, args, NULL};
-    LOOPS_ADD(loops, grid_rows(&world->grid, BLOCK_GRAIN), run_kernel, &job);
-}
-
-void solver_add_nodes(Loops *loops, const World *world, Kernel *kernel, KernelArgs *args, const ContactFrame *contacts)
-{
-    const bool follows = contacts && walls_any(&world->walls); /* which needs all nodes */
-    const KernelJob job = {kernel, args, follows ? NULL : contacts};
-    LOOPS_ADD(loops, grid_nodes(&world->grid, 2 * BLOCK_GRAIN), run_kernel, &job);
-    if (follows) walls_add(&world->walls, contacts, loops, false, NULL);
-}
-
-void solver_over_particles(World *world, Kernel *kernel)
-{
-    Loops loops;
-    loops_open(&loops, world->pool);
-    solver_add_rows(&loops, world, kernel, &world->args);
-    loops_run(&loops);
-}
-
-void solver_over_still(World *world, Kernel *kernel)
-{
-    KernelJob job = {kernel, &world->args, NULL};
-    pool_for(world->pool, world->grid.still_blocks, BLOCK_GRAIN, run_kernel, &job);
-}
-
-void solver_obey(World *world, const ContactFrame *contacts) { walls_apply(&world->walls, contacts, world->pool, false, NULL); }
-
-void solver_over_both(World *world, Kernel *rows, Kernel *nodes, const ContactFrame *contacts)
-{
-    Loops loops;
-    loops_open(&loops, world->pool);
-    solver_add_rows(&loops, world, rows, &world->args);
-    solver_add_nodes(&loops, world, nodes, &world->args, contacts);
-    loops_run(&loops);
-}
-
 void solver_predict(World *world)
 {
     solver_over_both(world, world->kernels->scatter, world->kernels->predict_nodes, NULL);
@@ -261,66 +136,10 @@ void solver_predict(World *world)
 
 /* ---- Solving ---- */
 
-bool solver_time_is_up(const World *world)
-{
-    return world->settings.time_budget_ms > 0.0f && now_ms() > world->record.deadline_ms;
-}
-
-bool solver_may_go_on(World *world, double predicted_error)
-{
-    const pbmpm_settings *settings = &world->settings;
-    StepRecord *record = &world->record;
-    record->predicted_error = predicted_error;
-    record->stop = PBMPM_STOP_ITERATIONS;
-    if (record->iterations_used >= (uint32_t)settings->iterations) return false;
-    if (settings->target_error > 0.0f && predicted_error < (double)settings->target_error) record->stop = PBMPM_STOP_ERROR;
-    if (solver_time_is_up(world)) record->stop = PBMPM_STOP_TIME;
-    return record->stop == PBMPM_STOP_ITERATIONS;
-}
-
-typedef struct SolverKind {
-    pbmpm_result (*prepare)(World *world); /* takes memory; the paper's needs none */
-    void (*solve)(World *world, const ContactFrame *contacts);
-} SolverKind;
-
-static const SolverKind kinds[] = {
-    [PBMPM_SOLVER_PAPER] = {NULL, paper_solve},
-    [PBMPM_SOLVER_DUAL] = {dual_prepare, dual_solve},
-    [PBMPM_SOLVER_PRIMAL] = {primal_prepare, primal_solve},
-    [PBMPM_SOLVER_EXPLICIT] = {explicit_prepare, explicit_solve},
-    [PBMPM_SOLVER_CONVERGENT] = {joint_prepare, joint_solve},
-};
-
-bool solver_holds_liquid(const World *world)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && !material_is_solid(&world->materials, slot)) return true;
-    return false;
-}
-
 bool solver_follows_walls(const World *world)
 {
     if (!solver_uses_dual(world) && world->record.solver != PBMPM_SOLVER_EXPLICIT) return false;
     return solver_holds_liquid(world) || (solver_uses_dual(world) && world->settings.iterations == 1);
-}
-
-bool solver_uses_dual(const World *world)
-{
-    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == PBMPM_SOLVER_CONVERGENT;
-}
-
-double solver_joule(const World *world)
-{
-    const double cells = (double)world->args.dt * (double)world->args.cells_per_metre;
-    return 1.0 / (cells * cells);
-}
-
-/* Whether there are particles of sand. */
-bool solver_holds_sand(const World *world)
-{
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->particles.of_material[slot] > 0 && world->materials.kernel[slot].yields == K_SAND) return true;
-    return false;
 }
 
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep; and it reaches through any depth of liquid, which

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "solvers/passes.h"
 
 double viscosity_share(const World *world, const pbmpm_material_def *def, double dt)
 {

@@ -3,7 +3,7 @@
 #ifndef PBMPM_SRC_SOLVERS_VISCOSITY_H
 #define PBMPM_SRC_SOLVERS_VISCOSITY_H
 
-#include "solvers/solver.h"
+#include "world/world.h"
 
 /* Stages that a substep takes at most; what needs more acts with less viscosity. */
 enum { VISCOUS_STAGES_MAX = 64 };

@@ -166,12 +166,8 @@ const char *settings_problem(const pbmpm_settings *settings, int dimension);
 /* Whether matter at rest under one may move under the other. */
 bool settings_change_motion(const pbmpm_settings *before, const pbmpm_settings *after);
 
-/* The definition is valid. */
 /* Whether a collider acts on any of the matter that there is. */
 bool world_feels(const World *world, const Collider *collider);
-
-pbmpm_result world_create(const pbmpm_world_def *def, World **world);
-void world_destroy(World *world);
 
 /* The cells that particles may be in; the neighbours of the last block are in range too. */
 enum { CELL_LIMIT = PBMPM_MAX_CELL - 2 * K_BLOCK_AXIS };

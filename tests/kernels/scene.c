@@ -6,8 +6,9 @@
 #include <string.h>
 #include <unity.h>
 
-#include "check.h"
 #include "base/cpu.h"
+#include "check.h"
+#include "services/lifecycle.h"
 #include "solvers/solver.h"
 
 pbmpm_material_def scene_material(pbmpm_material_kind kind)

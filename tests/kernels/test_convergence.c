@@ -7,6 +7,7 @@
 
 #include "bounds.h"
 #include "check.h"
+#include "contact/contacts_find.h"
 #include "dense.h"
 #include "dual_stages.h"
 #include "isas.h"

@@ -4,9 +4,11 @@
 #include <unity.h>
 
 #include "books.h"
-#include "world/colliders.h"
+#include "contact/contacts_find.h"
 #include "contact/field.h"
+#include "contact/push_out.h"
 #include "random.h"
+#include "world/colliders.h"
 #include "world/world.h"
 
 void setUp(void) {}

@@ -5,7 +5,10 @@
 
 #include "books.h"
 #include "random.h"
+#include "services/lifecycle.h"
 #include "solvers/solver.h"
+#include "step/draining.h"
+#include "step/forcing.h"
 #include "step/step.h"
 #include "world/world.h"
 

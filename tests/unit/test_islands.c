@@ -2,6 +2,7 @@
 #include <stdlib.h>
 #include <unity.h>
 
+#include "services/lifecycle.h"
 #include "step/step.h"
 #include "world/island_groups.h"
 #include "world/world.h"

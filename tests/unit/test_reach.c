@@ -2,8 +2,9 @@
 #include <stdlib.h>
 #include <unity.h>
 
-#include "random.h"
 #include "contact/reach.h"
+#include "random.h"
+#include "services/lifecycle.h"
 #include "solvers/solver.h"
 
 void setUp(void) {}

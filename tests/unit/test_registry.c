@@ -4,6 +4,7 @@
 #include <unity.h>
 
 #include "base/generations.h"
+#include "services/lifecycle.h"
 #include "services/registry.h"
 
 void setUp(void) {}

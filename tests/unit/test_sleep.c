@@ -3,10 +3,12 @@
 #include <string.h>
 #include <unity.h>
 
-#include "step/crowd.h"
 #include "random.h"
+#include "services/lifecycle.h"
+#include "step/crowd.h"
 #include "step/sleep.h"
 #include "step/step.h"
+#include "world/sleep_rows.h"
 #include "world/world.h"
 
 void setUp(void) {}

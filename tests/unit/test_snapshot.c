@@ -12,6 +12,7 @@
 #include "random.h"
 #include "services/edit.h"
 #include "services/inspect.h"
+#include "services/lifecycle.h"
 #include "services/registry.h"
 #include "snapshot/snapshot.h"
 #include "step/step.h"

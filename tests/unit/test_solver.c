@@ -5,12 +5,14 @@
 #include <unity.h>
 
 #include "base/clock.h"
-#include "world/depth.h"
+#include "random.h"
+#include "services/lifecycle.h"
 #include "solvers/dual/dual.h"
 #include "solvers/dual/dual_error.h"
-#include "random.h"
 #include "solvers/dual/rounds.h"
+#include "solvers/passes.h"
 #include "solvers/solver.h"
+#include "world/depth.h"
 
 void setUp(void) {}
 void tearDown(void) {}

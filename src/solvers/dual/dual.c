@@ -1,14 +1,17 @@
 #include "solvers/dual/dual.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/result.h"
+#include "solvers/dual/acceleration.h"
 #include "solvers/dual/dual_error.h"
 #include "solvers/dual/guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
-#include "solvers/joint.h"
+#include "solvers/moduli.h"
+#include "solvers/passes.h"
 #include "world/depth.h"
 
 /* Floats per node of the arrays of cells: mass, growth, softness, pressure, pressure_old. */
@@ -217,7 +220,7 @@ static void add_solids(World *world, Loops *loops)
 
 /* Pressures that balance what is wrong over the depth of a pool. Where that fails they are taken back. Meanwhile elastic particles have no
  * stress, and with pressures in cells what liquids remember is not asked for. Nothing is extrapolated. */
-static void guess(World *world, const ContactFrame *contacts, int iterations)
+static void guess(World *world, const ContactFrame *contacts, int iterations, DualSketch *sketch)
 {
     const Kernels *kernels = world->kernels;
     KernelArgs *a = &world->args;
@@ -226,9 +229,9 @@ static void guess(World *world, const ContactFrame *contacts, int iterations)
     guess_begin(world, contacts);
     a->probing = in_cells(world);
     add_guess(world, &loops, contacts, kernels->cells_carry);
-    if (joint_is_chosen(world)) {
+    if (sketch) {
         loops_run(&loops);
-        joint_sketch(world, contacts);
+        sketch(world, contacts);
         add_solids(world, &loops);
     }
     const double before = guess_gain(world, &loops);
@@ -245,7 +248,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations)
 }
 
 /* First multipliers, and the displacements that they make. Returns the mass of the particles. */
-static double start(World *world, const ContactFrame *contacts)
+static double start(World *world, const ContactFrame *contacts, DualSketch *sketch)
 {
     const Kernels *kernels = world->kernels;
     const int guesses = guess_iterations(world);
@@ -262,7 +265,7 @@ static double start(World *world, const ContactFrame *contacts)
     loops_run(&loops);
     const double mass = sum_blocks(&world->dual.change2, world->grid.particle_blocks);
     if (guesses > 0) {
-        guess(world, contacts, guesses);
+        guess(world, contacts, guesses, sketch);
         return mass;
     }
     add_push(world, &loops, contacts, &still);
@@ -294,21 +297,6 @@ static Change change_of(const World *world)
     return change;
 }
 
-static double next_of(double t) { return 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t)); }
-
-Acceleration acceleration_begin(World *world)
-{
-    world->args.momentum = 0.0f;
-    return (Acceleration){world, 1.0};
-}
-
-void acceleration_next(Acceleration *acceleration, bool uphill, bool more)
-{
-    const double t = acceleration->t, next = next_of(t);
-    acceleration->world->args.momentum = uphill || !more ? 0.0f : (float)((t - 1.0) / next);
-    acceleration->t = uphill ? 1.0 : next;
-}
-
 /* A particle that shares its nodes with no other answers S by D = -S. After an extrapolation by b the error of its stress obeys
  * e'' = (1 - w) (e' + b (e' - e)). Of the roots one is negative; it is -r for w = 1 + r^2 / ((1 + b) r + b). With r = 1 the particle trembles for ever
  * (w = 4/3 after many iterations); with this r it comes to rest though it is not linear. The last iteration has the largest b. */
@@ -316,12 +304,7 @@ static const double LONE_DECAY = 0.8;
 
 float dual_longest_relaxation(int iterations)
 {
-    double t = 1.0, b = 0.0;
-    for (int i = 1; i < iterations; i++) {
-        const double next = next_of(t);
-        b = (t - 1.0) / next;
-        t = next;
-    }
+    const double b = acceleration_last(iterations);
     return (float)(1.0 + LONE_DECAY * LONE_DECAY / ((1.0 + b) * LONE_DECAY + b));
 }
 
@@ -380,11 +363,13 @@ static double stiffest(const World *world)
     return most;
 }
 
-void dual_solve(World *world, const ContactFrame *contacts)
+void dual_solve(World *world, const ContactFrame *contacts) { dual_solve_with(world, contacts, NULL); }
+
+void dual_solve_with(World *world, const ContactFrame *contacts, DualSketch *sketch)
 {
     bind(world);
     bind_cells(world);
-    const double mass = fmax(start(world, contacts), 1e-300);
+    const double mass = fmax(start(world, contacts, sketch), 1e-300);
     const int bodies = rounds_wanted(stiffest(world), world->settings.iterations), sand = sand_rounds(world);
     const int rounds = !takes_rounds(world) ? 0 : bodies > sand ? bodies : sand;
     if (rounds > 0) rounds_begin(world);
@@ -398,12 +383,30 @@ void dual_solve(World *world, const ContactFrame *contacts)
  * iterations hold is far less. */
 static const float STIFFEST_SHEAR = 1e4f;
 
-void dual_set_sand(World *world, uint32_t slot, double c)
+void dual_set_solids(World *world, float dt)
 {
-    KernelMaterial *material = &world->materials.kernel[slot];
-    material->carried = (float)fmin(dual_carried_share(world) * c, 1e30);
-    material->pascal = (float)fmin(1.0 / c, 1e30);
-    if (solver_uses_dual(world)) material->shear = fminf(material->shear, STIFFEST_SHEAR);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->materials.generation[slot] == 0 || material->kind == K_LIQUID) continue;
+        moduli_set_solid(world, slot, dt, dual_stiffness_cap(world, def, (double)dt));
+        material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
+        if (material->yields == K_SAND) material->shear = fminf(material->shear, STIFFEST_SHEAR);
+    }
+}
+
+void dual_set_materials(World *world, float dt)
+{
+    const double measure = guess_density(world), carried = dual_carried_share(world);
+    moduli_set(world, dt, FLT_MAX);
+    dual_set_solids(world, dt);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->materials.generation[slot] == 0) continue;
+        material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
+        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(world, def, (double)dt), 1e30);
+    }
 }
 
 double dual_stiffness_of(const World *world, const pbmpm_material_def *def, double substep)

@@ -3,6 +3,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "solvers/dual/acceleration.h"
+#include "solvers/passes.h"
+
 enum { BLOCK_GRAIN = 2 };
 
 int rounds_wanted(double stiffness, int iterations)

@@ -7,7 +7,7 @@
 #ifndef PBMPM_SRC_SOLVERS_DUAL_ROUNDS_H
 #define PBMPM_SRC_SOLVERS_DUAL_ROUNDS_H
 
-#include "solvers/dual/dual.h"
+#include "world/world.h"
 
 enum { ROUNDS_MOST = 16 };
 

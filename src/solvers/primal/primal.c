@@ -5,7 +5,8 @@
 
 #include "base/result.h"
 #include "contact/holds.h"
-#include "solvers/joint.h"
+#include "solvers/moduli.h"
+#include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
 #include "solvers/primal/primal_solve.h"
 
@@ -48,6 +49,15 @@ static void bind_couples(Primal *p)
 }
 
 /* ---- Memory ---- */
+
+void primal_set_materials(World *world, float dt)
+{
+    moduli_set(world, dt, primal_liquid_dilation(world, dt));
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->materials.generation[slot] != 0 && material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
+    }
+}
 
 pbmpm_result primal_prepare(World *world)
 {

@@ -32,7 +32,7 @@
 
 #include <math.h>
 
-#include "solvers/solver.h"
+#include "world/world.h"
 
 /* The dilation of what stands for an incompressible liquid by itself: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
 static inline float primal_stiffest(int iterations) { return 0.25f * (float)iterations * (float)iterations; }
@@ -47,6 +47,9 @@ float primal_liquid_dilation(const World *world, float dt);
  * wave turns all of the pressure's energy into it. So nothing that a particle feels, nodes up to 3/2 cells away, parts from it faster:
  * tr D 3/2 dx <= c dt. */
 static inline float primal_growth(float dilation) { return sqrtf(dilation) / 3.0f; }
+
+/* What the kernels need to know of materials in substeps of `dt` seconds. */
+void primal_set_materials(World *world, float dt);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result primal_prepare(World *world);

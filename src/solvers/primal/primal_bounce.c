@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "contact/holds.h"
+#include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
 

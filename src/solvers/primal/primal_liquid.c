@@ -14,6 +14,8 @@
 
 #include "contact/holds.h"
 #include "solvers/eddy_damping.h"
+#include "solvers/passes.h"
+#include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/depth.h"
 #include "world/island_groups.h"

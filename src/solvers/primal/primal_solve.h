@@ -2,7 +2,7 @@
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
 
-#include "solvers/primal/primal.h"
+#include "world/world.h"
 
 /* In cantilevers the true error of steps was 0.5 to 1.2 residuals (medians) where 10 and 20 iterations were enough, and 1.1 to 2.5 where 2 and
  * 5 were too few. */
