@@ -21,7 +21,7 @@ enum { FLIGHT_ROWS = 64 };
 /* Whether a particle that shares no node with another one is to fly. Asked for many rows at once, in any order. */
 typedef bool GridFlies(const void *context, uint32_t row);
 
-/* How the blocks with particles are ordered: first those that sleep, see sleep.h. Without sleeping all move. */
+/* How the blocks with particles are ordered: first those that sleep, see sleep_list.h. Without sleeping all move. */
 typedef enum GridRank { GRID_LEAVING = -2, GRID_STILL = -1, GRID_MOVING = 0 } GridRank;
 
 /* A block in order of discovery. */

@@ -103,7 +103,7 @@ static void number_groups(Islands *islands, const Grid *grid)
     for (int32_t i = 0; i < parts; i++) up[i] = kinds[up[i]] ? place[kinds[up[i]]] : 0;
 }
 
-int islands_group_of(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t row)
+static int group_of(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t row)
 {
     return ((const int32_t *)islands->up.data)[grid->block_of[row] * ISLAND_KINDS + kind_of(materials, p->material[row])];
 }
@@ -111,7 +111,12 @@ int islands_group_of(const Islands *islands, const Grid *grid, const Particles *
 void islands_count(Islands *islands, const Grid *grid, const Particles *p, const Materials *materials)
 {
     memset(islands->particles, 0, sizeof islands->particles);
-    for (uint32_t row = 0; row < p->count; row++) islands->particles[islands_group_of(islands, grid, p, materials, row)][p->material[row]]++;
+    for (uint32_t row = 0; row < p->count; row++) islands->particles[group_of(islands, grid, p, materials, row)][p->material[row]]++;
+}
+
+void islands_list(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t next[ISLAND_GROUPS], uint32_t *rows)
+{
+    for (uint32_t row = 0; row < p->count; row++) rows[next[group_of(islands, grid, p, materials, row)]++] = row;
 }
 
 bool islands_find(Islands *islands, Grid *grid, Memory *memory, const Particles *p, const Materials *materials)

@@ -35,8 +35,10 @@ uint32_t islands_kind(const Materials *materials, uint32_t slot);
 /* Finds the islands and the groups that they make. Of the grid only what it finds blocks with is changed. False: no memory. */
 bool islands_find(Islands *islands, Grid *grid, Memory *memory, const Particles *p, const Materials *materials);
 
-/* After that: the group of a particle, and how many particles of each material each group has. */
-int islands_group_of(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t row);
+/* After that: lists the rows of each group as they stand, from next[] of the group on. */
+void islands_list(const Islands *islands, const Grid *grid, const Particles *p, const Materials *materials, uint32_t next[ISLAND_GROUPS], uint32_t *rows);
+
+/* Counts the particles of each group and material. */
 void islands_count(Islands *islands, const Grid *grid, const Particles *p, const Materials *materials);
 
 #endif

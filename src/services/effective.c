@@ -24,7 +24,7 @@ static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *de
                              .kinematic_viscosity = liquid ? (float)viscosity : 0.0f};
 }
 
-/* The primal's liquid is as stiff as the iterations and the depth that it had in the last substep let it be; see solver.c. */
+/* The primal's liquid is as stiff as the iterations and the depth that it had in the last substep let it be; see moduli.c. */
 static float bulk_of_liquid(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
 {
     const double cells = substep / (double)world->def.cell_size, unit = 4.0 * cells * cells / (double)def->density;

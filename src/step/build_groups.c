@@ -18,7 +18,7 @@ static void share_out(World *world)
         grid_share(g == 0 ? grid : &islands->part[g], grid, g, next[g], first);
     }
     ASSERT(first == world->particles.count);
-    for (uint32_t row = 0; row < world->particles.count; row++) grid->order_scratch[next[islands_group_of(islands, grid, &world->particles, &world->materials, row)]++] = row;
+    islands_list(islands, grid, &world->particles, &world->materials, next, grid->order_scratch);
 }
 
 static pbmpm_result build_groups(World *world)

@@ -28,7 +28,7 @@ from faults import Fault, choose, equivalents
 ROOT = Path(__file__).resolve().parents[2]
 LEAST = 0.9
 #: Neither fast nor about a fault in src or ispc.
-LEFT_OUT = ("csharp", "consumer", "materials", "cost", "abi", "samples", "fuzz", "strict")
+LEFT_OUT = ("csharp", "consumer", "materials", "cost", "abi", "samples", "fuzz", "strict", "rooms")
 PYTHON_TESTS = ("physics", "primal", "islands", "joint", "contact", "impact", "granular", "forces", "flow", "queries", "sleep", "predicted_error", "deep_solids", "mixed")
 
 
