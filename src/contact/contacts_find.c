@@ -5,6 +5,7 @@
 
 #include "base/assertion.h"
 #include "base/result.h"
+#include "contact/field.h"
 #include "contact/reach.h"
 #include "contact/walls.h"
 #include "shape/concave.h"

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "contact/field.h"
 #include "contact/walls.h"
 
 /* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not

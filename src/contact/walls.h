@@ -19,7 +19,7 @@
 #ifndef PBMPM_SRC_CONTACT_WALLS_H
 #define PBMPM_SRC_CONTACT_WALLS_H
 
-#include "contact/field.h"
+#include "contact/contacts.h"
 
 typedef struct Walls {
     Array node;       /* WallNode: nodes at walls, then those that they follow */

@@ -3,6 +3,7 @@
 
 #include "base/result.h"
 #include "base/vector.h"
+#include "contact/field.h"
 #include "contact/reach.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"

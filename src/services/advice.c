@@ -7,7 +7,6 @@
 #include "services/effective.h"
 #include "services/survey.h"
 #include "solvers/passes.h"
-#include "solvers/solver.h"
 #include "world/depth.h"
 
 typedef struct Adviser {

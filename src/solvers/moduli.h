@@ -4,10 +4,11 @@
 
 #include "world/world.h"
 
-/* c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see dual.h. */
+/* c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see ispc/dual.isph. */
 double moduli_unit(const World *world, const pbmpm_material_def *def, double dt);
 
-/* All materials, for substeps of `dt` seconds: solids as stiff as they are, liquids no stiffer than `stiffest`. */
+/* All materials, for substeps of `dt` seconds: solids as stiff as they are, and so are liquids. Those without a bulk modulus are as stiff as `stiffest`, which
+ * bounds all of them with PBMPM_SOLVER_CONVERGENT. */
 void moduli_set(World *world, float dt, float stiffest);
 
 /* A solid with a share of its stiffness. */

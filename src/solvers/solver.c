@@ -1,6 +1,5 @@
 #include "solvers/solver.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 

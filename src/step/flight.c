@@ -3,8 +3,8 @@
 #include <float.h>
 #include <math.h>
 
+#include "contact/obstacles.h"
 #include "solvers/passes.h"
-#include "world/colliders.h"
 
 /* How far [cells] obstacles and forces may matter to what is at a particle's nodes: obstacles beside a near one are looked at too, see look_around() in contacts_find.c. */
 static const double FELT = 4.5;

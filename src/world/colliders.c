@@ -1,6 +1,5 @@
 #include "world/colliders.h"
 
-#include <math.h>
 #include <string.h>
 
 #include "base/numbers.h"

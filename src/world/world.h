@@ -17,12 +17,12 @@
 #include "matter/materials.h"
 #include "matter/particles.h"
 #include "pbmpm/pbmpm.h"
-#include "world/sleep_list.h"
 #include "world/colliders.h"
 #include "world/emitters.h"
 #include "world/events.h"
 #include "world/forces.h"
 #include "world/sinks.h"
+#include "world/sleep_list.h"
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "solvers/passes.h"
 #include "world/depth.h"
 
 /* Arrays of cells: residual, preconditioned residual, direction, response, mask, softness. */

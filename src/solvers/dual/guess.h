@@ -7,7 +7,7 @@
 #ifndef PBMPM_SRC_SOLVERS_DUAL_GUESS_H
 #define PBMPM_SRC_SOLVERS_DUAL_GUESS_H
 
-#include "solvers/passes.h"
+#include "world/world.h"
 
 /* Takes memory for the blocks of this substep. */
 pbmpm_result guess_prepare(World *world);
