@@ -149,7 +149,7 @@ struct KernelArgs {
                                    sum m w h as fourth value */
     K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
     K_CONST_PTR(float) affine_kept; /* per particle block, null: 1; the share of their affine velocities that liquids keep, see
-                                      src/eddy_damping.h */
+                                      src/solvers/eddy_damping.h */
     K_PTR(float) block_energy;  /* out, K_ENERGIES per particle block: m/4 phi of elastic matter, of liquids, of both at D = 0, and m/4 of -A : D */
     K_PTR(float) couple[3];     /* per particle of a solid: the entries 10, 20 and 21 of A, see balance_couple(); null without solids among liquid */
     K_CONST_PTR(uint32_t) among_liquid; /* per particle block: whether its body has liquid; null without solids among liquid */

@@ -1,5 +1,5 @@
 # A strict build gives the same bits with every instruction set: no fused operations (here), sums over lanes by fours (lanes.isph) and functions
-# of our own in place of the C library's (src/strict_math.h). ISPC's divisions and roots are exact, for nothing asks for fast maths, and its
+# of our own in place of the C library's (src/base/strict_math.h). ISPC's divisions and roots are exact, for nothing asks for fast maths, and its
 # other functions are the same source for all. Slower, so it is an option.
 include_guard(GLOBAL)
 option(PBMPM_STRICT "The same results with SSE4, AVX2 and AVX-512, bit for bit; slower" OFF)

@@ -44,7 +44,7 @@ def main(counted: Path, reasons_file: Path) -> int:
     missed: list[str] = []
     not_taken: list[str] = []
     without = 0
-    print(f"{'file':28}{'lines':>14}{'':8}{'branches':>14}")
+    print(f"{'file':36}{'lines':>14}{'':8}{'branches':>14}")
     for entry in sorted(json.loads(counted.read_text(encoding="utf-8"))["files"], key=lambda it: it["file"]):
         path = entry["file"]
         source = Path(path).read_text(encoding="utf-8").splitlines()
@@ -60,7 +60,7 @@ def main(counted: Path, reasons_file: Path) -> int:
         lines_run, lines_all = lines_run + run, lines_all + len(runs)
         branches_run, branches_all = branches_run + taken, branches_all + of
         name = path.removeprefix("src/")
-        print(f"{name:28}{run:6}/{len(runs):<6}{share(run, len(runs)):>9}{taken:8}/{of:<6}{share(taken, of):>9}")
+        print(f"{name:36}{run:6}/{len(runs):<6}{share(run, len(runs)):>9}{taken:8}/{of:<6}{share(taken, of):>9}")
         for number, count in sorted(runs.items()):
             text = source[number - 1].strip()
             if count == 0:

@@ -1,6 +1,6 @@
 #!/bin/sh
 # grow.sh HEADER TABLE FOLDER - writes into FOLDER the headers and the table of sizes of a library in which every structure that may grow has
-# got one more field. HEADER: as the generator keeps it, a declaration on a line; TABLE: src/sized_table.inc.
+# got one more field. HEADER: as the generator keeps it, a declaration on a line; TABLE: src/base/sized_table.inc.
 set -eu
 header=$1 table=$2 folder=$3
 mkdir -p "$folder/pbmpm"

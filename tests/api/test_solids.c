@@ -301,7 +301,7 @@ static uint64_t mix_words(uint64_t hash, const void *data, size_t bytes)
     return hash;
 }
 
-enum { CHECKSUM = 64 }; /* its place in the header; see src/distance_grid.c */
+enum { CHECKSUM = 64 }; /* its place in the header; see src/shape/distance_grid.c */
 
 /* Puts the checksum right, so that what comes after it is looked at. */
 static void mend(void *data, uint64_t bytes)

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "distance_grid.h"
+#include "shape/distance_grid.h"
 #include "fuzz.h"
 
 enum { KEEPS_CHECKSUM = 1, HEADER_BYTES = 72, STEPS_ONCE_IN = 256 };

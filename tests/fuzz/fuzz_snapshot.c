@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "fuzz.h"
-#include "snapshot.h"
+#include "snapshot/snapshot.h"
 
 enum { HEADER_BYTES = 32, LENGTH_AT = 16, IN_3D = 1, KEEPS_PARAMETERS = 64, KEEPS_LENGTH = 2, STEPS_ONCE_IN = 256, COMPARES_ONCE_IN = 16 };
 

@@ -5,7 +5,7 @@
 
 #include "bounds.h"
 #include "check.h"
-#include "dual.h"
+#include "solvers/dual/dual.h"
 #include "dual_stages.h"
 
 enum { CENTRE_ROUNDINGS = 14 }; /* a weight: 3 differences, 3 products; with mass, lightness, J and the multiplier 8 more */

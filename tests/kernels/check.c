@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <unity.h>
 
-#include "cpu.h"
+#include "base/cpu.h"
 
 static char subject_text[128] = "", message[512];
 static double worst_share;

@@ -7,7 +7,7 @@
 
 #include "bounds.h"
 #include "check.h"
-#include "dual.h"
+#include "solvers/dual/dual.h"
 #include "isas.h"
 #include "matrices.h"
 

@@ -2,7 +2,7 @@
 #ifndef PBMPM_TESTS_ISAS_H
 #define PBMPM_TESTS_ISAS_H
 
-#include "cpu.h"
+#include "base/cpu.h"
 
 #define EACH_ISA(isa) for (pbmpm_isa isa = PBMPM_ISA_SSE4; isa <= cpu_isa(); isa = (pbmpm_isa)(isa + 1))
 

@@ -6,9 +6,10 @@
 #include <string.h>
 #include <unity.h>
 
+#include "base/cpu.h"
 #include "check.h"
-#include "cpu.h"
-#include "solver.h"
+#include "services/lifecycle.h"
+#include "solvers/solver.h"
 
 pbmpm_material_def scene_material(pbmpm_material_kind kind)
 {

@@ -4,7 +4,7 @@
 
 #include "random.h"
 #include "reference.h"
-#include "world.h"
+#include "world/world.h"
 
 enum { SCENE_MATERIALS = 4 };
 

@@ -7,11 +7,12 @@
 
 #include "bounds.h"
 #include "check.h"
+#include "contact/contacts_find.h"
 #include "dense.h"
 #include "dual_stages.h"
 #include "isas.h"
 #include "matrices.h"
-#include "solver.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}

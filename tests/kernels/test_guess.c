@@ -5,9 +5,9 @@
 #include <unity.h>
 
 #include "check.h"
-#include "depth.h"
+#include "world/depth.h"
 #include "dual_stages.h"
-#include "guess.h"
+#include "solvers/dual/guess.h"
 #include "isas.h"
 
 void setUp(void) {}

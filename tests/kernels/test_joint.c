@@ -1,4 +1,4 @@
-/* The kernels of the joint solver, see src/joint.h, against the reference. */
+/* The kernels of the joint solver, see src/solvers/joint.h, against the reference. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

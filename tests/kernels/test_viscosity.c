@@ -13,8 +13,8 @@
 #include "isas.h"
 #include "matrices.h"
 #include "scene.h"
-#include "solver.h"
-#include "viscosity.h"
+#include "solvers/solver.h"
+#include "solvers/viscosity.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -5,13 +5,16 @@
 #include <string.h>
 #include <unity.h>
 
+#include "base/cpu.h"
 #include "bounds.h"
 #include "check.h"
-#include "cpu.h"
-#include "open_volume.h"
+#include "contact/contacts_find.h"
+#include "contact/open_volume.h"
+#include "contact/walls.h"
 #include "scene.h"
-#include "solver.h"
-#include "walls.h"
+#include "services/lifecycle.h"
+#include "solvers/passes.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -28,7 +28,7 @@ from faults import Fault, choose, equivalents
 ROOT = Path(__file__).resolve().parents[2]
 LEAST = 0.9
 #: Neither fast nor about a fault in src or ispc.
-LEFT_OUT = ("csharp", "consumer", "materials", "cost", "abi", "samples", "fuzz", "strict")
+LEFT_OUT = ("csharp", "consumer", "materials", "cost", "abi", "samples", "fuzz", "strict", "rooms")
 PYTHON_TESTS = ("physics", "primal", "islands", "joint", "contact", "impact", "granular", "forces", "flow", "queries", "sleep", "predicted_error", "deep_solids", "mixed")
 
 
@@ -109,7 +109,7 @@ class Workplace:
 
     def holds_sources(self, test: Test) -> bool:
         """Whether a test is made of objects besides its own and the libraries: of sources of the library, or of kernels."""
-        if re.search(r'#include "[^"]*/src/\w+\.c"', test.text):
+        if re.search(r'#include "[^"]*/src/[\w/]+\.c"', test.text):
             return True
         target = Path(test.command[0]).name
         rule = re.search(rf"^build \S*/{target}: \w+ ([^|]*)", self.rules, re.MULTILINE)
@@ -295,7 +295,7 @@ def main() -> int:
     arguments.add_argument("--count", type=int, default=100, help="faults, those that do not compile not counted")
     arguments.add_argument("--seed", type=int, default=1, help="which ones")
     arguments.add_argument("--jobs", type=int, default=1, help="copies of the tree that work at once")
-    arguments.add_argument("--files", nargs="+", default=["src/*.c", "ispc/*.isph"], help="where to plant them")
+    arguments.add_argument("--files", nargs="+", default=["src/**/*.c", "ispc/*.isph"], help="where to plant them")
     arguments.add_argument("--slowest", type=float, default=60.0, help="tests that take longer [s] are left out")
     arguments.add_argument("--patience", type=float, default=120.0, help="of the tests with one fault [s]")
     arguments.add_argument("--python", action="store_true", help="run the quicker physics tests of Python, too (needs build/venv)")

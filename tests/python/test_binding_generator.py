@@ -29,16 +29,16 @@ def headers(folder: Path, text: str) -> Path:
 
 
 def test_committed_layout_list_is_current(api: model.Api, root: Path) -> None:
-    committed = (root / "src" / "layout_table.inc").read_text(encoding="utf-8")
+    committed = (root / "src" / "api" / "layout_table.inc").read_text(encoding="utf-8")
     assert committed == layout.emit(api), (
-        "run: cd bindings && python -m generator layout --headers ../include --output ../src/layout_table.inc"
+        "run: cd bindings && python -m generator layout --headers ../include --output ../src/api/layout_table.inc"
     )
 
 
 def test_committed_table_of_sizes_is_current(api: model.Api, root: Path) -> None:
-    committed = (root / "src" / "sized_table.inc").read_text(encoding="utf-8")
+    committed = (root / "src" / "base" / "sized_table.inc").read_text(encoding="utf-8")
     assert committed == sized.emit(api, root / "tests" / "abi"), (
-        "run: cd bindings && python -m generator sized --headers ../include --versions ../tests/abi --output ../src/sized_table.inc"
+        "run: cd bindings && python -m generator sized --headers ../include --versions ../tests/abi --output ../src/base/sized_table.inc"
     )
 
 
@@ -59,7 +59,7 @@ def test_committed_calls_of_the_fuzz_target_are_current(api: model.Api, root: Pa
 
 
 def test_every_declared_function_is_exported(api: model.Api, root: Path) -> None:
-    exports = (root / "src" / "exports.txt").read_text(encoding="utf-8").split("\n")
+    exports = (root / "src" / "api" / "exports.txt").read_text(encoding="utf-8").split("\n")
     exported = {line.strip() for line in exports if line.startswith("pbmpm_")}
     assert exported == {function.name for function in api.functions}
 

@@ -19,7 +19,7 @@ STEPS = 30
 
 
 RESTING = pytest.mark.xfail(
-    strict=True, reason="known: coming to rest, a third of the steps is predicted 3 to 8.5 times too large; see src/dual_error.h"
+    strict=True, reason="known: coming to rest, a third of the steps is predicted 3 to 8.5 times too large; see src/solvers/dual/dual_error.h"
 )
 SETTINGS = [
     pytest.param(liquid, iterations, rate, marks=[RESTING] if (liquid, iterations, rate) == ("column", 5, 60) else [])

@@ -1,5 +1,5 @@
 #!/bin/sh
-# imports.sh NM LIBRARY - a strict build takes no function from the C library that CPUs round differently: see src/strict_math.h. acos is
+# imports.sh NM LIBRARY - a strict build takes no function from the C library that CPUs round differently: see src/base/strict_math.h. acos is
 # in what advice says alone.
 set -eu
 wrong=$("$1" -D --undefined-only "$2" | sed 's/.* U //; s/@.*//' |

@@ -2,7 +2,7 @@
 #ifndef PBMPM_TESTS_BOOKS_H
 #define PBMPM_TESTS_BOOKS_H
 
-#include "memory.h"
+#include "base/memory.h"
 
 typedef struct Books {
     uint64_t calls;       /* allocations asked for */

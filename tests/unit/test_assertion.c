@@ -4,8 +4,8 @@
 #include <unistd.h>
 #include <unity.h>
 
-#include "assertion.h"
-#include "memory.h"
+#include "base/assertion.h"
+#include "base/memory.h"
 
 void setUp(void)
 {

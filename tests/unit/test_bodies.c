@@ -1,7 +1,7 @@
 /* Bodies: blocks of particles that touch the same nodes belong together. */
 #include <unity.h>
 
-#include "bodies.h"
+#include "grid/bodies.h"
 #include "books.h"
 
 void setUp(void) {}

@@ -4,10 +4,12 @@
 #include <unity.h>
 
 #include "books.h"
-#include "colliders.h"
-#include "field.h"
+#include "contact/contacts_find.h"
+#include "contact/field.h"
+#include "contact/push_out.h"
 #include "random.h"
-#include "world.h"
+#include "world/colliders.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

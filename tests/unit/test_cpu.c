@@ -5,8 +5,8 @@
 #include <string.h>
 #include <unity.h>
 
-#include "cpu.h"
-#include "kernels.h"
+#include "base/cpu.h"
+#include "grid/kernels.h"
 
 void setUp(void)
 {

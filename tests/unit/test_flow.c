@@ -5,9 +5,12 @@
 
 #include "books.h"
 #include "random.h"
-#include "solver.h"
-#include "step.h"
-#include "world.h"
+#include "services/lifecycle.h"
+#include "solvers/solver.h"
+#include "step/draining.h"
+#include "step/forcing.h"
+#include "step/step.h"
+#include "world/world.h"
 
 enum { PARTICLES = 3000 };
 

@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "books.h"
-#include "grid.h"
+#include "grid/grid.h"
 #include "random.h"
 
 void setUp(void) {}

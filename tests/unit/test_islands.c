@@ -2,9 +2,10 @@
 #include <stdlib.h>
 #include <unity.h>
 
-#include "islands.h"
-#include "step.h"
-#include "world.h"
+#include "services/lifecycle.h"
+#include "step/step.h"
+#include "world/island_groups.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "books.h"
-#include "lookup.h"
+#include "matter/lookup.h"
 #include "random.h"
 
 enum { CAPACITY = 6000 };

@@ -2,7 +2,7 @@
 #include <math.h>
 #include <unity.h>
 
-#include "materials.h"
+#include "matter/materials.h"
 
 void setUp(void) {}
 void tearDown(void) {}

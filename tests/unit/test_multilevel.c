@@ -6,7 +6,7 @@
 #include <unity.h>
 
 #include "books.h"
-#include "multilevel.h"
+#include "grid/multilevel.h"
 #include "random.h"
 
 void setUp(void) {}

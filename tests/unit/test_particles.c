@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "books.h"
-#include "particles.h"
+#include "matter/particles.h"
 #include "random.h"
 
 void setUp(void) {}

@@ -7,7 +7,7 @@
 #include <xmmintrin.h>
 
 #include "books.h"
-#include "pool.h"
+#include "base/pool.h"
 #include "random.h"
 
 void setUp(void) {}

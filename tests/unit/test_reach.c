@@ -2,9 +2,10 @@
 #include <stdlib.h>
 #include <unity.h>
 
+#include "contact/reach.h"
 #include "random.h"
-#include "reach.h"
-#include "solver.h"
+#include "services/lifecycle.h"
+#include "solvers/solver.h"
 
 void setUp(void) {}
 void tearDown(void) {}

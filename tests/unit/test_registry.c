@@ -3,7 +3,9 @@
 #include <pthread.h>
 #include <unity.h>
 
-#include "registry.h"
+#include "base/generations.h"
+#include "services/lifecycle.h"
+#include "services/registry.h"
 
 void setUp(void) {}
 void tearDown(void) {}
@@ -12,9 +14,9 @@ static World worlds[4];
 
 static void test_generations_are_new(void)
 {
-    uint32_t last = registry_next_generation();
+    uint32_t last = generation_next();
     for (int i = 0; i < 1000; i++) {
-        const uint32_t generation = registry_next_generation();
+        const uint32_t generation = generation_next();
         TEST_ASSERT_TRUE(generation != 0 && generation > last);
         last = generation;
     }

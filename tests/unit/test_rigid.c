@@ -4,8 +4,8 @@
 #include <string.h>
 #include <unity.h>
 
-#include "impulses.h"
-#include "primal_solve.h"
+#include "contact/impulses.h"
+#include "solvers/primal/primal_solve.h"
 #include "random.h"
 
 void setUp(void) {}

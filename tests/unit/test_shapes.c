@@ -5,7 +5,7 @@
 #include <unity.h>
 
 #include "random.h"
-#include "shapes.h"
+#include "shape/shapes.h"
 
 void setUp(void) {}
 void tearDown(void) {}

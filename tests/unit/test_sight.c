@@ -2,8 +2,8 @@
 #include <stdlib.h>
 #include <unity.h>
 
-#include "registry.h"
-#include "world.h"
+#include "services/registry.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) { pbmpm_shutdown(); }

@@ -3,9 +3,9 @@
 #include <string.h>
 #include <unity.h>
 
-#include "colliders.h"
-#include "result.h"
-#include "sized.h"
+#include "world/colliders.h"
+#include "base/result.h"
+#include "base/sized.h"
 
 enum { DEF = SIZED_pbmpm_collider_def, FILLER = 0xA5 };
 

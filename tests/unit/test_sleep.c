@@ -3,11 +3,13 @@
 #include <string.h>
 #include <unity.h>
 
-#include "crowd.h"
 #include "random.h"
-#include "sleep.h"
-#include "step.h"
-#include "world.h"
+#include "services/lifecycle.h"
+#include "step/crowd.h"
+#include "step/sleep.h"
+#include "step/step.h"
+#include "world/sleep_rows.h"
+#include "world/world.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -7,13 +7,15 @@
 #include <string.h>
 #include <unity.h>
 
+#include "base/generations.h"
 #include "books.h"
-#include "edit.h"
-#include "inspect.h"
 #include "random.h"
-#include "registry.h"
-#include "snapshot.h"
-#include "step.h"
+#include "services/edit.h"
+#include "services/inspect.h"
+#include "services/lifecycle.h"
+#include "services/registry.h"
+#include "snapshot/snapshot.h"
+#include "step/step.h"
 
 enum { HEADER_BYTES = 32, VERSION_AT = 8, SECTIONS_AT = 12, BYTES_AT = 16, PARTICLES_TAG = 6 };
 
@@ -40,11 +42,11 @@ static void make_world(int dimension)
     def.allocator = &memory.allocator;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_create(&def, &world));
     elastic.kind = PBMPM_ELASTIC;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &liquid, registry_next_generation(), &water));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &elastic, registry_next_generation(), &jelly));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &liquid, generation_next(), &water));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &elastic, generation_next(), &jelly));
     ball.kind = PBMPM_SPHERE;
     movable.kinematic = 1;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &movable, &ball, NULL, registry_next_generation(), &id));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &movable, &ball, NULL, generation_next(), &id));
 }
 
 static void save_world(void)
@@ -62,7 +64,7 @@ static void open_world(int dimension)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_enable_deformation(&world->particles, &world->memory));
     for (int i = 0; i < 60; i++) {
         const NewParticle particle = {{i % 5 + 0.25, i % 7 - 0.25, i % 3}, {1, 0, 0}, 125.0f, i % 2 ? water.index : water.index + 1, 0};
-        particles_append(&world->particles, &particle, registry_next_generation());
+        particles_append(&world->particles, &particle, generation_next());
     }
     world->particles.status[7] = world->particles.status[30] = K_REMOVED;
     particles_compact(&world->particles, 0);
@@ -79,7 +81,7 @@ static void open_sleepers(void)
     world->settings.solver = PBMPM_SOLVER_DUAL;
     for (int i = 0; i < 900; i++) {
         const NewParticle particle = {{i % 30 * 0.5, i / 30 * 0.5, 0}, {0}, 250.0f, water.index, 0};
-        particles_append(&world->particles, &particle, registry_next_generation());
+        particles_append(&world->particles, &particle, generation_next());
     }
     for (int step = 0; step < 6; step++) TEST_ASSERT_EQUAL_INT(PBMPM_OK, world_step(world, 0.01f));
     TEST_ASSERT_TRUE(world->sleep.rows > 0 && world->sleep.pieces > 0);
@@ -378,24 +380,24 @@ static void test_without_memory_nothing_changes(void)
 static void test_generations_near_the_end_of_their_range(void)
 {
     open_world(2);
-    const uint32_t own = registry_next_generation();
+    const uint32_t own = generation_next();
     write_u32(find_field(FIELD_ID) + 4, UINT32_MAX);
     expect_foreign_and_unchanged("the last generation");
     write_u32(find_field(FIELD_ID) + 4, UINT32_MAX - 1000);
     expect_foreign_and_unchanged("one of the last generations");
     write_u32(find_field(FIELD_ID) + 4, 0x80000000u);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
-    TEST_ASSERT_TRUE(registry_next_generation() < own + 1000); /* those of worlds, materials and all else go on */
+    TEST_ASSERT_TRUE(generation_next() < own + 1000); /* those of worlds, materials and all else go on */
 }
 
 /* Later identifiers must not repeat those of a snapshot from another process. */
 static void test_generations_of_a_snapshot_are_not_given_again(void)
 {
     open_world(2);
-    const uint32_t far = registry_next_particle_generation() + 1000;
+    const uint32_t far = generation_next_of_particles() + 1000;
     write_u32(find_field(FIELD_ID) + 4, far);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, restore_forged());
-    TEST_ASSERT_TRUE(registry_next_particle_generation() > far);
+    TEST_ASSERT_TRUE(generation_next_of_particles() > far);
 }
 
 int main(void)

@@ -6,12 +6,12 @@
 #include <string.h>
 #include <unity.h>
 
-#include "bake.h"
-#include "concave.h"
+#include "shape/bake.h"
+#include "shape/concave.h"
 #include "meshes.h"
 #include "random.h"
-#include "result.h"
-#include "shapes.h"
+#include "base/result.h"
+#include "shape/shapes.h"
 
 static Mesh mesh;
 

@@ -4,13 +4,15 @@
 #include <string.h>
 #include <unity.h>
 
-#include "clock.h"
-#include "depth.h"
-#include "dual.h"
-#include "dual_error.h"
+#include "base/clock.h"
 #include "random.h"
-#include "rounds.h"
-#include "solver.h"
+#include "services/lifecycle.h"
+#include "solvers/dual/dual.h"
+#include "solvers/dual/dual_error.h"
+#include "solvers/dual/rounds.h"
+#include "solvers/passes.h"
+#include "solvers/solver.h"
+#include "world/depth.h"
 
 void setUp(void) {}
 void tearDown(void) {}

@@ -1,5 +1,5 @@
 /* The functions that a strict build has in place of the C library's, against those. */
-#include "../../src/strict_math.c"
+#include "../../src/base/strict_math.c"
 #undef exp
 #undef expm1
 #undef log

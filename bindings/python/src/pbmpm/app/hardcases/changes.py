@@ -30,7 +30,7 @@ def _tank(setting: Setting, side: float) -> pbmpm.World:
 MANY_ITERATIONS = 50
 PART_SECONDS = 3.0
 RISING_SUBSTEPS = 250  # that raised iterations take to have all their effect, at most: 100 with the paper's solver
-RISING_SUBSTEPS_FROM_ONE = 1900  # the same, on bodies with the dual solver (see dual_stiffened() in src/dual.c) from one iteration on
+RISING_SUBSTEPS_FROM_ONE = 1900  # the same, on bodies with the dual solver (see dual_stiffened() in src/solvers/dual/dual.c) from one iteration on
 GAIN_MAX = 0.01
 
 

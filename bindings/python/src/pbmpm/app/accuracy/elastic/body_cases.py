@@ -215,7 +215,7 @@ class SpinningDiscCase(ElasticCase):
         if setting.solver != "explicit":
             steps = round(disc.period / setting.dt) * setting.substeps
             dt = setting.dt / setting.substeps
-            given_back = setting.solver == "primal" and setting.integrator == "euler"  # what chords take, see src/primal_spin.c
+            given_back = setting.solver == "primal" and setting.integrator == "euler"  # what chords take, see src/solvers/primal/primal_spin.c
             theory = 1.0 if given_back else rotation_kept(setting.integrator, disc.angular_velocity, dt, steps)
             errors["of_theory"] = relative(kept, theory)
         return record.measurement(errors, (errors["displaced"],), kinetic_kept=moving, stored=stored)

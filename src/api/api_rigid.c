@@ -1,0 +1,137 @@
+/* The exported functions of rigid.h. */
+#include "pbmpm/pbmpm.h"
+
+#include <string.h>
+
+#include "api/api_call.h"
+#include "base/numbers.h"
+#include "services/rigid.h"
+#include "services/submerged.h"
+#include "shape/mass.h"
+
+static pbmpm_result no_volume(void) { return api_invalid("a plane has no volume"); }
+
+pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, float density, pbmpm_mass_properties *mass)
+{
+    READ(pbmpm_shape, own, shape, shape_defaults());
+    REQUIRE_SIZE(pbmpm_mass_properties, mass);
+    HOLD_READING(world);
+    const char *problem = shape_problem_among(&own, w->def.dimension, &w->baked);
+    if (!problem && !in_range(density, 1e-6, 1e9)) problem = "density must be in [1e-6, 1e9]";
+    if (problem) LET_GO(api_invalid(problem));
+    if (own.kind == PBMPM_PLANE) LET_GO(no_volume());
+    const Solid solid = solid_among(&own, w->def.dimension, &w->baked);
+    const pbmpm_mass_properties found = solid_mass(&solid, (double)density);
+    WRITE(pbmpm_mass_properties, mass, &found);
+    LET_GO(PBMPM_OK);
+}
+
+static pbmpm_result find_bounded(const World *world, pbmpm_collider_id id, Collider **collider)
+{
+    *collider = colliders_find(&world->colliders, id);
+    if (!*collider) return api_no_collider();
+    return (*collider)->shape.kind == PBMPM_PLANE ? no_volume() : PBMPM_OK;
+}
+
+pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_material_id *material,
+                                      pbmpm_submersion *submersion)
+{
+    REQUIRE_SIZE(pbmpm_submersion, submersion);
+    HOLD(world);
+    Collider *found;
+    pbmpm_submersion own;
+    pbmpm_result result = find_bounded(w, collider, &found);
+    if (result == PBMPM_OK && material && !material_is_live(&w->materials, *material))
+        result = api_no_material();
+    if (result != PBMPM_OK) LET_GO(result);
+    result = submerged_measure(w, found, material ? (int)material->index : ANY_MATERIAL, &own);
+    if (result == PBMPM_OK) WRITE(pbmpm_submersion, submersion, &own);
+    LET_GO(result);
+}
+
+pbmpm_result pbmpm_rigid_def_init(pbmpm_rigid_def *def, size_t size)
+{
+    INIT(pbmpm_rigid_def, def, size, rigid_defaults());
+}
+
+/* A collider that can be a body of this definition. */
+static pbmpm_result find_body(const World *world, pbmpm_collider_id id, const pbmpm_rigid_def *def, Collider **collider)
+{
+    const pbmpm_result result = find_bounded(world, id, collider);
+    if (result != PBMPM_OK) return result;
+    if (!(*collider)->def.kinematic || !(*collider)->def.measures_impulse)
+        return api_invalid("the collider of a rigid body is kinematic and measures its impulse: set collider.kinematic and measures_impulse");
+    const char *problem = rigid_def_problem(def, world->def.dimension);
+    return problem ? api_invalid(problem) : PBMPM_OK;
+}
+
+pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_rigid_def *def, pbmpm_rigid_state *state)
+{
+    READ(pbmpm_rigid_def, own, def, rigid_defaults());
+    REQUIRE_SIZE(pbmpm_rigid_state, state);
+    HOLD_READING(world);
+    Collider *found;
+    const pbmpm_result result = find_body(w, collider, &own, &found);
+    if (result != PBMPM_OK) LET_GO(result);
+    const pbmpm_rigid_state begun = rigid_at(found, &own, w->def.dimension);
+    WRITE(pbmpm_rigid_state, state, &begun);
+    LET_GO(PBMPM_OK);
+}
+
+/* What matter gave in the last step, gravity, and the virtual mass by the law that the header states. */
+static pbmpm_result find_push(World *world, pbmpm_collider_id id, const Collider *collider, RigidPush *push)
+{
+    double point[3] = {0};
+    pbmpm_submersion under;
+    const int dimension = world->def.dimension;
+    const pbmpm_result result = submerged_measure(world, collider, ANY_MATERIAL, &under);
+    if (result != PBMPM_OK) return result;
+    for (int a = 0; a < dimension; a++) point[a] = (double)collider->shape.position[a];
+    const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], point, dimension);
+    *push = (RigidPush){.virtual_mass = under.density * under.volume * under.share};
+    for (int a = 0; a < 3; a++) {
+        push->gravity[a] = a < dimension ? (double)world->settings.gravity[a] : 0.0;
+        push->linear[a] = a < dimension ? given.linear[a] : 0.0;
+        push->angular[a] = given.angular[a];
+    }
+    return PBMPM_OK;
+}
+
+/* Sends the obstacle where the body is. */
+static void send(Collider *collider, const pbmpm_rigid_state *state)
+{
+    float position[3], rotation[4];
+    for (int a = 0; a < 3; a++) position[a] = (float)state->position[a];
+    for (int i = 0; i < 4; i++) rotation[i] = (float)state->rotation[i];
+    collider_place(collider, position, rotation, false);
+}
+
+/* What 2D has not. */
+static void flatten(pbmpm_rigid_state *state)
+{
+    state->position[2] = state->velocity[2] = state->velocity_change[2] = state->point[2] = 0.0;
+    for (int a = 0; a < 2; a++) state->angular_velocity[a] = state->angular_velocity_change[a] = 0.0;
+}
+
+pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_rigid_def *def, pbmpm_rigid_state *state, float dt)
+{
+    READ(pbmpm_rigid_def, own, def, rigid_defaults());
+    READ(pbmpm_rigid_state, next, state, (pbmpm_rigid_state){.size = sizeof next});
+    HOLD(world);
+    if (w->def.dimension == 2) flatten(&next);
+    Collider *found;
+    RigidPush push;
+    pbmpm_result result = find_body(w, collider, &own, &found);
+    const char *problem = rigid_state_problem(&next, w->def.dimension);
+    if (!problem) problem = api_step_problem(w, dt);
+    if (result == PBMPM_OK && problem) result = api_invalid(problem);
+    if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
+    if (result != PBMPM_OK) LET_GO(result);
+    rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
+    rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
+    rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
+    if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
+    send(found, &next);
+    WRITE(pbmpm_rigid_state, state, &next);
+    LET_GO(PBMPM_OK);
+}

@@ -1,0 +1,111 @@
+#define _POSIX_C_SOURCE 200809L
+#include "base/cpu.h"
+
+#include <stdatomic.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#include <xmmintrin.h>
+
+static pbmpm_isa best_isa(void)
+{
+    __builtin_cpu_init();
+    if (!__builtin_cpu_supports("sse4.2")) return PBMPM_ISA_NONE;
+    if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) return PBMPM_ISA_SSE4;
+    const int avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512bw") &&
+                       __builtin_cpu_supports("avx512vl");
+    return avx512 ? PBMPM_ISA_AVX512 : PBMPM_ISA_AVX2;
+}
+
+static pbmpm_isa wanted_isa(void)
+{
+    const char *name = getenv("PBMPM_ISA");
+    if (name && strcmp(name, "sse4") == 0) return PBMPM_ISA_SSE4;
+    if (name && strcmp(name, "avx2") == 0) return PBMPM_ISA_AVX2;
+    return PBMPM_ISA_AVX512;
+}
+
+pbmpm_isa cpu_isa(void)
+{
+    static atomic_int chosen = -1;
+    int isa = atomic_load(&chosen);
+    if (isa < 0) {
+        const pbmpm_isa best = best_isa(), wanted = wanted_isa();
+        isa = (int)(wanted < best ? wanted : best);
+        atomic_store(&chosen, isa);
+    }
+    return (pbmpm_isa)isa;
+}
+
+const char *cpu_isa_name(pbmpm_isa isa)
+{
+    switch (isa) {
+    case PBMPM_ISA_NONE: return "none";
+    case PBMPM_ISA_SSE4: return "SSE4";
+    case PBMPM_ISA_AVX2: return "AVX2";
+    case PBMPM_ISA_AVX512: return "AVX-512";
+    case PBMPM_ISA_FORCE32: break;
+    }
+    return "unknown";
+}
+
+int cpu_core_count(void)
+{
+    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    return count < 1 ? 1 : count > 256 ? 256 : (int)count;
+}
+
+uint32_t float_mode_enter(void)
+{
+    enum { FTZ_DAZ_NEAREST_MASKED = 0x9fc0 };
+    const uint32_t old = _mm_getcsr();
+    _mm_setcsr(FTZ_DAZ_NEAREST_MASKED);
+    return old;
+}
+
+void float_mode_leave(uint32_t old) { _mm_setcsr(old); }
+
+static _Thread_local uint32_t host_mode;
+static _Thread_local int depth; /* calls of the API that this thread is inside of */
+
+uint32_t float_mode_enter_from_host(void)
+{
+    const uint32_t old = float_mode_enter();
+    host_mode = old;
+    depth++;
+    return old;
+}
+
+void float_mode_leave_to_host(uint32_t old)
+{
+    depth--;
+    host_mode = old;
+    float_mode_leave(old);
+}
+
+uint32_t float_mode_of_host(void) { return host_mode; }
+
+FloatModes float_mode_enter_for(uint32_t host)
+{
+    const FloatModes before = {float_mode_enter(), host_mode};
+    host_mode = host;
+    depth++;
+    return before;
+}
+
+void float_mode_leave_for(FloatModes before)
+{
+    depth--;
+    host_mode = before.host;
+    float_mode_leave(before.own);
+}
+
+uint32_t float_mode_lend(void)
+{
+    const uint32_t ours = _mm_getcsr();
+    if (depth > 0) _mm_setcsr(host_mode);
+    return ours;
+}
+
+void float_mode_take_back(uint32_t lent) { _mm_setcsr(lent); }

@@ -1,0 +1,283 @@
+#include "base/pool.h"
+
+#include <pthread.h>
+#include <sched.h>
+#include <string.h>
+#include <xmmintrin.h>
+
+#include "base/assertion.h"
+#include "base/cpu.h"
+#include "base/result.h"
+#include "base/thread.h"
+
+/* How long a thread looks for work or for the end of it before it sleeps: some 20 microseconds. */
+enum { SPIN_ROUNDS = 400 };
+
+/* How often one that waits for others in the middle of loops lets other threads run before it leaves. A call takes some 0.5 microseconds, so they are about as
+ * long as a scheduler keeps one who works from its core. */
+enum { YIELD_ROUNDS = 8000 };
+
+/* What a fork-join of two threads takes if there is nothing to do: 27 microseconds on own ones that sleep, 15 in a job system with condition variables
+ * (medians on a virtual machine). Two threads save half of the work; what saves less than that runs on the caller. */
+enum { FORK_JOIN_NS = 20000, WORTH_A_FORK_NS = 2 * FORK_JOIN_NS };
+
+struct Pool {
+    pbmpm_task_hooks hooks;
+    int threads;
+    int spin_rounds;
+    bool serial;
+    atomic_bool taken; /* by loops under way: of several readers of a world one has the threads */
+    Loops *loops;      /* under way */
+
+    /* Own threads only. */
+    pthread_mutex_t lock;
+    pthread_cond_t work, done;
+    atomic_uint round;  /* counts loops; a worker runs each once */
+    atomic_int running; /* workers that have not finished the loop */
+    atomic_bool stop;
+    int started;
+    pthread_t worker[];
+};
+
+static size_t pool_bytes(int threads) { return sizeof(Pool) + (size_t)threads * sizeof(pthread_t); }
+
+/* Takes ranges until there are none. */
+static void take_ranges(Loop *loop)
+{
+    int32_t done = 0;
+    for (;;) {
+        const int32_t begin = atomic_fetch_add_explicit(&loop->next, loop->grain, memory_order_relaxed);
+        if (begin >= loop->count) break;
+        const int32_t end = loop->count - begin < loop->grain ? loop->count : begin + loop->grain;
+        loop->task(loop->context, begin, end);
+        done += end - begin;
+    }
+    if (done > 0) atomic_fetch_sub_explicit(&loop->left, done, memory_order_acq_rel);
+}
+
+static bool is_done(Loop *loop) { return atomic_load_explicit(&loop->left, memory_order_acquire) == 0; }
+
+/* Waits for those who still work on the loop. False: one of them has lost its core, and waiting would keep that from it. */
+static bool wait_for_rest(Loop *loop, int spin_rounds)
+{
+    for (int i = 0; i < spin_rounds; i++) {
+        if (is_done(loop)) return true;
+        _mm_pause();
+    }
+    for (int i = 0; i < YIELD_ROUNDS; i++) {
+        if (is_done(loop)) return true;
+        sched_yield();
+    }
+    return is_done(loop);
+}
+
+/* Who does the last item of a loop need not wait, and so comes to the end: the others may leave. */
+static void run_share(Loops *loops, int spin_rounds)
+{
+    const uint32_t mode = float_mode_enter();
+    for (int i = 0; i < loops->count; i++) {
+        take_ranges(&loops->loop[i]);
+        if (i + 1 < loops->count && !wait_for_rest(&loops->loop[i], spin_rounds)) break;
+    }
+    float_mode_leave(mode);
+}
+
+static void host_task(int32_t index, void *context)
+{
+    Pool *pool = context;
+    (void)index;
+    run_share(pool->loops, pool->spin_rounds);
+}
+
+/* Returns the number of the next loop, or the same number when the pool stops. */
+static unsigned wait_for_work(Pool *pool, unsigned seen)
+{
+    for (int i = 0; i < pool->spin_rounds; i++) {
+        if (atomic_load_explicit(&pool->round, memory_order_acquire) != seen) return seen + 1;
+        _mm_pause();
+    }
+    pthread_mutex_lock(&pool->lock);
+    while (atomic_load(&pool->round) == seen && !atomic_load(&pool->stop)) pthread_cond_wait(&pool->work, &pool->lock);
+    pthread_mutex_unlock(&pool->lock);
+    return atomic_load(&pool->round);
+}
+
+static void *worker_main(void *context)
+{
+    Pool *pool = context;
+    unsigned seen = 0;
+    while (!atomic_load(&pool->stop)) {
+        const unsigned round = wait_for_work(pool, seen);
+        if (round == seen) continue;
+        seen = round;
+        run_share(pool->loops, pool->spin_rounds);
+        if (atomic_fetch_sub(&pool->running, 1) == 1) {
+            pthread_mutex_lock(&pool->lock);
+            pthread_cond_signal(&pool->done);
+            pthread_mutex_unlock(&pool->lock);
+        }
+    }
+    return NULL;
+}
+
+static void start_round(Pool *pool)
+{
+    atomic_store(&pool->running, pool->started);
+    pthread_mutex_lock(&pool->lock);
+    atomic_fetch_add(&pool->round, 1);
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+static void finish_round(Pool *pool)
+{
+    for (int i = 0; i < pool->spin_rounds; i++) {
+        if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0) return;
+        _mm_pause();
+    }
+    pthread_mutex_lock(&pool->lock);
+    while (atomic_load(&pool->running) > 0) pthread_cond_wait(&pool->done, &pool->lock);
+    pthread_mutex_unlock(&pool->lock);
+}
+
+pbmpm_result pool_create(Memory *memory, int threads, const pbmpm_task_hooks *hooks, Pool **out)
+{
+    Pool *pool = memory_take(memory, pool_bytes(threads));
+    *out = pool;
+    if (!pool) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the thread pool");
+    pool->threads = threads;
+    if (hooks) pool->hooks = *hooks;
+    pool->spin_rounds = threads <= cpu_core_count() ? SPIN_ROUNDS : 0; /* with more threads than cores spinning steals time */
+    pthread_mutex_init(&pool->lock, NULL);
+    pthread_cond_init(&pool->work, NULL);
+    pthread_cond_init(&pool->done, NULL);
+    while (!hooks && pool->started < threads - 1) {
+        if (!thread_start(&pool->worker[pool->started], worker_main, pool)) {
+            pool_destroy(memory, pool, true);
+            *out = NULL;
+            return fail(PBMPM_ERROR_THREAD, "could not start thread %d of %d", pool->started + 2, threads);
+        }
+        pool->started++;
+    }
+    return PBMPM_OK;
+}
+
+void pool_stop(Pool *pool)
+{
+    pthread_mutex_lock(&pool->lock);
+    atomic_store(&pool->stop, true);
+    pthread_cond_broadcast(&pool->work);
+    pthread_mutex_unlock(&pool->lock);
+    for (int i = 0; i < pool->started; i++) pthread_join(pool->worker[i], NULL);
+    pool->started = 0;
+}
+
+void pool_destroy(Memory *memory, Pool *pool, bool joinable)
+{
+    if (!pool) return;
+    if (joinable) {
+        pool_stop(pool);
+        pthread_cond_destroy(&pool->done);
+        pthread_cond_destroy(&pool->work);
+        pthread_mutex_destroy(&pool->lock);
+    }
+    memory_give(memory, pool, pool_bytes(pool->threads));
+}
+
+int pool_thread_count(const Pool *pool) { return pool->threads; }
+
+void pool_set_serial(Pool *pool, bool serial) { pool->serial = serial; }
+
+static void share_with_host(Pool *pool)
+{
+    const uint32_t mode = float_mode_lend();
+    void *handle = pool->hooks.enqueue(host_task, pool->threads, pool, pool->hooks.user);
+    pool->hooks.finish(handle, pool->hooks.user);
+    float_mode_take_back(mode);
+}
+
+static void share_with_workers(Pool *pool)
+{
+    start_round(pool);
+    run_share(pool->loops, pool->spin_rounds);
+    finish_round(pool);
+}
+
+/* Whether nothing of them is left to do. */
+static bool are_done(Loops *loops)
+{
+    bool done = true;
+    for (int i = 0; i < loops->count; i++) done = done && is_done(&loops->loop[i]);
+    return done;
+}
+
+/* False, and nothing done: another reader has the threads. */
+static bool fork_join(Pool *pool, Loops *loops)
+{
+    if (atomic_exchange(&pool->taken, true)) return false;
+    ASSERT(atomic_load(&pool->running) == 0);
+    pool->loops = loops;
+    if (pool->hooks.enqueue)
+        share_with_host(pool);
+    else
+        share_with_workers(pool);
+    ASSERT(are_done(loops));
+    atomic_store(&pool->taken, false);
+    return true;
+}
+
+typedef struct PointerJob {
+    RangeTask *task;
+    void *context;
+} PointerJob;
+
+static void run_pointed(void *context, int32_t begin, int32_t end)
+{
+    const PointerJob *job = context;
+    job->task(job->context, begin, end);
+}
+
+void pool_for(Pool *pool, int32_t count, int32_t grain, RangeTask *task, void *context)
+{
+    if (count <= 0) return;
+    if (pool && !pool->serial && pool->threads > 1 && count > grain) {
+        Loops loops;
+        loops_open(&loops, pool);
+        const PointerJob job = {task, context};
+        LOOPS_ADD(&loops, ((Span){count, grain, WORTH_A_FORK_NS}), run_pointed, &job);
+        if (fork_join(pool, &loops)) return;
+    }
+    task(context, 0, count);
+}
+
+/* ---- Loops that follow one another ---- */
+
+void loops_open(Loops *loops, Pool *pool)
+{
+    loops->pool = pool;
+    loops->count = 0;
+    loops->ns = 0;
+}
+
+void loops_put(Loops *loops, Span span, RangeTask *task, const void *context, size_t bytes)
+{
+    if (span.count <= 0) return;
+    if (loops->count == LOOPS_MAX) loops_run(loops);
+    Loop *loop = &loops->loop[loops->count++];
+    memcpy(loop->context, context, bytes);
+    loop->task = task;
+    loop->count = span.count;
+    loop->grain = span.grain;
+    atomic_init(&loop->next, 0);
+    atomic_init(&loop->left, span.count);
+    loops->ns += span.ns;
+}
+
+void loops_run(Loops *loops)
+{
+    Pool *pool = loops->pool;
+    const bool shares = !pool->serial && pool->threads > 1 && loops->ns >= WORTH_A_FORK_NS;
+    const bool shared = shares && fork_join(pool, loops);
+    for (int i = 0; i < loops->count && !shared; i++) loops->loop[i].task(loops->loop[i].context, 0, loops->loop[i].count);
+    loops_open(loops, pool);
+}

@@ -1,0 +1,18 @@
+#define _POSIX_C_SOURCE 200809L
+#include "base/thread.h"
+
+#include <signal.h>
+#include <stddef.h>
+
+/* A thread begins with the mask of the one that makes it. */
+bool thread_start(pthread_t *thread, void *(*run)(void *), void *context)
+{
+    static const int faults[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGTRAP, SIGABRT, SIGSYS};
+    sigset_t blocked, before;
+    sigfillset(&blocked);
+    for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) sigdelset(&blocked, faults[i]);
+    pthread_sigmask(SIG_SETMASK, &blocked, &before);
+    const bool started = pthread_create(thread, NULL, run, context) == 0;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
+    return started;
+}

@@ -1,0 +1,501 @@
+#include "contact/field.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+#include "shape/concave.h"
+
+/* How far before a face [cells] the space must be open. */
+static const double BEFORE = 0.1;
+/* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
+static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
+
+/* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
+ * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
+static const double SAME_WAY = 0.95, SAME_WAY_BAKED = 0.7;
+
+bool field_same_way(const Face *a, const Face *b)
+{
+    const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
+    return dot3(a->normal, b->normal) > (guessed ? SAME_WAY_BAKED : SAME_WAY);
+}
+
+/* point + length [cells] * normal */
+static void ahead(const Near *near, const double point[3], double length, const double normal[3], double out[3])
+{
+    for (int a = 0; a < 3; a++) out[a] = point[a] + length * near->cell_size * normal[a];
+}
+
+void field_near(Near *near, const ContactFrame *frame, const double centre[3], double reach, bool at_end)
+{
+    near->cell_size = frame->cell_size;
+    near->dimension = frame->grid->dimension;
+    near->at_end = at_end;
+    near->count = 0;
+    for (int i = 0; i < frame->colliders->obstacle_count; i++) {
+        const Obstacle *o = &frame->colliders->obstacle[i];
+        if (solid_least(field_solid(near, o), centre) <= reach * near->cell_size) near->obstacle[near->count++] = o;
+    }
+}
+
+const Near *field_meeting(const Near *near, uint32_t groups, Near *some)
+{
+    int meet = 0;
+    if (groups == ALL_GROUPS) return near;
+    for (int i = 0; i < near->count; i++) meet += obstacle_meets(near->obstacle[i], groups);
+    if (meet == near->count) return near;
+    some->cell_size = near->cell_size;
+    some->dimension = near->dimension;
+    some->at_end = near->at_end;
+    some->count = near->count;
+    memcpy(some->obstacle, near->obstacle, (size_t)near->count * sizeof near->obstacle[0]);
+    field_keep(some, groups);
+    return some;
+}
+
+void field_keep(Near *near, uint32_t groups)
+{
+    int kept = 0;
+    for (int i = 0; i < near->count; i++)
+        if (obstacle_meets(near->obstacle[i], groups)) near->obstacle[kept++] = near->obstacle[i];
+    near->count = kept;
+}
+
+double field_distance(const Near *near, const double point[3])
+{
+    double least = INFINITY;
+    for (int i = 0; i < near->count; i++) {
+        const double distance = solid_gap(field_solid(near, near->obstacle[i]), point);
+        least = distance < least ? distance : least;
+    }
+    return least / near->cell_size;
+}
+
+static bool is_open(const Near *near, const double point[3])
+{
+    for (int i = 0; i < near->count; i++)
+        if (solid_gap(field_solid(near, near->obstacle[i]), point) <= ON_SURFACE * near->cell_size) return false;
+    return true;
+}
+
+static double distance_to(const Near *near, const Face *face, const double point[3])
+{
+    double sum = 0.0;
+    for (int a = 0; a < 3; a++) sum += (point[a] - face->foot[a]) * face->normal[a];
+    return sum / near->cell_size;
+}
+
+/* ---- Faces of single obstacles ---- */
+
+static Face face_at(const Near *near, const Obstacle *o, const double point[3], double distance, const double normal[3])
+{
+    Face face = {.distance = distance, .obstacle = o};
+    memcpy(face.normal, normal, sizeof face.normal);
+    ahead(near, point, -distance, normal, face.foot);
+    return face;
+}
+
+/* Coordinates of a point along the axes of a box. */
+static void along_axes(const Solid *s, const double point[3], double local[3])
+{
+    local[0] = local[1] = local[2] = 0.0;
+    for (int a = 0; a < s->dimension; a++)
+        for (int b = 0; b < s->dimension; b++) local[a] += s->rotation[3 * b + a] * (point[b] - s->position[b]);
+}
+
+static void box_normal(const Solid *s, int axis, double side, double normal[3])
+{
+    normal[0] = normal[1] = normal[2] = 0.0;
+    for (int a = 0; a < s->dimension; a++) normal[a] = side * s->rotation[3 * a + axis];
+}
+
+/* Faces within reach whose plane may bound the space around a point in or behind obstacles. */
+enum { CANDIDATES = 32 };
+
+static int box_faces(const Near *near, const Obstacle *o, const double point[3], double reach, Face *face, int room)
+{
+    const Solid *s = field_solid(near, o);
+    double local[3], normal[3];
+    int count = 0;
+    along_axes(s, point, local);
+    for (int axis = 0; axis < s->dimension; axis++)
+        for (double side = -1.0; side < 2.0; side += 2.0) {
+            const double distance = (side * local[axis] - s->half_extents[axis]) / near->cell_size;
+            if (fabs(distance) > reach || count == room) continue;
+            box_normal(s, axis, side, normal);
+            face[count++] = face_at(near, o, point, distance, normal);
+        }
+    return count;
+}
+
+static int faces_around(const Near *near, const double point[3], double reach, Face *face)
+{
+    int count = 0;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        if (distance > reach) continue;
+        if (field_solid(near, o)->kind == PBMPM_BOX)
+            count += box_faces(near, o, point, reach, face + count, CANDIDATES - count);
+        else if (fabs(distance) <= reach && count < CANDIDATES)
+            face[count++] = face_at(near, o, point, distance, normal);
+    }
+    return count;
+}
+
+/* Whether a place on the plane of a face lies on the face; those of round solids are tangent planes. */
+static bool is_on_face(const Near *near, const Face *face, const double place[3])
+{
+    const Solid *s = field_solid(near, face->obstacle);
+    return s->kind != PBMPM_BOX || fabs(solid_gap(s, place)) <= 1e-3 * near->cell_size;
+}
+
+static bool bounds_space(const Near *near, const Face *face)
+{
+    double before[3];
+    if (!is_on_face(near, face, face->foot)) return false;
+    ahead(near, face->foot, BEFORE, face->normal, before);
+    return is_open(near, before);
+}
+
+/* ---- Inside: the shallowest way out ---- */
+
+/* The place nearest to a point that lies on `count` planes, relative to the point [cells]: sum_i x_i n_i with n_j . sum_i x_i n_i = -d_j. False: they are nearly
+ * parallel. */
+static bool meet(const Face *const *face, int count, double place[3])
+{
+    double g[3][4];
+    for (int i = 0; i < count; i++) {
+        for (int j = 0; j < count; j++) g[i][j] = dot3(face[i]->normal, face[j]->normal);
+        g[i][count] = -face[i]->distance;
+    }
+    for (int i = 0; i < count; i++) { /* the matrix is positive definite */
+        if (g[i][i] < 0.04) return false;
+        for (int r = i + 1; r < count; r++)
+            for (int c = count; c >= i; c--) g[r][c] -= g[r][i] / g[i][i] * g[i][c];
+    }
+    place[0] = place[1] = place[2] = 0.0;
+    for (int i = count - 1; i >= 0; i--) {
+        for (int c = i + 1; c < count; c++) g[i][count] -= g[i][c] * g[c][count];
+        g[i][count] /= g[i][i];
+        for (int a = 0; a < 3; a++) place[a] += g[i][count] * face[i]->normal[a];
+    }
+    return true;
+}
+
+/* A hollow edge or corner of these faces; its distance from the point, or infinity where the faces do not meet in the open. */
+static double corner_distance(const Near *near, const double point[3], const Face *const *face, int count)
+{
+    double way[3], place[3], before[3];
+    if (!meet(face, count, way)) return INFINITY;
+    ahead(near, point, 1.0, way, place);
+    memcpy(before, place, sizeof before);
+    for (int i = 0; i < count; i++) {
+        if (!is_on_face(near, face[i], place)) return INFINITY;
+        ahead(near, before, BEFORE, face[i]->normal, before);
+    }
+    return is_open(near, before) ? sqrt(dot3(way, way)) : INFINITY;
+}
+
+static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
+{
+    Face all[CANDIDATES];
+    const int candidates = faces_around(near, point, NODE_REACH, all);
+    double best = INFINITY;
+    int count = 0;
+    for (int i = 0; i < candidates; i++) {
+        if (all[i].distance > ON_SURFACE || -all[i].distance >= best || !bounds_space(near, &all[i])) continue;
+        best = -all[i].distance;
+        face[0] = all[i];
+        count = 1;
+    }
+    for (int i = 0; i < candidates; i++)
+        for (int j = i + 1; j < candidates; j++) {
+            const Face *edge[3] = {&all[i], &all[j], NULL};
+            if (all[i].distance > ON_SURFACE || all[j].distance > ON_SURFACE) continue;
+            if (fmax(-all[i].distance, -all[j].distance) >= best) continue;
+            double distance = corner_distance(near, point, edge, 2);
+            if (distance < best - ON_SURFACE) {
+                best = distance;
+                face[0] = all[i];
+                face[1] = all[j];
+                count = 2;
+            }
+            for (int k = j + 1; k < candidates && near->dimension == 3; k++) {
+                edge[2] = &all[k];
+                if (all[k].distance > ON_SURFACE || -all[k].distance >= best) continue;
+                distance = corner_distance(near, point, edge, 3);
+                if (distance >= best - ON_SURFACE) continue;
+                best = distance;
+                face[0] = all[i];
+                face[1] = all[j];
+                face[2] = all[k];
+                count = 3;
+            }
+        }
+    return count;
+}
+
+/* ---- Outside: what is seen ---- */
+
+/* Whether the nearest place of a box, seen from outside, is one that matter may meet: on a face that is open, or on an edge both of whose faces are. The edge of
+ * a tile beside another one is none. */
+static bool is_exposed(const Near *near, const Face *face, const double point[3])
+{
+    const Solid *s = field_solid(near, face->obstacle);
+    double before[3], local[3];
+    int outside = 0;
+    if (face->distance > BEFORE) {
+        ahead(near, face->foot, BEFORE, face->normal, before);
+        if (!is_open(near, before)) return false;
+    }
+    if (s->kind != PBMPM_BOX) return true;
+    along_axes(s, point, local);
+    for (int a = 0; a < s->dimension; a++) outside += fabs(local[a]) > s->half_extents[a] + ON_SURFACE * near->cell_size;
+    for (int axis = 0; axis < s->dimension && outside > 1; axis++) {
+        if (fabs(local[axis]) <= s->half_extents[axis]) continue;
+        memcpy(before, face->foot, sizeof before);
+        for (int other = 0; other < s->dimension; other++) {
+            double normal[3];
+            if (fabs(local[other]) <= s->half_extents[other]) continue;
+            box_normal(s, other, local[other] < 0.0 ? -1.0 : 1.0, normal);
+            ahead(near, before, other == axis ? BEFORE : -BEFORE, normal, before);
+        }
+        if (!is_open(near, before)) return false;
+    }
+    return true;
+}
+
+/* Adds a plane unless one that faces the same way is nearer. */
+static int add_face(Face face[FIELD_FACES], int count, const Face *seen, int most)
+{
+    for (int i = 0; i < count; i++) {
+        if (!field_same_way(&face[i], seen)) continue;
+        if (seen->distance < face[i].distance) face[i] = *seen;
+        return count;
+    }
+    if (count < most) {
+        face[count] = *seen;
+        return count + 1;
+    }
+    int farthest = 0;
+    for (int i = 1; i < count; i++)
+        if (face[i].distance > face[farthest].distance) farthest = i;
+    if (seen->distance < face[farthest].distance) face[farthest] = *seen;
+    return count;
+}
+
+/* Half a step of the grid of a baked solid [cells]: by so much its edges are rounded. 0 for other solids, which are exact. */
+static double rounding_of(const Near *near, const Obstacle *o)
+{
+    const DistanceGrid *grid = field_solid(near, o)->grid;
+    return grid ? 0.5 * grid->spacing / near->cell_size : 0.0;
+}
+
+/* The nearest face of a baked solid, and those of its hollows. Where a point is as near to two of these, the grid of distances has a normal between them, and its foot is on
+ * no surface: then it is left out. */
+static int add_baked(const Near *near, const Face *first, const double point[3], double reach, Face face[FIELD_FACES], int count, int most)
+{
+    static const double STAY[3] = {0};
+    const Solid *s = field_solid(near, first->obstacle);
+    Plane plane[PLANES_MAX];
+    const int planes = concave_planes(s, near->cell_size, point, first->distance, first->normal, STAY, reach, plane);
+    const bool between = planes > 2 && fabs(solid_gap(s, first->foot)) > rounding_of(near, first->obstacle) * near->cell_size;
+    if (!between) count = add_face(face, count, first, most);
+    for (int i = 1; i < planes; i++) {
+        const Face hollow = face_at(near, first->obstacle, point, plane[i].gap, plane[i].normal);
+        count = add_face(face, count, &hollow, most);
+    }
+    return count;
+}
+
+/* The planes that are seen from a point in the open. The foot on one may lie behind another: then their edge has to be open. */
+static int faces_seen(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
+{
+    Face hidden[CANDIDATES];
+    int count = 0, hides = 0;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        if (distance > reach) continue;
+        const Face seen = face_at(near, o, point, distance, normal);
+        if (!is_exposed(near, &seen, point)) {
+            if (hides < CANDIDATES) hidden[hides++] = seen;
+            continue;
+        }
+        if (field_solid(near, o)->grid)
+            count = add_baked(near, &seen, point, reach, face, count, near->dimension);
+        else
+            count = add_face(face, count, &seen, near->dimension);
+    }
+    const int seen = count;
+    for (int i = 0; i < hides; i++)
+        for (int k = 0; k < seen; k++) {
+            const Face *edge[2] = {&hidden[i], &face[k]};
+            if (dot3(hidden[i].normal, face[k].normal) >= 0.0 && corner_distance(near, point, edge, 2) <= reach) count = add_face(face, count, &hidden[i], near->dimension);
+        }
+    return count;
+}
+
+/* The reflection of a point in the planes that it is behind, clear of them. */
+static void reflect(const Near *near, const Face *face, int count, double point[3])
+{
+    for (int i = 0; i < count; i++) {
+        const double distance = distance_to(near, &face[i], point);
+        if (distance <= ON_SURFACE) ahead(near, point, -2.0 * distance + CLEAR_OF, face[i].normal, point);
+    }
+}
+
+static void sort_by_distance(Face *face, int begin, int count)
+{
+    for (int i = begin; i < count; i++)
+        for (int j = i + 1; j < count; j++)
+            if (face[j].distance < face[i].distance) {
+                const Face swap = face[i];
+                face[i] = face[j];
+                face[j] = swap;
+            }
+}
+
+/* Behind an inner edge of a baked solid the nearest place is the edge, where faces meet that are seen from before it. */
+static bool is_edge(const Near *near, const Face *nearest, const Face *seen, int count)
+{
+    const double rounding = rounding_of(near, nearest->obstacle);
+    int meet = 0;
+    for (int i = 0; i < count && rounding > 0.0; i++) meet += fabs(distance_to(near, &seen[i], nearest->foot)) < rounding;
+    return meet > 1;
+}
+
+/* Adds what is seen from the reflection of a point in an obstacle. */
+static int add_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES], int count)
+{
+    int first = count;
+    double open[3] = {point[0], point[1], point[2]};
+    Face around[FIELD_FACES];
+    for (int tries = 0; tries < 3 && field_distance(near, open) <= ON_SURFACE; tries++) reflect(near, face, count, open);
+    if (field_distance(near, open) <= ON_SURFACE) return count;
+    const int seen = faces_seen(near, open, reach, around);
+    if (is_edge(near, &face[0], around, seen)) first = count = 0;
+    for (int i = 0; i < seen; i++) {
+        bool known = count == near->dimension;
+        for (int k = 0; k < count && !known; k++) known = field_same_way(&around[i], &face[k]);
+        if (known) continue;
+        around[i].distance = distance_to(near, &around[i], point);
+        face[count++] = around[i];
+    }
+    sort_by_distance(face, first, count);
+    return count;
+}
+
+int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
+{
+    const bool outside = field_distance(near, point) > ON_SURFACE;
+    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, face);
+    if (outside) sort_by_distance(face, 0, count);
+    return outside || count == 0 ? count : add_beside(near, point, reach, face, count);
+}
+
+int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
+{
+    return add_beside(near, point, reach, face, 1);
+}
+
+bool field_surface(const Near *near, const double point[3], Face *face)
+{
+    bool found = false;
+    for (int i = 0; i < near->count; i++) {
+        const Obstacle *o = near->obstacle[i];
+        double normal[3];
+        const double distance = solid_distance(field_solid(near, o), point, normal) / near->cell_size;
+        const bool nearer = !found || (o->wall && !face->obstacle->wall) || (o->wall == face->obstacle->wall && distance > face->distance);
+        if (distance >= 0.0 || !nearer) continue;
+        *face = face_at(near, o, point, distance, normal);
+        found = true;
+    }
+    return found;
+}
+
+int field_outer_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES], int count)
+{
+    Face all[2 * 3];
+    const Obstacle *o = face[0].obstacle;
+    if (count == 0 || field_solid(near, o)->kind != PBMPM_BOX || face[0].distance >= 0.0) return count;
+    const int faces = box_faces(near, o, point, reach, all, 2 * near->dimension);
+    for (int i = 0; i < faces; i++) {
+        bool known = all[i].distance > 0.0 || count == near->dimension;
+        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > SAME_WAY;
+        if (!known && bounds_space(near, &all[i])) face[count++] = all[i];
+    }
+    return count;
+}
+
+bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other)
+{
+    static const double OPPOSITE = -0.9; /* cosine */
+    Face all[CANDIDATES];
+    const int candidates = faces_around(near, point, NODE_REACH, all);
+    bool found = false;
+    for (int i = 0; i < candidates; i++) {
+        if (all[i].distance > 0.5 || dot3(all[i].normal, face->normal) > OPPOSITE || !bounds_space(near, &all[i])) continue;
+        if (found && all[i].distance <= other->distance) continue;
+        *other = all[i];
+        found = true;
+    }
+    if (found || !field_solid(near, face->obstacle)->grid) return found;
+    for (double way = 0.5; way <= NODE_REACH && !found; way += 0.5) { /* through the skin of a baked solid */
+        double beyond[3], normal[3];
+        ahead(near, point, -way, face->normal, beyond);
+        const double distance = solid_distance(field_solid(near, face->obstacle), beyond, normal) / near->cell_size;
+        if (distance <= 0.0 || dot3(normal, face->normal) > OPPOSITE) continue;
+        *other = face_at(near, face->obstacle, beyond, distance, normal);
+        other->distance = distance_to(near, other, point);
+        found = is_open(near, beyond);
+    }
+    return found;
+}
+
+/* ---- Open shares ---- */
+
+double field_spline_below(double x)
+{
+    if (x >= NODE_REACH) return 1.0;
+    if (x <= -NODE_REACH) return 0.0;
+    const double rest = NODE_REACH - fabs(x);
+    if (x > 0.5) return 1.0 - rest * rest * rest / 6.0;
+    if (x < -0.5) return rest * rest * rest / 6.0;
+    return 0.5 + x * (0.75 - x * x / 3.0);
+}
+
+/* The share of a node's weight that a box takes: along each of its axes what lies between its two faces. The spline is nearly the same along turned axes. */
+static double box_share(const Near *near, const Solid *s, const double point[3])
+{
+    double local[3], share = 1.0;
+    along_axes(s, point, local);
+    for (int a = 0; a < s->dimension; a++)
+        share *= field_spline_below((s->half_extents[a] - local[a]) / near->cell_size) - field_spline_below((-s->half_extents[a] - local[a]) / near->cell_size);
+    return share;
+}
+
+/* A box by itself takes its own share. Of several obstacles the planes around the point tell: those in a hollow leave the product of what each leaves. */
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count)
+{
+    Face face[FIELD_FACES];
+    const Obstacle *only = NULL;
+    double least = INFINITY, share = 1.0;
+    int close = 0;
+    for (int i = 0; i < near->count; i++) {
+        const double distance = solid_gap(field_solid(near, near->obstacle[i]), point) / near->cell_size;
+        least = fmin(least, distance);
+        if (distance >= NODE_REACH * sqrt((double)near->dimension)) continue;
+        only = near->obstacle[i];
+        close++;
+    }
+    if (least >= NODE_REACH) return 1.0;
+    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point), field_spline_below(-deepest));
+    if (!known) count = field_faces(near, point, NODE_REACH, face);
+    for (int i = 0; i < count; i++) share *= field_spline_below(fmax((known ? known : face)[i].distance, -deepest));
+    return count > 0 || least > 0.0 ? share : field_spline_below(-deepest);
+}

@@ -1,0 +1,384 @@
+/* Particles that passed an obstacle or ended inside one, and what putting them back gives it. */
+#include <math.h>
+
+#include "base/result.h"
+#include "contact/field.h"
+#include "contact/push_out.h"
+
+/* An obstacle as a block sees it. Places are relative to the block's first node: the products and differences that lead there are exact in double
+ * precision, while a place far from the origin would lose the last bits of its fraction, and the same scene a million cells away end elsewhere. */
+typedef struct View {
+    const Obstacle *obstacle; /* in the world */
+    Obstacle local;
+    int32_t cell[3];  /* of the block's first node */
+    double corner[3]; /* where that is [m] */
+} View;
+
+static View view_from(const ContactFrame *frame, const Obstacle *o, int32_t block)
+{
+    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    View view = {.obstacle = o, .local = *o};
+    for (int a = 0; a < frame->grid->dimension; a++) {
+        view.cell[a] = frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS;
+        view.corner[a] = (double)view.cell[a] * frame->cell_size;
+        view.local.start.position[a] -= view.corner[a];
+        view.local.end.position[a] -= view.corner[a];
+    }
+    return view;
+}
+
+/* In cells. */
+static double place_in_view(const View *view, const Particles *p, uint32_t row, int axis)
+{
+    return (double)(p->cell[axis][row] - view->cell[axis]) + (double)p->fraction[axis][row];
+}
+
+/* Moves a particle by `way` [cells] and takes away its velocity into the surface with this normal. */
+static void put_back(const ContactFrame *frame, const View *view, Particles *p, uint32_t row, float dt, const double way[3], const double normal[3],
+                     ImpulseSum *sum)
+{
+    float surface[3];
+    double point[3] = {0}, gained[3] = {0}, inward = 0.0;
+    for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
+    obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
+    const double to_velocity = frame->cell_size / (double)dt;
+    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
+    particles_shift(p, row, way);
+    particles_forget(p, row);
+    const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);
+    for (int a = 0; a < p->dimension && inward < 0.0; a++) {
+        const float before = p->velocity[a][row];
+        p->velocity[a][row] -= (float)(inward * normal[a]);
+        gained[a] = mass * ((double)p->velocity[a][row] - (double)before);
+        point[a] += way[a] * frame->cell_size + view->corner[a];
+    }
+    if (sum && inward < 0.0) impulse_add(sum, point, gained);
+}
+
+/* Where the impulses of a block's particles are noted; null: nothing measures. */
+typedef struct Book {
+    PushNotes *notes; /* of the block; null in the serial pass, which adds to the sums */
+} Book;
+
+/* The sum for what an obstacle is given; null: it does not measure. False: the block has no room for another one. */
+static bool find_sum(const ContactFrame *frame, const Book *book, const Obstacle *o, ImpulseSum **sum)
+{
+    const int obstacle = (int)(o - frame->colliders->obstacle);
+    *sum = NULL;
+    if (!o->measures) return true;
+    if (!book->notes) {
+        *sum = &frame->colliders->impulses.sum[o->place];
+        return true;
+    }
+    PushNotes *notes = book->notes;
+    for (int n = 0; n < notes->count && !*sum; n++)
+        if (notes->obstacle[n] == obstacle) *sum = &notes->sum[n];
+    if (*sum) return true;
+    if (notes->count == PUSH_NOTES) return false;
+    notes->obstacle[notes->count] = obstacle;
+    notes->sum[notes->count] = (ImpulseSum){{0}, {0}};
+    *sum = &notes->sum[notes->count++];
+    return true;
+}
+
+/* ---- Particles inside ---- */
+
+/* [m] */
+static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row, double point[3])
+{
+    for (int a = 0; a < 3; a++)
+        point[a] = a < p->dimension ? ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size : 0.0;
+}
+
+/* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
+ * not fling it. */
+static void push_through(const ContactFrame *frame, const Face *face, Particles *p, int32_t block, uint32_t row, float dt, ImpulseSum *sum)
+{
+    const View view = view_from(frame, face->obstacle, block);
+    const double depth = field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); /* up: not outside by a rounding */
+    double way[3], normal[3];
+    for (int a = 0; a < 3; a++) {
+        normal[a] = field_rounded(face->normal[a]);
+        way[a] = (face->obstacle->wall ? depth : fmin(depth, 1.0)) * normal[a];
+    }
+    put_back(frame, &view, p, row, dt, way, normal, sum);
+}
+
+/* What is behind a wall of the domain comes back at once, whatever else is there. False: no room to book in. */
+static bool push_inside(const ContactFrame *frame, const Near *near, Particles *p, int32_t block, uint32_t row, float dt, const Book *book)
+{
+    for (int i = 0; i < near->count; i++) {
+        double point[3];
+        Face face = {.obstacle = near->obstacle[i]};
+        ImpulseSum *sum;
+        if (!near->obstacle[i]->wall) continue;
+        place_of(frame, p, row, point);
+        face.distance = solid_distance(field_solid(near, near->obstacle[i]), point, face.normal) / near->cell_size;
+        if (face.distance >= 0.0) continue;
+        if (!find_sum(frame, book, near->obstacle[i], &sum)) return false;
+        push_through(frame, &face, p, block, row, dt, sum);
+    }
+    return true;
+}
+
+static bool is_behind_wall(const Near *near, const double point[3])
+{
+    for (int i = 0; i < near->count; i++)
+        if (near->obstacle[i]->wall && solid_gap(field_solid(near, near->obstacle[i]), point) < 0.0) return true;
+    return false;
+}
+
+/* Whether matter is trapped where obstacles overlap, and stays there, see ContactFrame: it is in more than one, or the surface that is nearest lies in another. */
+static bool stays(const ContactFrame *frame, const Near *near, const Particles *p, uint32_t row, const double point[3], int faces)
+{
+    Face face;
+    int in = 0;
+    if (!frame->stays || frame->stays[p->material[row]].kind != K_LIQUID) return false;
+    for (int i = 0; i < near->count; i++) in += solid_gap(field_solid(near, near->obstacle[i]), point) < 0.0;
+    if (in > 1 || faces > 0 || !field_surface(near, point, &face)) return in > 1;
+    for (int i = 0; i < near->count; i++)
+        if (near->obstacle[i] != face.obstacle && !near->obstacle[i]->wall && solid_gap(field_solid(near, near->obstacle[i]), face.foot) < 0.0) return true;
+    return false;
+}
+
+/* Where obstacles overlap so far that no face is near: out of the one whose surface is nearest, unless that leads behind a wall. */
+static bool has_way_out(const Near *near, const double point[3], Face *face)
+{
+    double end[3];
+    if (!field_surface(near, point, face)) return false;
+    for (int a = 0; a < 3; a++) end[a] = point[a] + fmin(-face->distance, 1.0) * near->cell_size * face->normal[a];
+    return !is_behind_wall(near, end);
+}
+
+/* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
+static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, Particles *p, int32_t block, uint32_t row, float dt,
+                          const Book *book)
+{
+    Near all, some;
+    double point[3];
+    Face face[FIELD_FACES];
+    ImpulseSum *sum[FIELD_FACES] = {NULL};
+    place_of(frame, p, row, point);
+    if (field_distance(close, point) >= 0.0) return true;
+    if (!push_inside(frame, close, p, block, row, dt, book)) return false;
+    place_of(frame, p, row, point);
+    if (field_distance(close, point) >= 0.0) return true;
+    field_near(&all, frame, centre, reach + 2.0 * NODE_REACH, true);
+    const Near *near = field_meeting(&all, contacts_row_groups(frame, p, row), &some);
+    int count = field_faces(near, point, NODE_REACH, face);
+    if (stays(frame, near, p, row, point, count)) return true;
+    if (count == 0) count = has_way_out(near, point, &face[0]);
+    for (int i = 0; i < count; i++)
+        if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
+    for (int i = 0; i < count; i++)
+        if (face[i].distance < 0.0) push_through(frame, &face[i], p, block, row, dt, sum[i]);
+    return true;
+}
+
+/* ---- Particles that passed an obstacle ---- */
+
+static const double TOUCH = 1e-3; /* [cells] */
+
+/* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
+ * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
+ * tracing: J. Hart, "Sphere tracing", The Visual Computer 12, 1996). Shorter ways than these end inside, where they are noticed. */
+static const double LONGEST_UNSEEN = 0.5, LONGEST_UNSEEN_BAKED = 0.25; /* [cells] */
+static const double NUDGED_MOST = 0.1; /* [cells]: what crowded particles move beside their way */
+static const double CARRIED_MOST = 1.0; /* [cells per substep]: what an obstacle that is faster lands on is not carried along */
+
+/* The longest way [cells] that needs no look; infinite for what cannot be passed. */
+static double longest_unseen(const ContactFrame *frame, const Obstacle *o)
+{
+    const Solid *s = &o->end;
+    if (o->wall || s->kind == PBMPM_PLANE) return INFINITY;
+    if (s->grid) return LONGEST_UNSEEN_BAKED;
+    double half = s->kind == PBMPM_BOX ? s->half_extents[0] : s->radius;
+    for (int a = 1; a < s->dimension && s->kind == PBMPM_BOX; a++) half = fmin(half, s->half_extents[a]);
+    return fmin(LONGEST_UNSEEN, half / frame->cell_size);
+}
+
+static bool is_in_reach(const ContactFrame *frame, const Obstacle *o, int32_t block, double way)
+{
+    double centre[3];
+    contacts_block_centre(frame, block, centre);
+    const double half_diagonal = 0.5 * K_BLOCK_AXIS * sqrt((double)frame->grid->dimension);
+    return solid_least(&o->end, centre) / frame->cell_size <= half_diagonal + way;
+}
+
+/* Relative to the block's first node. */
+static float place_in_block(const ContactFrame *frame, const Particles *p, int32_t block, uint32_t row, int axis)
+{
+    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    return (float)(p->cell[axis][row] - frame->grid->anchor[axis] - corner[axis] * K_BLOCK_AXIS) + p->fraction[axis][row];
+}
+
+void contacts_keep_places(const ContactFrame *frame, const Particles *p, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    const uint32_t *rows = frame->grid->block_begin.data;
+    for (int32_t block = begin; block < end; block++) {
+        bool wanted = false;
+        for (int i = 0; i < colliders->obstacle_count && !wanted; i++) {
+            const Obstacle *o = &colliders->obstacle[i];
+            wanted = longest_unseen(frame, o) < INFINITY && is_in_reach(frame, o, block, frame->max_displacement);
+        }
+        for (int a = 0; wanted && a < p->dimension; a++) {
+            float *kept = particles_spare(p, CLASS_VECTOR, a);
+            for (uint32_t row = rows[block]; row < rows[block + 1]; row++) kept[row] = place_in_block(frame, p, block, row, a);
+        }
+    }
+}
+
+/* The share of the way [cells] from `from` [m] at which it runs into the solid, with the normal there; 1: it does not. A convex solid lies behind the
+ * plane through its nearest point, so the way to that plane is free, and a way that grazes a wall arrives after one step; steps as long as the
+ * distance alone would need ever more of them, the flatter it is. */
+static double share_until_hit(const Solid *solid, const double from[3], const double way[3], double length, double cell_size, double normal[3])
+{
+    enum { STEPS = 48 };
+    double share = 0.0;
+    for (int i = 0; i < STEPS && share < 1.0; i++) {
+        double at[3], inward = 0.0;
+        for (int a = 0; a < 3; a++) at[a] = from[a] + share * way[a] * cell_size;
+        const double distance = solid_distance(solid, at, normal) / cell_size;
+        for (int a = 0; a < 3; a++) inward -= way[a] * normal[a];
+        if (distance <= TOUCH && inward > 0.0) return share;
+        if (inward <= 0.0 && !solid->grid) return 1.0; /* convex: it only gets further away */
+        share += fmax(distance, TOUCH) / (solid->grid ? length : inward);
+    }
+    return 1.0;
+}
+
+/* What is missing from the way [cells] of a particle that started at `from` [m] so that it slides along the surface it runs into instead of
+ * passing through. False: nothing. */
+static bool slide(const ContactFrame *frame, const Obstacle *o, const double from[3], const double way[3], double back[3], double normal[3])
+{
+    double length = 0.0, inward = 0.0;
+    for (int a = 0; a < 3; a++) length += way[a] * way[a];
+    length = sqrt(length);
+    const double left = 1.0 - share_until_hit(&o->end, from, way, length, frame->cell_size, normal);
+    if (left <= 0.0) return false;
+    for (int a = 0; a < 3; a++) inward -= left * way[a] * normal[a];
+    for (int a = 0; a < 3; a++) back[a] = inward * normal[a];
+    return true;
+}
+
+static void hold_back(const ContactFrame *frame, const View *view, Particles *p, int32_t block, uint32_t row, double unseen, float dt, ImpulseSum *sum)
+{
+    const Obstacle *o = &view->local;
+    double from[3] = {0}, way[3] = {0}, back[3], normal[3], length2 = 0.0;
+    float surface[3], carried2 = 0.0f;
+    for (int a = 0; a < p->dimension; a++) {
+        way[a] = (double)(place_in_block(frame, p, block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
+        from[a] = (place_in_view(view, p, row, a) - way[a]) * frame->cell_size;
+        length2 += way[a] * way[a];
+    }
+    if (o->moves) {
+        obstacle_motion(o, from, frame->cell_size, frame->max_displacement, surface);
+        length2 = 0.0;
+        for (int a = 0; a < p->dimension; a++) {
+            carried2 += surface[a] * surface[a];
+            from[a] += (double)surface[a] * frame->cell_size;
+            way[a] -= (double)surface[a];
+            length2 += way[a] * way[a];
+        }
+        if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return;
+    }
+    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, view, p, row, dt, back, normal, sum);
+}
+
+/* ---- Both ---- */
+
+static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
+{
+    return is_in_reach(frame, o, block, (double)((const float *)frame->grid->travel.data)[block]);
+}
+
+/* Holds back what passed one obstacle. */
+static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
+{
+    const uint32_t *begin = frame->grid->block_begin.data;
+    const double unseen = longest_unseen(frame, o);
+    if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
+    const View view = view_from(frame, o, block);
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
+        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
+}
+
+/* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
+static void push_block(const ContactFrame *frame, Particles *particles, float dt, int32_t block, int first, uint32_t row, const Book *book)
+{
+    const Colliders *colliders = frame->colliders;
+    const uint32_t *begin = frame->grid->block_begin.data;
+    double centre[3];
+    Near near, some;
+    for (int i = first; i < colliders->obstacle_count; i++) {
+        const Obstacle *o = &colliders->obstacle[i];
+        ImpulseSum *sum;
+        if (!is_near(frame, o, block)) continue;
+        if (!find_sum(frame, book, o, &sum)) {
+            book->notes->resume = i;
+            book->notes->row = begin[block];
+            return;
+        }
+        hold_block(frame, o, particles, dt, block, sum);
+    }
+    contacts_block_centre(frame, block, centre);
+    const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
+    field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
+    for (; row < begin[block + 1] && near.count > 0; row++) {
+        if (particles->status[row] != K_ALIVE) continue;
+        const Near *meeting = field_meeting(&near, contacts_row_groups(frame, particles, row), &some);
+        if (push_particle(frame, meeting, centre, reach, particles, block, row, dt, book)) continue;
+        book->notes->resume = colliders->obstacle_count;
+        book->notes->row = row;
+        return;
+    }
+}
+
+void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
+{
+    const Colliders *colliders = frame->colliders;
+    const uint32_t *rows = frame->grid->block_begin.data;
+    for (int32_t block = begin; block < end && colliders->obstacle_count > 0; block++) {
+        Book book = {colliders->measures ? (PushNotes *)colliders->impulses.notes.data + block : NULL};
+        if (book.notes) {
+            book.notes->count = 0;
+            book.notes->resume = -1;
+        }
+        push_block(frame, particles, dt, block, 0, rows[block], &book);
+    }
+}
+
+void contacts_pass_over(const ContactFrame *frame, int32_t block)
+{
+    if (!frame->colliders->measures) return;
+    PushNotes *notes = (PushNotes *)frame->colliders->impulses.notes.data + block;
+    notes->count = 0;
+    notes->resume = -1;
+}
+
+pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory)
+{
+    Colliders *colliders = frame->colliders;
+    const size_t blocks = (size_t)frame->grid->particle_blocks;
+    if (!colliders->measures || array_reserve(memory, &colliders->impulses.notes, blocks, sizeof(PushNotes))) return PBMPM_OK;
+    return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the impulses of %zu blocks", blocks);
+}
+
+void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt)
+{
+    const Colliders *colliders = frame->colliders;
+    const Book sums = {NULL};
+    if (!colliders->measures) return;
+    for (int32_t block = 0; block < frame->grid->particle_blocks; block++) {
+        const PushNotes *notes = (const PushNotes *)colliders->impulses.notes.data + block;
+        for (int n = 0; n < notes->count; n++) {
+            ImpulseSum *sum = &colliders->impulses.sum[colliders->obstacle[notes->obstacle[n]].place];
+            for (int a = 0; a < 3; a++) {
+                sum->linear[a] += notes->sum[n].linear[a];
+                sum->angular[a] += notes->sum[n].angular[a];
+            }
+        }
+        if (notes->resume >= 0) push_block(frame, particles, dt, block, notes->resume, notes->row, &sums);
+    }
+}

@@ -1,0 +1,344 @@
+#include "contact/walls.h"
+
+#include <math.h>
+
+#include "contact/walls_list.h"
+
+enum { GRAIN = 64, WALL_NODE_NS = 20 };
+
+/* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
+typedef struct Vectors {
+    Four *momentum, *free, *moved, *back;
+} Vectors;
+
+static Vectors vectors_of(const Walls *walls)
+{
+    Four *first = walls->vector.data;
+    if (walls->nodes == 0) return (Vectors){NULL, NULL, NULL, NULL};
+    return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + VECTORS * (size_t)walls->nodes};
+}
+
+void walls_free(Walls *walls, Memory *memory)
+{
+    Array *arrays[] = {&walls->node,  &walls->motion, &walls->matrices, &walls->entry, &walls->link,
+                       &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
+    walls_clear(walls);
+}
+
+void walls_clear(Walls *walls)
+{
+    walls->nodes = walls->entries = walls->links = 0;
+    walls->rubs = false;
+}
+
+int walls_faces(const Walls *walls, uint32_t node, uint16_t obstacle[3], const float *normal[3])
+{
+    const WallNode *n = (const WallNode *)walls->node.data + walls_place(walls, node) - 1;
+    for (int k = 0; k < n->normals; k++) {
+        obstacle[k] = n->obstacle[k];
+        normal[k] = n->normal[k];
+    }
+    return n->normals;
+}
+
+bool walls_hold(const Walls *walls, uint32_t node)
+{
+    const uint32_t place = walls_place(walls, node);
+    return place > 0 && ((const WallNode *)walls->node.data)[place - 1].follows;
+}
+
+static Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
+
+/* What an entry takes from: the mean of its parents' u~. */
+static Four mean_of(const WallEntry *entry, const Four *free)
+{
+    Four mean = {0};
+    for (uint32_t k = 0; k < entry->corners; k++) mean += entry->weight[k] * free[entry->parent[k]];
+    return mean;
+}
+
+/* ---- Making motion admissible ---- */
+
+typedef struct ApplyJob {
+    const Walls *walls;
+    const ContactFrame *frame;
+    Vectors v;
+    float shifted; /* 1 with the walls' own motion, 0 without */
+    const uint8_t *mark;
+} ApplyJob;
+
+static float *node_at(const ApplyJob *job, uint32_t node) { return (float *)job->frame->grid->node.data + (size_t)node * K_NODE_WIDTH; }
+
+static Four load(const float *node) { return (Four){node[0], node[1], node[2], node[3]}; }
+
+/* All but the mass. */
+static void store(Four u, float *node)
+{
+    for (int a = 0; a < 3; a++) node[a] = u[a];
+}
+
+/* p - m c0 */
+static Four rest_of(const ApplyJob *job, const WallMotion *n, Four p) { return p - job->shifted * (n->mass * n->shift); }
+
+/* p - m c0 goes back through the entries; what is new of p is taken over. */
+static void send_back(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallMotion *motion = job->walls->motion.data;
+    const WallEntry *entry = job->walls->entry.data;
+    for (int32_t i = begin; i < end; i++) {
+        const WallMotion *n = &motion[i];
+        if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
+        const Four rest = rest_of(job, n, job->v.momentum[i]);
+        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) job->v.back[e] = times(&entry[e].matrix, rest);
+    }
+}
+
+/* E^T (p - m c0) at one node. */
+static Four folded(const ApplyJob *job, uint32_t i)
+{
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    const WallMatrices *matrices = (const WallMatrices *)job->walls->matrices.data + i;
+    const WallLink *link = job->walls->link.data;
+    Four sum = times(&matrices->own, rest_of(job, n, job->v.momentum[i]));
+    for (uint32_t l = n->link_begin; l < n->link_moving; l++) sum += link[l].weight * job->v.back[link[l].entry];
+    return sum;
+}
+
+static void find_free(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallMotion *motion = job->walls->motion.data;
+    const WallMatrices *matrices = job->walls->matrices.data;
+    for (int32_t i = begin; i < end; i++) {
+        job->v.free[i] = times(&matrices[i].inverse, folded(job, (uint32_t)i));
+        store(job->v.free[i], node_at(job, motion[i].node));
+    }
+}
+
+/* Where contacts were obeyed in between. */
+static void take_free(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallMotion *motion = job->walls->motion.data;
+    for (int32_t i = begin; i < end; i++) job->v.free[i] = load(node_at(job, motion[i].node));
+}
+
+/* u = E u~ + c0 */
+static void find_moved(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallMotion *motion = job->walls->motion.data;
+    const WallMatrices *matrices = job->walls->matrices.data;
+    const WallEntry *entry = job->walls->entry.data;
+    for (int32_t i = begin; i < end; i++) {
+        const WallMotion *n = &motion[i];
+        Four u = times(&matrices[i].own, job->v.free[i]) + job->shifted * n->shift;
+        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) u += times(&entry[e].matrix, mean_of(&entry[e], job->v.free));
+        job->v.moved[i] = u;
+        store(u, node_at(job, n->node));
+    }
+}
+
+/* What the wall gives to a node: m u - p, with what E^T brings to others and less what M counts of it there. The sum over all nodes is the change of momentum,
+ * but for M u~ - E^T (p - m c0), which contacts and friction leave at the nodes that are free. */
+static void given(const ApplyJob *job, uint32_t i, double sum[3])
+{
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    const WallEntry *entry = job->walls->entry.data;
+    const Four p = job->v.momentum[i], u = job->v.moved[i];
+    const Columns *of_own = &((const WallMatrices *)job->walls->matrices.data)[i].own;
+    const Four own = times(of_own, rest_of(job, n, p)), still = times(of_own, job->v.free[i]);
+    for (int a = 0; a < 3; a++) sum[a] = (double)n->mass * ((double)u[a] - (double)still[a]) - (double)p[a] + (double)own[a];
+    for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) {
+        const Four counted = times(&entry[e].matrix, times(&entry[e].matrix, mean_of(&entry[e], job->v.free)));
+        double weight = 0.0;
+        for (uint32_t k = 0; k < entry[e].corners; k++) weight += (double)entry[e].weight[k];
+        for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[e][a] - (double)n->mass * (double)counted[a];
+    }
+}
+
+static void press(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallNode *node = job->walls->node.data;
+    for (int32_t i = begin; i < end; i++) {
+        double sum[3], along = 0.0;
+        given(job, (uint32_t)i, sum);
+        for (int a = 0; a < 3; a++) along += sum[a] * (double)node[i].normal[0][a];
+        job->v.moved[i][3] = node[i].follows ? (float)along : 0.0f;
+    }
+}
+
+static void times_lump(const WallNode *n, const float v[3], float out[3])
+{
+    const float *m = n->lump;
+    out[0] = m[0] * v[0] + m[1] * v[1] + m[2] * v[2];
+    out[1] = m[1] * v[0] + m[3] * v[1] + m[4] * v[2];
+    out[2] = m[2] * v[0] + m[4] * v[1] + m[5] * v[2];
+}
+
+/* Coulomb: the motion along the wall loses at most the coefficient times the normal impulse, of the nodes that follow in proportion to what they follow. */
+static void rub(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const WallNode *node = job->walls->node.data;
+    const WallEntry *entry = job->walls->entry.data;
+    const WallLink *link = job->walls->link.data;
+    for (int32_t i = begin; i < end; i++) {
+        const WallNode *n = &node[i];
+        Four *u = &job->v.free[i];
+        float v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
+        if (n->coefficient == 0.0f) continue;
+        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
+        const float trace = n->lump[0] + n->lump[3] + n->lump[5];
+        if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
+        for (int a = 0; a < 3; a++) along += ((*u)[a] - n->surface[a]) * n->normal[0][a];
+        for (int a = 0; a < 3; a++) {
+            v[a] = (*u)[a] - n->surface[a] - along * n->normal[0][a];
+            size2 += v[a] * v[a];
+        }
+        if (!(size2 > 0.0f)) continue;
+        float m[3];
+        times_lump(n, v, m);
+        const float mass = (m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) / size2; /* in the direction of motion */
+        const float lost = mass > 0.0f ? n->coefficient * impulse / (mass * sqrtf(size2)) : 1.0f;
+        for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
+    }
+}
+
+static void obey(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    for (int32_t block = begin; block < end; block++) {
+        if (job->shifted == 0.0f)
+            contacts_hold(job->frame, block, block + 1);
+        else if (!job->mark || job->mark[block])
+            contacts_apply(job->frame, block, block + 1);
+        else
+            contacts_apply_walled(job->frame, block, block + 1);
+    }
+}
+
+void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark)
+{
+    const ApplyJob job = {walls, frame, vectors_of(walls), linear ? 0.0f : 1.0f, mark};
+    const Span all = {(int32_t)walls->nodes, GRAIN, (int64_t)walls->nodes * WALL_NODE_NS};
+    LOOPS_ADD(loops, all, send_back, &job);
+    LOOPS_ADD(loops, all, find_free, &job);
+    if (frame->colliders->contacts > 0) {
+        LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
+        LOOPS_ADD(loops, all, take_free, &job);
+    }
+    LOOPS_ADD(loops, all, find_moved, &job);
+    if (walls->rubs && !linear) {
+        LOOPS_ADD(loops, all, press, &job);
+        LOOPS_ADD(loops, all, rub, &job);
+        LOOPS_ADD(loops, all, find_moved, &job);
+    }
+}
+
+void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark)
+{
+    Loops loops;
+    loops_open(&loops, pool);
+    walls_add(walls, frame, &loops, linear, mark);
+    loops_run(&loops);
+}
+
+float walls_work(const Walls *walls, uint32_t node, const float *u)
+{
+    const Four p = vectors_of(walls).momentum[walls_place(walls, node) - 1];
+    return p[0] * u[0] + p[1] * u[1] + p[2] * u[2];
+}
+
+float walls_value(const Walls *walls, uint32_t node, const float *u, const float *base, const float *push)
+{
+    const WallNode *n = (const WallNode *)walls->node.data + walls_place(walls, node) - 1;
+    float value = 0.0f;
+    for (int a = 0; a < 3; a++) {
+        const float free = n->mass * (base[a] - n->shift[a]) + push[a];
+        value += 0.5f * n->mass * base[a] * base[a] - 0.5f * (u[a] - n->shift[a]) * free - n->shift[a] * push[a];
+    }
+    return value;
+}
+
+/* ---- Impulses ---- */
+
+static void book(const ApplyJob *job, const WallNode *n, int j, const double gained[3])
+{
+    const Colliders *colliders = job->frame->colliders;
+    const Obstacle *o = &colliders->obstacle[n->obstacle[j]];
+    double point[3];
+    const uint32_t cells = (uint32_t)job->frame->grid->block_cells;
+    if (!o->measures) return;
+    contacts_node_position(job->frame, (int32_t)(n->node / cells), (int)(n->node % cells), point);
+    impulse_add(&colliders->impulses.sum[o->place], point, gained);
+}
+
+void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
+{
+    if (!frame->colliders->measures || walls->nodes == 0) return;
+    const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
+    const double scale = contacts_momentum_scale(frame, dt);
+    for (uint32_t i = 0; i < walls->nodes; i++) {
+        const WallNode *n = (const WallNode *)walls->node.data + i;
+        double sum[3], gained[3];
+        float held[3];
+        given(&job, i, sum);
+        const Four back = folded(&job, i), u = job.v.free[i];
+        times_lump(n, (const float[]){u[0], u[1], u[2]}, held);
+        for (int a = 0; a < 3; a++) sum[a] += (double)held[a] - (double)back[a];
+        for (int j = 1; j < n->normals; j++) { /* along its own normal each wall, the rest the nearest one */
+            double along = 0.0;
+            for (int a = 0; a < 3; a++) along += sum[a] * (double)n->normal[j][a];
+            for (int a = 0; a < 3; a++) {
+                gained[a] = scale * along * (double)n->normal[j][a];
+                sum[a] -= along * (double)n->normal[j][a];
+            }
+            book(&job, n, j, gained);
+        }
+        for (int a = 0; a < 3; a++) gained[a] = scale * sum[a];
+        if (n->normals > 0) book(&job, n, 0, gained);
+    }
+}
+
+/* ---- Density ---- */
+
+float walls_open_share(const Walls *walls, uint32_t node)
+{
+    const uint32_t place = walls_place(walls, node);
+    return place > 0 ? ((const WallNode *)walls->node.data)[place - 1].open : -1.0f;
+}
+
+static void fold_scalar(const Walls *walls, const float *from, float *to)
+{
+    const WallNode *node = walls->node.data;
+    const WallEntry *entry = walls->entry.data;
+    const WallLink *link = walls->link.data;
+    for (uint32_t i = 0; i < walls->nodes; i++) {
+        float sum = node[i].own_mirror * from[node[i].node];
+        for (uint32_t l = node[i].link_moving; l < node[i].link_end; l++) sum += link[l].weight * from[node[entry[link[l].entry].follower].node];
+        to[i] = sum;
+    }
+}
+
+void walls_fold_volume(const Walls *walls, float *volume, float *open)
+{
+    static const float CLOSED = 1e-3f; /* less of a cell is rounding */
+    const WallNode *node = walls->node.data;
+    const WallEntry *entry = walls->entry.data;
+    if (walls->nodes == 0) return;
+    float *held = walls->vector.data, *room = held + walls->nodes;
+    fold_scalar(walls, volume, held);
+    fold_scalar(walls, open, room);
+    for (uint32_t i = 0; i < walls->nodes; i++) held[i] = room[i] > CLOSED ? held[i] / room[i] : 0.0f;
+    for (uint32_t i = 0; i < walls->nodes; i++) {
+        float sum = node[i].own_mirror * held[i];
+        for (uint32_t e = node[i].entry_begin; e < node[i].entry_end; e++)
+            for (uint32_t k = 0; k < entry[e].corners && entry[e].mirrored; k++) sum += entry[e].weight[k] * held[entry[e].parent[k]];
+        if (volume[node[i].node] > 0.0f) volume[node[i].node] = sum; /* else nobody listens */
+        open[node[i].node] = 1.0f;
+    }
+}

@@ -1,0 +1,772 @@
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "base/vector.h"
+#include "contact/field.h"
+#include "contact/reach.h"
+#include "contact/sight.h"
+#include "contact/walls.h"
+#include "contact/walls_list.h"
+
+/* ---- Symmetric matrices ---- */
+
+static void add_product(float m[6], double scale, const double a[3])
+{
+    int k = 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = r; c < 3; c++) m[k++] += (float)(scale * a[r] * a[c]);
+}
+
+/* The inverse where M has mass; what is left of a direction after the others is left at rest where it is rounding. */
+static void invert(const float m[6], float out[6])
+{
+    static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
+    double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}, inverse[3][3] = {{0}};
+    const double least = LEAST * fmax(a[0][0] + a[1][1] + a[2][2], 0.0);
+    int order[3], count = 0;
+    bool used[3] = {false, false, false};
+    double l[3][3] = {{0}};
+    memset(out, 0, 6 * sizeof *out);
+    for (;;) { /* Cholesky with the largest pivot first */
+        int best = -1;
+        for (int i = 0; i < 3; i++)
+            if (!used[i] && (best < 0 || a[i][i] > a[best][best])) best = i;
+        if (best < 0 || !(a[best][best] > least)) break;
+        used[best] = true;
+        order[count] = best;
+        const double root = sqrt(a[best][best]);
+        for (int i = 0; i < 3; i++) l[i][count] = used[i] && i != best ? 0.0 : a[i][best] / root;
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++)
+                if (!used[i] && !used[j]) a[i][j] -= l[i][count] * l[j][count];
+        for (int i = 0; i < 3; i++)
+            if (!used[i]) a[i][best] = a[best][i] = 0.0;
+        count++;
+    }
+    for (int e = 0; e < count; e++) { /* columns of the inverse, among the pivots */
+        double y[3], x[3];
+        for (int i = 0; i < count; i++) {
+            y[i] = i == e ? 1.0 : 0.0;
+            for (int k = 0; k < i; k++) y[i] -= l[order[i]][k] * y[k];
+            y[i] /= l[order[i]][i];
+        }
+        for (int i = count - 1; i >= 0; i--) {
+            x[i] = y[i];
+            for (int k = i + 1; k < count; k++) x[i] -= l[order[k]][i] * x[k];
+            x[i] /= l[order[i]][i];
+        }
+        for (int i = 0; i < count; i++) inverse[order[i]][order[e]] = x[i];
+    }
+    int k = 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
+}
+
+static Columns columns_of(const float m[6]) { return (Columns){{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}; }
+
+/* ---- Geometry ---- */
+
+/* Nodes before a wall that are at least so far off [cells] move along its normal freely; half a cell, with what walls are rounded by. */
+static const double CLEAR = 0.4999;
+
+/* Where a node looks from. */
+typedef struct Site {
+    const ContactFrame *frame;
+    const Near *near;
+    int32_t block;
+    int local[3];
+    double point[3];
+} Site;
+
+static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
+
+/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
+static float wetness(const Site *site, const Face *face)
+{
+    float most = 0.0f;
+    for (double before = 0.6; before < 1.5; before += 0.8) {
+        int way[3];
+        for (int a = 0; a < 3; a++) way[a] = (int)floor((before - face->distance) * face->normal[a] + 0.5);
+        most = fmaxf(most, mass_of(site->frame->grid, grid_node_beside(site->frame->grid, site->block, site->local, way)));
+    }
+    return most;
+}
+
+/* Below this share of the other side's matter a side of a thin wall counts as dry. */
+static const float DRY = 0.02f;
+
+/* A node at walls: the faces that it is bound to. */
+typedef struct Bound {
+    uint32_t node; /* of the grid */
+    int32_t block;
+    int local[3];
+    Face face[FIELD_FACES];
+    int faces;
+    bool both, thin; /* see find_faces() */
+    float open; /* share */
+} Bound;
+
+/* The faces that a node is bound to. In a thin wall, thinner than two reaches of a node's spline, that is the one before which matter is; `both`: matter is on both
+ * sides, and the node serves neither but goes with the wall. */
+static void find_faces(const Site *site, Bound *bound)
+{
+    const double reach = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
+    Face *face = bound->face, other;
+    double behind[3];
+    bound->faces = field_faces(site->near, site->point, reach, face);
+    bound->both = bound->thin = false;
+    if (bound->faces == 0 || face[0].distance >= CLEAR) return;
+    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
+    bound->thin = field_distance(site->near, behind) > 0.0 && field_opposite(site->near, site->point, &face[0], &other);
+    if (!bound->thin) return;
+    const float here = wetness(site, &face[0]), there = wetness(site, &other);
+    if (there <= DRY * here) return;
+    bound->both = here > DRY * there;
+    if (bound->both) {
+        bound->faces = 1;
+        return;
+    }
+    face[0] = other;
+    bound->faces = field_faces_beside(site->near, site->point, reach, face);
+}
+
+/* ---- The nodes that follow ---- */
+
+typedef struct Builder {
+    Walls *walls;
+    Memory *memory;
+    const ContactFrame *frame;
+    const Bound *const *bound; /* the first nodes of the list */
+    uint32_t bounds;
+    bool failed;
+} Builder;
+
+/* A face as a node uses it: normals made orthogonal, so that each takes its own part. */
+typedef struct Profile {
+    double normal[3], axis[3]; /* as it is; orthogonal to those before it */
+    double distance, share;    /* share: of the mirror image */
+    double bend;               /* see turn_of() */
+    float surface[3];
+} Profile;
+
+/* Sine of the least angle between planes that do not count as one, see field_same_way(). */
+static const double LEAST_TURN = 0.31;
+
+/* Whether two faces are nearly back to back. */
+static bool opposed(const Face *a, const Face *b) { return dot3(a->normal, b->normal) < -0.95; }
+
+/* Whether the wall at one node goes on at another: with a slight turn, or round an outer edge. Where it meets another in an inner edge, nodes have the normals of both. */
+static bool goes_on(const ContactFrame *frame, const Bound *here, const Bound *there)
+{
+    const Face *face = &here->face[0], *other = &there->face[0];
+    double before = 0.0; /* the one's foot, before the other's plane */
+    if (field_same_way(face, other)) return true;
+    if (opposed(face, other)) return false;
+    for (int k = 1; k < here->faces; k++)
+        if (field_same_way(&here->face[k], other)) return false;
+    for (int k = 1; k < there->faces; k++)
+        if (field_same_way(&there->face[k], face)) return false;
+    for (int a = 0; a < 3; a++) before += (face->foot[a] - other->foot[a]) * other->normal[a];
+    return before < 1e-3 * frame->cell_size;
+}
+
+/* What a node of the grid is bound to; null if it is not. */
+static const Bound *bound_at(const Builder *b, int64_t node)
+{
+    const uint32_t at = ((const uint32_t *)b->walls->place.data)[node];
+    return at > 0 && at <= b->bounds ? b->bound[at - 1] : NULL;
+}
+
+/* A wall as the spline of a node sees it. */
+typedef struct Turn {
+    double normal[3];
+    double bend; /* [cells] */
+} Turn;
+
+/* The normal is the slope of the distances at nodes, which turns at edges as slowly as the spline does. A normal that leaps there lets an even pressure do work: it
+ * drove vortices out of each blunt edge. The spline's variance is 1/4 per axis, so it sees a curved wall off by an eighth of the distances' Laplacian: by so much
+ * more is open, and by so much the profile of the normal motion is too high. At sharp edges the Laplacian is none of a curve, and does not count. */
+static Turn turn_of(const Builder *b, const Bound *bound)
+{
+    static const double SMOOTH = 0.89; /* cosine of the turn per cell: of a ball with a radius of two cells */
+    const Grid *grid = b->frame->grid;
+    const Face *face = &bound->face[0];
+    Turn turn = {.bend = 0.0};
+    double slope[3] = {0}, length = 0.0;
+    for (int a = 0; a < grid->dimension; a++) {
+        double curve = 0.0;
+        bool smooth = true;
+        for (int side = -1; side <= 1; side += 2) {
+            int way[3] = {0};
+            way[a] = side;
+            const int64_t other = grid_node_beside(grid, bound->block, bound->local, way);
+            const Bound *beside = other == GRID_NOWHERE ? NULL : bound_at(b, other);
+            double distance = face->distance + side * face->normal[a];
+            if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
+            if (!beside && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
+            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
+            slope[a] += side * distance;
+            curve += distance - face->distance;
+        }
+        if (smooth) turn.bend += curve / 8.0;
+    }
+    for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
+    length = sqrt(length);
+    for (int a = 0; a < 3; a++) turn.normal[a] = length > 0.5 ? slope[a] / length : face->normal[a];
+    return turn;
+}
+
+/* Matter that is faster than it would be after a fall of one cell, v^2 > 2 g dx, flies on where the wall turns away: a jet contracts. */
+static bool clings(const ContactFrame *frame, const Bound *bound)
+{
+    const float *u = (const float *)frame->grid->node.data + (size_t)bound->node * K_NODE_WIDTH;
+    return (double)(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) <= 2.0 * frame->fall;
+}
+
+/* Its normal without what those before it have of it, of length 1. False: no more is left than planes that count as one differ by. */
+static bool make_upright(Profile *profile, int i)
+{
+    double *axis = profile[i].axis;
+    memcpy(axis, profile[i].normal, sizeof profile[i].axis);
+    for (int k = 0; k < i; k++) {
+        const double along = dot3(axis, profile[k].axis);
+        for (int a = 0; a < 3; a++) axis[a] -= along * profile[k].axis[a];
+    }
+    const double length = sqrt(dot3(axis, axis));
+    if (length < LEAST_TURN) return false;
+    for (int a = 0; a < 3; a++) axis[a] /= length;
+    return true;
+}
+
+/* The nearest face and others that the node is near to. One by itself has the normal that turns. */
+static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
+{
+    const Face *own[NORMALS_MAX];
+    int used = 0;
+    for (int i = 0; i < bound->faces && used < b->frame->grid->dimension; i++) {
+        const Face *face = &bound->face[i];
+        Profile *p = &profile[used];
+        bool differs = i == 0 || face->distance < 1.0;
+        for (int k = 0; k < used; k++) differs = differs && !field_same_way(face, own[k]) && !opposed(face, own[k]);
+        for (int a = 0; a < 3; a++) p->normal[a] = field_rounded(face->normal[a]);
+        if (differs && make_upright(profile, used)) own[used++] = face;
+    }
+    const bool turns = used == 1 && clings(b->frame, bound);
+    const Turn turn = turns ? turn_of(b, bound) : (Turn){.bend = 0.0};
+    for (int a = 0; a < 3 && turns; a++) profile[0].normal[a] = profile[0].axis[a] = field_rounded(turn.normal[a]);
+    for (int i = 0; i < used; i++) {
+        Profile *p = &profile[i];
+        p->distance = field_rounded(own[i]->distance - turn.bend);
+        p->bend = turn.bend;
+        p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
+        obstacle_motion(own[i]->obstacle, own[i]->foot, b->frame->cell_size, b->frame->max_displacement, p->surface);
+        owner[i] = own[i]->obstacle;
+    }
+    return used;
+}
+
+/* The number of a node of the grid in the list; it is added if it is new. */
+static uint32_t listed(Builder *b, int64_t node)
+{
+    Walls *walls = b->walls;
+    uint32_t *place = (uint32_t *)walls->place.data + node;
+    if (*place) return *place - 1;
+    const size_t kept = (size_t)walls->nodes * sizeof(WallNode);
+    if (!array_grow(b->memory, &walls->node, (size_t)walls->nodes + 1, sizeof(WallNode), kept)) {
+        b->failed = true;
+        return 0;
+    }
+    WallNode *added = (WallNode *)walls->node.data + walls->nodes;
+    *added = (WallNode){.node = (uint32_t)node, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f, .open = -1.0f};
+    *place = ++walls->nodes;
+    return *place - 1;
+}
+
+static WallEntry *new_entry(Builder *b)
+{
+    Walls *walls = b->walls;
+    const size_t kept = (size_t)walls->entries * sizeof(WallEntry);
+    if (!array_grow(b->memory, &walls->entry, (size_t)walls->entries + 1, sizeof(WallEntry), kept)) {
+        b->failed = true;
+        return NULL;
+    }
+    WallEntry *entry = (WallEntry *)walls->entry.data + walls->entries;
+    *entry = (WallEntry){0};
+    return entry;
+}
+
+/* The nodes around a place `way` [cells] from the node, by multilinear weights times `weight`; with `clear` only those that no face of `profile` binds. `distance`:
+ * their mean distances from the faces. False: there are none. */
+static bool find_parents(Builder *b, const Bound *bound, const double way[3], double weight, const Profile *profile, int count, bool clear, double distance[NORMALS_MAX],
+                         WallEntry *entry)
+{
+    const int dimension = b->frame->grid->dimension, corners = 1 << dimension;
+    int64_t node[CORNERS_MAX];
+    double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
+    for (int a = 0; a < dimension; a++) {
+        low[a] = floor(way[a] + 1e-6);
+        part[a] = fmax(way[a] - low[a], 0.0);
+    }
+    for (int k = 0; k < corners; k++) {
+        int offset[3] = {0};
+        double of_corner = 1.0;
+        share[k] = 0.0;
+        for (int a = 0; a < dimension; a++) {
+            offset[a] = (int)low[a] + (k >> a & 1);
+            of_corner *= k >> a & 1 ? part[a] : 1.0 - part[a];
+        }
+        if (of_corner <= 1e-6) continue;
+        node[k] = grid_node_beside(b->frame->grid, bound->block, bound->local, offset);
+        if (node[k] == GRID_NOWHERE) continue;
+        const Bound *other = bound_at(b, node[k]);
+        for (int j = 0; j < count; j++) {
+            const double *n = profile[j].normal;
+            off[k][j] = profile[j].distance + offset[0] * n[0] + offset[1] * n[1] + offset[2] * n[2];
+        }
+        if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
+        bool free = !(other && other->face[0].distance < CLEAR);
+        for (int j = 0; j < count; j++) free = free && off[k][j] >= CLEAR;
+        if (clear && !free) continue;
+        share[k] = of_corner;
+        sum += of_corner;
+    }
+    if (sum < 1e-3) return false;
+    int used = 0;
+    for (int j = 0; j < count; j++) distance[j] = 0.0;
+    for (int k = 0; k < corners; k++) {
+        if (share[k] == 0.0) continue;
+        for (int j = 0; j < count; j++) distance[j] += share[k] / sum * off[k][j];
+        entry->parent[used] = listed(b, node[k]);
+        entry->weight[used++] = (float)(weight * share[k] / sum);
+    }
+    entry->corners = (uint32_t)used;
+    return true;
+}
+
+/* Mirrors a place in the faces of a set. */
+static void mirror(const Profile *profile, int count, int set, double way[3])
+{
+    for (int k = 0; k < count; k++) {
+        if (!(set >> k & 1)) continue;
+        const double distance = profile[k].distance + dot3(way, profile[k].normal);
+        for (int a = 0; a < 3; a++) way[a] -= 2.0 * distance * profile[k].normal[a];
+    }
+}
+
+/* The weight of the image in a set of faces. */
+static double share_of_set(const Profile *profile, int count, int set)
+{
+    double share = 1.0;
+    for (int k = 0; k < count; k++) share *= set >> k & 1 ? profile[k].share : 1.0 - profile[k].share;
+    return share;
+}
+
+/* p / rho of a particle [cells^2 / substep^2], a fourth of its multiplier: kept by the dual, by the law of liquids with the explicit solver. */
+static double pressure_of(const ContactFrame *frame, const KernelMaterial *material, uint32_t row)
+{
+    const double ratio = (double)frame->pressed->volume_ratio[row];
+    if (frame->pressure) return 0.25 * (double)frame->pressure[row] / (double)material->pascal;
+    return 0.25 * (double)material->dilation * ratio * fmax(0.0, 1.0 - ratio);
+}
+
+/* Adds mass and mass times p / rho of the liquid and sand nearest to a node. */
+static void add_pressure(const ContactFrame *frame, int64_t node, double *mass, double *sum)
+{
+    const Grid *grid = frame->grid;
+    const int32_t block = (int32_t)(node / grid->block_cells);
+    const uint32_t cell = (uint32_t)(node % grid->block_cells), *run = grid->block_run.data;
+    if (block >= grid->particle_blocks) return;
+    for (uint32_t r = run[block]; r < run[block + 1]; r++) {
+        const KernelMaterial *material = &frame->kernel[grid->run_key[r] >> K_RUN_CELL_BITS];
+        if ((grid->run_key[r] & K_RUN_CELL_MASK) != cell || (material->kind != K_LIQUID && material->yields != K_SAND)) continue;
+        for (uint32_t row = grid->run_begin[r]; row < grid->run_begin[r + 1]; row++) {
+            *mass += (double)frame->pressed->mass[row];
+            *sum += (double)frame->pressed->mass[row] * pressure_of(frame, material, row);
+        }
+    }
+}
+
+/* The mean of p / rho around a node: of single particles it is noise. */
+static double pressure_at(const ContactFrame *frame, uint32_t node)
+{
+    const Grid *grid = frame->grid;
+    const int32_t block = (int32_t)(node / (uint32_t)grid->block_cells);
+    const int cell = (int)(node % (uint32_t)grid->block_cells), local[3] = {cell & 3, cell >> 2 & 3, cell >> 4};
+    double sum = 0.0, mass = 0.0;
+    for (int n = 0; n < grid->neighbours && frame->pressed; n++) {
+        int32_t way[3];
+        grid_neighbour_offset(n, grid->dimension, way);
+        const int64_t beside = grid_node_beside(grid, block, local, way);
+        if (beside != GRID_NOWHERE) add_pressure(frame, beside, &mass, &sum);
+    }
+    return mass > 0.0 ? sum / mass : 0.0;
+}
+
+/* The normal motion of a node of the grid against the wall that a profile stands for. */
+static double motion_along(const Builder *b, uint32_t node, const Profile *profile)
+{
+    const float *u = (const float *)b->frame->grid->node.data + (size_t)node * K_NODE_WIDTH;
+    double along = 0.0;
+    for (int a = 0; a < 3; a++) along += ((double)u[a] - (double)profile->surface[a]) * profile->axis[a];
+    return along;
+}
+
+/* A wall pushes and does not pull: it is the pressure p before it that keeps matter there. By Bernoulli's law that turns what leaves no faster than v^2 = 2 p / rho; a
+ * fall of one cell, the pressure that the grid does not see, counts as in clings(). What leaves is what the node has beyond its share, `scale`, of the motion before it.
+ * Held, a sheet that slides over an edge, before whose other face nothing is, would lose half of its speed there and creep round it. */
+static bool leaves(const Builder *b, const Bound *bound, const WallEntry *entry, const Profile *profile, double scale)
+{
+    const WallNode *list = b->walls->node.data;
+    double beyond = motion_along(b, bound->node, profile), pressure = 0.0;
+    for (uint32_t k = 0; k < entry->corners; k++) beyond -= scale * (double)entry->weight[k] * motion_along(b, list[entry->parent[k]].node, profile);
+    if (beyond <= 0.0 || beyond * beyond <= 2.0 * b->frame->fall) return false;
+    for (uint32_t k = 0; k < entry->corners; k++) pressure += (double)entry->weight[k] * pressure_at(b->frame, list[entry->parent[k]].node);
+    return beyond * beyond > 2.0 * (pressure + b->frame->fall);
+}
+
+/* The way to a place that is clear of the faces, by whole cells along their normals. In acute edges a way out of one leads to the other. */
+static void way_out(const Profile *profile, int count, double way[3])
+{
+    for (int k = 0; k < count * count; k++) {
+        const Profile *p = &profile[k % count];
+        const double distance = p->distance + dot3(way, p->normal);
+        for (int a = 0; a < 3 && distance < CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
+    }
+}
+
+/* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
+static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
+{
+    double way[3] = {0}, distance[NORMALS_MAX], scale[NORMALS_MAX];
+    way_out(profile, count, way);
+    WallEntry *entry = new_entry(b);
+    if (!entry) return;
+    const bool found = find_parents(b, bound, way, 1.0, profile, count, true, distance, entry);
+    WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
+    float matrix[6];
+    memcpy(matrix, rest, sizeof matrix);
+    for (int j = 0; j < count; j++) {
+        double along = 0.0;
+        scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
+        if (found && leaves(b, bound, entry, &profile[j], scale[j])) scale[j] = 1.0;
+        add_product(matrix, scale[j], profile[j].axis);
+        for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
+        for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
+        if (!found && profile[j].distance >= CLEAR) add_product(node->own, 1.0, profile[j].axis);
+    }
+    for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
+    if (sticks) {
+        const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+        for (int k = 0; k < 6; k++) matrix[k] = (float)scale[0] * all[k];
+        for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
+        memset(node->own, 0, sizeof node->own);
+    }
+    if (!found) return;
+    entry->matrix = columns_of(matrix);
+    entry->follower = index;
+    b->walls->entries++;
+}
+
+/* Weights that are not worth a place. */
+static const double LITTLE = 1e-6;
+
+/* The density is mirrored in each face by its share. */
+static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count)
+{
+    double unused[NORMALS_MAX];
+    for (int set = 0; set < 1 << count; set++) {
+        const double weight = share_of_set(profile, count, set);
+        double way[3] = {0};
+        if (weight < LITTLE) continue;
+        mirror(profile, count, set, way);
+        WallEntry *entry = set > 0 ? new_entry(b) : NULL;
+        if (set > 0 && !entry) return;
+        if (!entry || !find_parents(b, bound, way, weight, profile, count, false, unused, entry)) {
+            ((WallNode *)b->walls->node.data)[index].own_mirror += (float)weight;
+            continue;
+        }
+        entry->mirrored = true;
+        entry->follower = index;
+        b->walls->entries++;
+    }
+}
+
+static void add_follower(Builder *b, uint32_t index)
+{
+    Walls *walls = b->walls;
+    const Bound *bound = b->bound[index];
+    Profile profile[NORMALS_MAX];
+    const Obstacle *owner[NORMALS_MAX];
+    int count = profiles_of(b, bound, profile, owner);
+    const bool sticks = owner[0]->friction == PBMPM_FRICTION_STICK;
+    if (sticks) count = 1;
+    WallNode *node = (WallNode *)walls->node.data + index;
+    node->own_mirror = 0.0f;
+    node->open = bound->open;
+    if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
+    node->normals = (uint16_t)count;
+    node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner[0]->coefficient : 0.0f;
+    memcpy(node->surface, profile[0].surface, sizeof node->surface);
+    walls->rubs = walls->rubs || node->coefficient > 0.0f;
+    float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, b->frame->grid->dimension == 3 ? 1.0f : 0.0f};
+    for (int j = 0; j < count; j++) {
+        for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
+        node->obstacle[j] = (uint16_t)(owner[j] - b->frame->colliders->obstacle);
+        node->follows = node->follows || profile[j].distance < CLEAR;
+        add_product(rest, -1.0, profile[j].axis);
+    }
+    if (count == b->frame->grid->dimension) memset(rest, 0, sizeof rest); /* else rounding would be left */
+    node->entry_begin = node->entry_moving = walls->entries;
+    if (node->follows) memset(node->own, 0, sizeof node->own);
+    if (bound->both) { /* along the wall it is free */
+        double along = 0.0;
+        for (int a = 0; a < 3; a++) along += (double)profile[0].surface[a] * profile[0].axis[a];
+        for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
+        if (!sticks) memcpy(node->own, rest, sizeof rest);
+        node->own_mirror = 1.0f;
+        node->entry_end = walls->entries;
+        return;
+    }
+    if (node->follows) add_motion(b, bound, index, profile, count, sticks, rest);
+    ((WallNode *)walls->node.data)[index].entry_moving = walls->entries;
+    add_mirrors(b, bound, index, profile, count);
+    ((WallNode *)walls->node.data)[index].entry_end = walls->entries;
+}
+
+/* ---- Finding them ---- */
+
+typedef struct FindJob {
+    Walls *walls;
+    const ContactFrame *frame;
+} FindJob;
+
+static void look_near_block(const ContactFrame *frame, int32_t block, Near *near)
+{
+    double centre[3];
+    contacts_block_centre(frame, block, centre);
+    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SIGHT_REACH, false);
+}
+
+static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
+{
+    return frame->apart && reach_solid(frame, (uint32_t)(block * frame->grid->block_cells + node));
+}
+
+static bool is_held(const ContactFrame *frame, int32_t block, int node) { return frame->held && frame->held[block] >> node & 1; }
+
+/* Which nodes are at walls, as bits. */
+static void mark_blocks(void *context, int32_t begin, int32_t end)
+{
+    const FindJob *job = context;
+    uint64_t *marks = job->walls->marked.data;
+    const Grid *grid = job->frame->grid;
+    for (int32_t block = begin; block < end; block++) {
+        marks[block] = 0;
+        for (int node = 0; node < grid->block_cells; node++)
+            if (job->frame->gap[(size_t)block * (size_t)grid->block_cells + (size_t)node] < 1.0f && !is_held(job->frame, block, node) && !has_contacts(job->frame, block, node))
+                marks[block] |= (uint64_t)1 << node;
+    }
+}
+
+/* Per node who follows it: first those whose motion does, then those whose density alone does. */
+static bool add_links(Walls *walls, Memory *memory)
+{
+    WallNode *node = walls->node.data;
+    const WallEntry *entry = walls->entry.data;
+    uint32_t links = 0;
+    for (uint32_t i = 0; i < walls->nodes; i++) node[i].link_moving = node[i].link_end = 0;
+    for (uint32_t e = 0; e < walls->entries; e++)
+        for (uint32_t k = 0; k < entry[e].corners; k++) {
+            WallNode *parent = &node[entry[e].parent[k]];
+            parent->link_moving += !entry[e].mirrored;
+            parent->link_end++;
+        }
+    for (uint32_t i = 0; i < walls->nodes; i++) { /* ends become places to fill from */
+        const uint32_t moving = node[i].link_moving, all = node[i].link_end;
+        node[i].link_begin = node[i].link_moving = links;
+        node[i].link_end = links + moving;
+        links += all;
+    }
+    if (!array_reserve(memory, &walls->link, links, sizeof(WallLink))) return false;
+    WallLink *link = walls->link.data;
+    for (uint32_t e = 0; e < walls->entries; e++)
+        for (uint32_t k = 0; k < entry[e].corners; k++) {
+            WallNode *parent = &node[entry[e].parent[k]];
+            link[entry[e].mirrored ? parent->link_end++ : parent->link_moving++] = (WallLink){e, entry[e].weight[k]};
+        }
+    walls->links = links;
+    return true;
+}
+
+/* Nodes that are only followed rub at the wall of who follows them. */
+static void give_friction(Walls *walls)
+{
+    WallNode *node = walls->node.data;
+    const WallEntry *entry = walls->entry.data;
+    const WallLink *link = walls->link.data;
+    for (uint32_t i = 0; i < walls->nodes; i++)
+        for (uint32_t l = node[i].link_begin; l < node[i].link_end && node[i].normals == 0; l++) {
+            const WallNode *from = &node[entry[link[l].entry].follower];
+            node[i].normals = 1;
+            node[i].obstacle[0] = from->obstacle[0];
+            node[i].coefficient = from->coefficient;
+            memcpy(node[i].surface, from->surface, sizeof from->surface);
+            memcpy(node[i].normal[0], from->normal[0], sizeof from->normal[0]);
+        }
+}
+
+static void square(const Columns *m, float out[6])
+{
+    const Four *row = m->column;
+    int k = 0;
+    for (int r = 0; r < 3; r++)
+        for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
+}
+
+static void set_motion(Walls *walls, uint32_t i)
+{
+    const WallNode *node = (const WallNode *)walls->node.data + i;
+    float inverse[6];
+    invert(node->lump, inverse);
+    ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry_begin, node->entry_moving, node->link_begin, node->link_moving, node->mass,
+                                                         {node->shift[0], node->shift[1], node->shift[2]}};
+    ((WallMatrices *)walls->matrices.data)[i] = (WallMatrices){columns_of(node->own), columns_of(inverse)};
+}
+
+/* M = sum m W A^2, what a node has itself included. */
+static void lump(Walls *walls, int dimension)
+{
+    WallNode *node = walls->node.data;
+    const WallEntry *entry = walls->entry.data;
+    const WallLink *link = walls->link.data;
+    for (uint32_t i = 0; i < walls->nodes; i++) {
+        float *m = node[i].lump, part[6];
+        for (int k = 0; k < 6; k++) m[k] = node[i].mass * node[i].own[k];
+        for (uint32_t l = node[i].link_begin; l < node[i].link_moving; l++) {
+            const WallEntry *e = &entry[link[l].entry];
+            const float mass = node[e->follower].mass * link[l].weight;
+            square(&e->matrix, part);
+            for (int k = 0; k < 6; k++) m[k] += mass * part[k];
+        }
+        if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
+        set_motion(walls, i);
+    }
+}
+
+typedef struct BindJob {
+    const ContactFrame *frame;
+    const uint64_t *marks;
+    const uint32_t *begin; /* per block the first of its places */
+    Bound *bound;
+} BindJob;
+
+static int count_bits(uint64_t bits)
+{
+    int count = 0;
+    for (; bits; bits &= bits - 1) count++;
+    return count;
+}
+
+/* What was found of a node in the last substep, if it holds: what thin walls do hangs on matter. */
+static const Bound *bound_before(const ContactFrame *frame, int32_t block, int node)
+{
+    const Sight *sight = frame->sight;
+    const int32_t from = sight_from(frame, block);
+    if (from == GRID_NOWHERE || !sight->walled) return NULL;
+    const uint64_t marks = ((const uint64_t *)sight->marked.data)[from], bit = (uint64_t)1 << node;
+    const Bound *bound = (const Bound *)sight->bound.data + ((const uint32_t *)sight->begin.data)[from] + count_bits(marks & (bit - 1));
+    return marks & bit && !bound->thin ? bound : NULL;
+}
+
+static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
+{
+    Near some;
+    const Near *meeting = field_meeting(near, contacts_node_groups(frame, bound->node), &some);
+    Site site = {.frame = frame, .near = meeting, .block = bound->block};
+    memcpy(site.local, bound->local, sizeof site.local);
+    contacts_node_position(frame, bound->block, node, site.point);
+    find_faces(&site, bound);
+    if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
+    if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces);
+}
+
+static void bind_blocks(void *context, int32_t first, int32_t end)
+{
+    const BindJob *job = context;
+    const ContactFrame *frame = job->frame;
+    Near near;
+    for (int32_t block = first; block < end; block++) {
+        Bound *bound = job->bound + job->begin[block];
+        bool looked = false;
+        for (int i = 0; i < frame->grid->block_cells; i++) {
+            if (!(job->marks[block] >> i & 1)) continue;
+            const Bound *before = bound_before(frame, block, i);
+            if (before)
+                *bound = *before;
+            else
+                *bound = (Bound){.local = {i & 3, i >> 2 & 3, i >> 4}, .open = -1.0f};
+            bound->node = (uint32_t)(block * frame->grid->block_cells + i);
+            bound->block = block;
+            if (!before && !looked) look_near_block(frame, block, &near);
+            looked = looked || !before;
+            if (!before) bind_node(frame, &near, bound, i);
+            bound++;
+        }
+    }
+}
+
+/* Finds the nodes at walls. Returns how many there are. */
+static bool bind_nodes(Builder *b, Pool *pool)
+{
+    Walls *walls = b->walls;
+    const Grid *grid = b->frame->grid;
+    const size_t blocks = (size_t)grid->node_blocks;
+    FindJob job = {walls, b->frame};
+    if (!array_reserve(b->memory, &walls->marked, blocks, sizeof(uint64_t)) || !array_reserve(b->memory, &walls->begin, blocks, sizeof(uint32_t))) return false;
+    const uint64_t *marks = walls->marked.data;
+    uint32_t *begin = walls->begin.data, count = 0;
+    pool_for(pool, grid->node_blocks, 16, mark_blocks, &job);
+    for (size_t block = 0; block < blocks; block++) {
+        begin[block] = count;
+        count += (uint32_t)count_bits(marks[block]);
+    }
+    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound)) || !array_reserve(b->memory, &walls->faced, count, sizeof(Bound *))) return false;
+    Bound *bound = walls->bound.data;
+    const Bound **faced = walls->faced.data;
+    BindJob bind = {b->frame, marks, begin, bound};
+    pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
+    b->bound = faced;
+    for (uint32_t i = 0; i < count && !b->failed; i++) {
+        if (bound[i].faces == 0) continue;
+        faced[b->bounds++] = &bound[i];
+        listed(b, bound[i].node);
+    }
+    return !b->failed;
+}
+
+pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool)
+{
+    const Grid *grid = frame->grid;
+    const size_t nodes = (size_t)grid->node_blocks * (size_t)grid->block_cells;
+    Builder builder = {.walls = walls, .memory = memory, .frame = frame};
+    walls_clear(walls);
+    if (frame->colliders->obstacle_count == 0) return PBMPM_OK;
+    bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
+    if (ok) {
+        if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
+        ok = bind_nodes(&builder, pool);
+        for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
+        ok = ok && !builder.failed && add_links(walls, memory) &&
+             array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
+             array_reserve(memory, &walls->matrices, walls->nodes, sizeof(WallMatrices)) &&
+             array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, sizeof(Four));
+    }
+    if (!ok) {
+        walls_clear(walls);
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes at walls of %d blocks", grid->node_blocks);
+    }
+    give_friction(walls);
+    lump(walls, grid->dimension);
+    return PBMPM_OK;
+}

@@ -1,0 +1,382 @@
+#include "grid/multilevel.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <string.h>
+
+enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH, HALO = 2 * K_BLOCK_AXIS + 1, COARSE = K_BLOCK_AXIS / 2 + 1 };
+
+/* ---- Lists of blocks ---- */
+
+static uint64_t pack(const int32_t c[3])
+{
+    return (uint64_t)(uint32_t)c[0] << (2 * GRID_COORDINATE_BITS) | (uint64_t)(uint32_t)c[1] << GRID_COORDINATE_BITS | (uint64_t)(uint32_t)c[2];
+}
+
+/* The slot of a block in the table, or the free slot where it belongs; slots hold an index + 1. */
+static uint32_t *find_slot(const Multilevel *m, const Level *level, const int32_t c[3])
+{
+    const size_t mask = m->table.bytes / sizeof(uint32_t) - 1;
+    const int32_t *coordinate = level->coordinate.data;
+    uint32_t *table = m->table.data;
+    uint64_t mixed = pack(c) * 0x9e3779b97f4a7c15u;
+    mixed = (mixed ^ mixed >> 32) * 0x9e3779b97f4a7c15u;
+    for (size_t slot = (size_t)(mixed >> 32) & mask;; slot = (slot + 1) & mask)
+        if (table[slot] == 0 || memcmp(coordinate + 3 * (table[slot] - 1), c, 3 * sizeof *c) == 0) return &table[slot];
+}
+
+/* An empty table for up to `blocks` blocks, at most half full; its size stays a power of two. */
+static bool open_table(Multilevel *m, Memory *memory, size_t blocks)
+{
+    size_t slots = 64;
+    while (slots < 2 * blocks) slots *= 2;
+    if (slots * sizeof(uint32_t) > m->table.bytes) {
+        uint32_t *table = memory_take(memory, slots * sizeof(uint32_t));
+        if (!table) return false;
+        array_free(memory, &m->table);
+        m->table = (Array){table, slots * sizeof(uint32_t)};
+    }
+    memset(m->table.data, 0, m->table.bytes);
+    return true;
+}
+
+static int parents_of(const Multilevel *m) { return m->dimension == 3 ? 8 : 4; }
+static int children_of(const Multilevel *m) { return m->dimension == 3 ? 27 : 9; }
+
+/* For the list of a level over `finer` blocks: all of their parents could be different ones. */
+static bool reserve_list(const Multilevel *m, Memory *memory, Level *level, int32_t finer)
+{
+    const size_t most = (size_t)finer * (size_t)parents_of(m);
+    return array_reserve(memory, &level->coordinate, 3 * most, sizeof(int32_t)) && array_reserve(memory, &level->parent, most, sizeof(int32_t));
+}
+
+/* The level is listed. */
+static bool reserve_level(const Multilevel *m, Memory *memory, Level *level)
+{
+    const size_t blocks = (size_t)level->blocks, floats = blocks * (size_t)m->block_cells * (size_t)m->width;
+    return array_reserve(memory, &level->child, blocks * (size_t)children_of(m), sizeof(int32_t)) &&
+           array_reserve(memory, &level->vector, floats, sizeof(float)) && array_reserve(memory, &level->inverse, floats, sizeof(float));
+}
+
+/* Lists the blocks over those of the finer level, and the next ones that its odd blocks reach into. */
+static void list_parents(Multilevel *m, Level *level, const Level *finer)
+{
+    int32_t *coordinate = level->coordinate.data, *parent = level->parent.data;
+    level->blocks = 0;
+    for (int32_t b = 0; b < finer->blocks; b++) {
+        const int32_t *c = (const int32_t *)finer->coordinate.data + 3 * b;
+        for (int n = 0; n < parents_of(m); n++) {
+            int32_t up[3];
+            bool reaches = true;
+            for (int a = 0; a < 3; a++) {
+                const int next = n >> a & 1;
+                reaches = reaches && !(next && (c[a] & 1) == 0);
+                up[a] = (c[a] >> 1) + next;
+            }
+            parent[b * parents_of(m) + n] = -1;
+            if (!reaches) continue;
+            uint32_t *slot = find_slot(m, level, up);
+            if (*slot == 0) {
+                memcpy(coordinate + 3 * level->blocks, up, sizeof up);
+                *slot = (uint32_t)++level->blocks;
+            }
+            parent[b * parents_of(m) + n] = (int32_t)*slot - 1;
+        }
+    }
+}
+
+static void list_children(const Multilevel *m, Level *level, const Level *finer)
+{
+    int32_t *child = level->child.data;
+    for (int32_t i = 0; i < level->blocks * children_of(m); i++) child[i] = -1;
+    for (int32_t b = 0; b < finer->blocks; b++) {
+        const int32_t *c = (const int32_t *)finer->coordinate.data + 3 * b;
+        const int32_t *parent = (const int32_t *)level->parent.data + b * parents_of(m);
+        for (int n = 0; n < parents_of(m); n++) {
+            if (parent[n] < 0) continue;
+            int place = 0;
+            for (int a = m->dimension - 1; a >= 0; a--) place = 3 * place + ((n >> a & 1) ? 0 : 1 + (c[a] & 1));
+            child[parent[n] * children_of(m) + place] = b;
+        }
+    }
+}
+
+/* Over how many blocks a level reaches along the longest axis. */
+static int32_t extent_of(const Level *level)
+{
+    const int32_t *c = level->coordinate.data;
+    int32_t least[3] = {INT32_MAX, INT32_MAX, INT32_MAX}, most[3] = {INT32_MIN, INT32_MIN, INT32_MIN}, extent = 1;
+    for (int32_t i = 0; i < 3 * level->blocks; i++) {
+        least[i % 3] = c[i] < least[i % 3] ? c[i] : least[i % 3];
+        most[i % 3] = c[i] > most[i % 3] ? c[i] : most[i % 3];
+    }
+    for (int a = 0; a < 3 && level->blocks > 0; a++) extent = most[a] - least[a] >= extent ? most[a] - least[a] + 1 : extent;
+    return extent;
+}
+
+/* The finest level: the blocks of the grid, moved by `shift`. */
+static bool list_finest(Multilevel *m, Memory *memory, const Grid *grid, int32_t shift)
+{
+    Level *level = &m->level[0];
+    if (!array_reserve(memory, &level->coordinate, 3 * (size_t)grid->node_blocks, sizeof(int32_t))) return false;
+    const int32_t *from = grid->coordinate.data;
+    int32_t *to = level->coordinate.data;
+    for (int32_t i = 0; i < 3 * grid->node_blocks; i++) to[i] = i % 3 < grid->dimension ? from[i] + shift : 0;
+    level->blocks = grid->node_blocks;
+    return true;
+}
+
+/* Whether the levels are those of the last substep: it had the same blocks. */
+static bool is_built(const Multilevel *m, const Grid *grid, int width, int32_t shift)
+{
+    const int32_t *now = grid->coordinate.data, *before = m->level[0].coordinate.data;
+    bool same = m->built && m->width == width && m->shift == shift && m->level[0].blocks == grid->node_blocks;
+    for (int32_t i = 0; i < 3 * grid->node_blocks && same; i++) same = i % 3 >= grid->dimension || before[i] == now[i] + shift;
+    return same;
+}
+
+bool multilevel_build(Multilevel *m, Memory *memory, const Grid *grid, int width, LevelsEnd end)
+{
+    enum { LEVELS_FAR_BEYOND = 8 };
+    const int most_levels = end == LEVELS_BEYOND ? LEVELS_FAR_BEYOND : MULTILEVEL_MAX;
+    /* The grid counts blocks from those with the lowest particles; the ones below have -1, and would have it on all levels. */
+    const int32_t shift = end == LEVELS_BEYOND ? 0 : 1;
+    if (is_built(m, grid, width, shift)) return true;
+    m->built = false;
+    m->shift = shift;
+    m->width = width;
+    m->dimension = grid->dimension;
+    m->block_cells = grid->block_cells;
+    m->levels = 1;
+    if (!list_finest(m, memory, grid, shift)) return false;
+    while (m->levels < most_levels && extent_of(&m->level[m->levels - 1]) > (m->levels > 1 ? 2 : 1)) { /* 2: a block, and what reaches over its end */
+        const Level *finer = &m->level[m->levels - 1];
+        Level *level = &m->level[m->levels];
+        const size_t most = (size_t)finer->blocks * (size_t)parents_of(m);
+        if (!reserve_list(m, memory, level, finer->blocks) || !open_table(m, memory, most)) return false;
+        list_parents(m, level, finer);
+        if (!reserve_level(m, memory, level)) return false;
+        list_children(m, level, finer);
+        m->levels++;
+    }
+    m->built = true;
+    return true;
+}
+
+void multilevel_free(Multilevel *m, Memory *memory)
+{
+    for (int l = 0; l < MULTILEVEL_MAX; l++) {
+        Level *level = &m->level[l];
+        Array *arrays[] = {&level->coordinate, &level->child, &level->parent, &level->vector, &level->inverse};
+        for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
+    }
+    array_free(memory, &m->table);
+    m->built = false;
+}
+
+/* ---- Up: sums with the weights 1/2, 1, 1/2 per axis ---- */
+
+typedef struct TransferJob {
+    const Multilevel *m;
+    const Level *level;  /* the coarser one */
+    const Level *finer;
+    const float *from;
+    float *to;
+    const float *factor; /* null: 1. Up: of the sums; down: of what is added to */
+    int width;
+} TransferJob;
+
+/* What follows is written once for any width and compiled for each of the two that there are. */
+
+/* The part of the halo that a child fills along one axis: the one below lends its last node. */
+typedef struct Part {
+    int from, to, size;
+} Part;
+
+static const Part part_of[3] = {{K_BLOCK_AXIS - 1, 0, 1}, {0, 1, K_BLOCK_AXIS}, {0, 1 + K_BLOCK_AXIS, K_BLOCK_AXIS}};
+
+/* Shortens a line of the halo to K_BLOCK_AXIS elements of `width` floats: the last one of the child below, then all of the next two. */
+static inline void sum_line(const float *below, const float *left, const float *right, float *restrict to, int width)
+{
+    const float *before[K_BLOCK_AXIS] = {below + 3 * width, left + width, left + 3 * width, right + width};
+    const float *at[K_BLOCK_AXIS] = {left, left + 2 * width, right, right + 2 * width};
+    const float *behind[K_BLOCK_AXIS] = {left + width, left + 3 * width, right + width, right + 3 * width};
+    for (int j = 0; j < K_BLOCK_AXIS; j++)
+        for (int c = 0; c < width; c++) to[j * width + c] = 0.5f * (before[j][c] + behind[j][c]) + at[j][c];
+}
+
+/* The lines through three children that are neighbours along x. */
+static inline void sum_children(const TransferJob *job, const int32_t child[3], Part y, Part z, float *flat, int width)
+{
+    static const float none[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    const size_t floats = (size_t)(job->m->block_cells * width);
+    const float *of[3];
+    for (int n = 0; n < 3; n++) of[n] = child[n] < 0 ? none : job->from + (size_t)child[n] * floats;
+    for (int k = 0; k < z.size; k++)
+        for (int j = 0; j < y.size; j++) {
+            const int from = ((z.from + k) * K_BLOCK_AXIS + y.from + j) * K_BLOCK_AXIS * width;
+            float *to = flat + ((z.to + k) * HALO + y.to + j) * K_BLOCK_AXIS * width;
+            sum_line(of[0] + from, of[1] + from, of[2] + from, to, width);
+        }
+}
+
+/* Shortens one axis: `lines` lines of HALO elements become lines of K_BLOCK_AXIS. An element has `width` floats. */
+static inline void sum_axis(const float *restrict from, float *restrict to, int lines, int width)
+{
+    for (int line = 0; line < lines; line++)
+        for (int j = 0; j < K_BLOCK_AXIS; j++) {
+            const float *f = from + (line * HALO + 2 * j) * width;
+            float *t = to + (line * K_BLOCK_AXIS + j) * width;
+            for (int c = 0; c < width; c++) t[c] = 0.5f * (f[c] + f[2 * width + c]) + f[width + c];
+        }
+}
+
+static inline void restrict_block(const TransferJob *job, int32_t block, int width)
+{
+    const bool deep = job->m->dimension == 3;
+    float flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    float *to = job->to + (size_t)block * (size_t)(job->m->block_cells * width);
+    const int32_t *child = (const int32_t *)job->level->child.data + block * children_of(job->m);
+    for (int n = 0; n < children_of(job->m); n += 3) sum_children(job, child + n, part_of[n / 3 % 3], deep ? part_of[n / 9] : (Part){0, 0, 1}, flat, width);
+    sum_axis(flat, deep ? thin : to, deep ? HALO : 1, K_BLOCK_AXIS * width);
+    if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
+}
+
+static void scale_block(const TransferJob *job, int32_t block)
+{
+    const size_t floats = (size_t)(job->m->block_cells * job->width), begin = (size_t)block * floats;
+    if (!job->factor) return;
+    float *restrict to = job->to + begin;
+    const float *restrict factor = job->factor + begin;
+    for (size_t i = 0; i < floats; i++) to[i] *= factor[i];
+}
+
+static void restrict_blocks(void *context, int32_t begin, int32_t end)
+{
+    const TransferJob *job = context;
+    for (int32_t block = begin; block < end; block++) {
+        if (job->width == 1)
+            restrict_block(job, block, 1);
+        else
+            restrict_block(job, block, W);
+        scale_block(job, block);
+    }
+}
+
+static Span span_of(const Multilevel *m, int l, int width)
+{
+    const int32_t blocks = m->level[l].blocks;
+    return (Span){blocks, BLOCK_GRAIN, (int64_t)blocks * m->block_cells * width * NODE_NS};
+}
+
+static void restrict_to(const Multilevel *m, Loops *loops, int l, int width, const float *from, float *to, const float *factor)
+{
+    const TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, factor, width};
+    LOOPS_ADD(loops, span_of(m, l, width), restrict_blocks, &job);
+}
+
+/* ---- Down: interpolation ---- */
+
+static inline void load_coarse(const TransferJob *job, int32_t block, float *coarse, int width)
+{
+    const Multilevel *m = job->m;
+    const int depth = m->dimension == 3 ? COARSE : 1;
+    const int32_t *c = (const int32_t *)job->finer->coordinate.data + 3 * block;
+    const int32_t *parent = (const int32_t *)job->level->parent.data + block * parents_of(m);
+    for (int k = 0; k < depth; k++)
+        for (int j = 0; j < COARSE; j++)
+            for (int i = 0; i < COARSE; i++) {
+                const int at[3] = {i + 2 * (c[0] & 1), j + 2 * (c[1] & 1), k + 2 * (c[2] & 1)};
+                const int n = (at[0] >> 2) | (at[1] >> 2) << 1 | (at[2] >> 2) << 2;
+                const int node = ((at[2] & 3) * K_BLOCK_AXIS + (at[1] & 3)) * K_BLOCK_AXIS + (at[0] & 3);
+                const float *from = job->from + (parent[n] * m->block_cells + node) * (ptrdiff_t)width;
+                memcpy(coarse + ((k * COARSE + j) * COARSE + i) * width, from, (size_t)width * sizeof(float));
+            }
+}
+
+/* Lengthens one axis: lines of COARSE elements become lines of K_BLOCK_AXIS. */
+static inline void spread_axis(const float *from, float *to, int lines, int width)
+{
+    for (int line = 0; line < lines; line++)
+        for (int j = 0; j < K_BLOCK_AXIS; j++) {
+            const float *f = from + (line * COARSE + j / 2) * width, *next = f + (j % 2) * width;
+            float *t = to + (line * K_BLOCK_AXIS + j) * width;
+            for (int c = 0; c < width; c++) t[c] = 0.5f * (f[c] + next[c]);
+        }
+}
+
+static inline void prolong_block(const TransferJob *job, int32_t block, int width)
+{
+    const bool deep = job->m->dimension == 3;
+    const int floats = job->m->block_cells * width;
+    float coarse[COARSE * COARSE * COARSE * W], flat[COARSE * COARSE * K_BLOCK_AXIS * W], thin[COARSE * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
+    float fine[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W], *to = job->to + (size_t)block * (size_t)floats;
+    load_coarse(job, block, coarse, width);
+    spread_axis(coarse, flat, deep ? COARSE * COARSE : COARSE, width);
+    spread_axis(flat, deep ? thin : fine, deep ? COARSE : 1, K_BLOCK_AXIS * width);
+    if (deep) spread_axis(thin, fine, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
+    for (int i = 0; i < floats; i++) to[i] += fine[i];
+}
+
+static void prolong_blocks(void *context, int32_t begin, int32_t end)
+{
+    const TransferJob *job = context;
+    for (int32_t block = begin; block < end; block++) {
+        scale_block(job, block);
+        if (job->width == 1)
+            prolong_block(job, block, 1);
+        else
+            prolong_block(job, block, W);
+    }
+}
+
+static void prolong_from(const Multilevel *m, Loops *loops, int l, const float *from, float *to, const float *factor)
+{
+    const TransferJob job = {m, &m->level[l], &m->level[l - 1], from, to, factor, m->width};
+    LOOPS_ADD(loops, span_of(m, l - 1, m->width), prolong_blocks, &job);
+}
+
+/* ---- The operator ---- */
+
+typedef struct InvertJob {
+    const float *stiffness; /* restricted, one per node */
+    float *inverse;         /* in: the restricted masses */
+    float mass_factor, stiffness_factor;
+    int cells, width;
+} InvertJob;
+
+static void invert_blocks(void *context, int32_t begin, int32_t end)
+{
+    const InvertJob *job = context;
+    for (int32_t node = begin * job->cells; node < end * job->cells; node++)
+        for (int c = 0; c < job->width; c++) {
+            float *value = job->inverse + (ptrdiff_t)node * job->width + c;
+            const float energy = job->mass_factor * *value + job->stiffness_factor * job->stiffness[node];
+            *value = energy > 1e-30f ? 1.0f / energy : 0.0f;
+        }
+}
+
+void multilevel_weigh(const Multilevel *m, Loops *loops, const float *mass, const float *stiffness, double overlap)
+{
+    const double d = m->dimension;
+    for (int l = 1; l < m->levels; l++) {
+        const Level *level = &m->level[l], *finer = &m->level[l - 1];
+        restrict_to(m, loops, l, m->width, l == 1 ? mass : finer->inverse.data, level->inverse.data, NULL);
+        restrict_to(m, loops, l, 1, l == 1 ? stiffness : finer->vector.data, level->vector.data, NULL);
+    }
+    for (int l = 1; l < m->levels; l++) {
+        const InvertJob job = {m->level[l].vector.data, m->level[l].inverse.data, (float)pow(2.0 / 3.0, d),
+                               (float)(overlap * 0.5 * d * pow(2.0 / 3.0, d - 1.0) * pow(0.25, l)), m->block_cells, m->width};
+        LOOPS_ADD(loops, span_of(m, l, m->width), invert_blocks, &job);
+    }
+}
+
+/* On the way down each level is scaled before the next coarser one is added; nothing comes to the coarsest, which is scaled at once. */
+void multilevel_add(const Multilevel *m, Loops *loops, const float *r, float *z)
+{
+    const int last = m->levels - 1;
+    for (int l = 1; l <= last; l++)
+        restrict_to(m, loops, l, m->width, l == 1 ? r : m->level[l - 1].vector.data, m->level[l].vector.data, l == last ? m->level[l].inverse.data : NULL);
+    for (int l = last; l > 1; l--) prolong_from(m, loops, l, m->level[l].vector.data, m->level[l - 1].vector.data, m->level[l - 1].inverse.data);
+    if (last >= 1) prolong_from(m, loops, 1, m->level[1].vector.data, z, NULL);
+}

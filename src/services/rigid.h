@@ -1,0 +1,30 @@
+/* The motion of a rigid body; pbmpm/rigid.h says what it is. */
+#ifndef PBMPM_SRC_SERVICES_RIGID_H
+#define PBMPM_SRC_SERVICES_RIGID_H
+
+#include "pbmpm/rigid.h"
+#include "world/colliders.h"
+
+pbmpm_rigid_def rigid_defaults(void);
+
+/* Null if valid, else what is wrong. */
+const char *rigid_def_problem(const pbmpm_rigid_def *def, int dimension);
+const char *rigid_state_problem(const pbmpm_rigid_state *state, int dimension);
+
+/* At rest where the obstacle is. */
+pbmpm_rigid_state rigid_at(const Collider *collider, const pbmpm_rigid_def *def, int dimension);
+
+/* What changes a body's velocities in a step. */
+typedef struct RigidPush {
+    double gravity[3];
+    double linear[3], angular[3]; /* what matter gave; the second about the body's position */
+    double virtual_mass;
+} RigidPush;
+
+void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt);
+void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int dimension, double dt);
+
+/* Puts a body that passed walls back to them, along what way it may move, and stops it there. */
+void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension);
+
+#endif

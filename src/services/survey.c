@@ -1,0 +1,289 @@
+#include "services/survey.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/result.h"
+
+/* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
+typedef struct Share {
+    uint64_t place;   /* group, then two axes, then the axis that runs go along */
+    int32_t cell[3];  /* from the lowest */
+    uint32_t group;
+    uint32_t slot;    /* a material of the group */
+    double filling;   /* rest volume over cell volume */
+    double all;       /* the same of all groups; 0 where a neighbour is empty */
+    double thickness; /* least so far */
+} Share;
+
+enum { AXIS_BITS = 18, GROUP_BITS = 9, FEW = 8 };
+
+typedef struct Cells {
+    Share *share;
+    uint32_t count;
+    int dimension;
+} Cells;
+
+/* ---- Cells ---- */
+
+static uint64_t place_of(const Share *share, int last, bool grouped)
+{
+    const uint64_t a = (uint64_t)share->cell[(last + 1) % 3], b = (uint64_t)share->cell[(last + 2) % 3], c = (uint64_t)share->cell[last];
+    const uint64_t cell = ((a << AXIS_BITS | b) << AXIS_BITS) | c;
+    return grouped ? (uint64_t)share->group << 3 * AXIS_BITS | cell : cell << GROUP_BITS | share->group;
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const uint64_t one = ((const Share *)a)->place, other = ((const Share *)b)->place;
+    return one < other ? -1 : one > other;
+}
+
+static void sort_along(Cells *cells, int axis, bool grouped)
+{
+    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].place = place_of(&cells->share[i], axis, grouped);
+    qsort(cells->share, cells->count, sizeof(Share), by_place);
+}
+
+/* One share per particle, then per cell and group. Particles that are 2^18 cells from the first are left out. */
+static void find_cells(const World *world, Cells *cells)
+{
+    const Particles *p = &world->particles;
+    const int32_t half = 1 << (AXIS_BITS - 1);
+    for (uint32_t row = 0; row < p->count; row++) {
+        const uint32_t slot = p->material[row];
+        Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
+        bool near = true;
+        for (int a = 0; a < p->dimension; a++) {
+            share.cell[a] = p->cell[a][row] - p->cell[a][0] + half;
+            near = near && share.cell[a] > 0 && share.cell[a] < 2 * half - 1;
+        }
+        share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
+        if (near) cells->share[cells->count++] = share;
+    }
+    sort_along(cells, 0, true);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        if (kept > 0 && cells->share[kept - 1].place == cells->share[i].place)
+            cells->share[kept - 1].filling += cells->share[i].filling;
+        else
+            cells->share[kept++] = cells->share[i];
+    }
+    cells->count = kept;
+}
+
+/* ---- Runs: cells of a group, one behind the other ---- */
+
+/* How long matter is that fills cells so far: their sum, over the share of a cell's width that it has. Noise fills some cells more than full. */
+static double run_length(const Share *run, uint32_t count)
+{
+    double sum = 0.0, most = 0.0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum += run[i].filling;
+        most = fmax(most, run[i].filling);
+    }
+    return most > 0.0 ? sum / fmin(1.0, most) : 0.0;
+}
+
+static uint32_t run_from(const Cells *cells, uint32_t first)
+{
+    uint32_t end = first + 1;
+    while (end < cells->count && cells->share[end].place == cells->share[end - 1].place + 1) end++;
+    return end - first;
+}
+
+/* Thicknesses along an axis; with `depth` also each group's mean length of run, weighted by what is in it. */
+static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIALS + 1])
+{
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0};
+    sort_along(cells, axis, true);
+    for (uint32_t first = 0, count; first < cells->count; first += count) {
+        Share *run = &cells->share[first];
+        count = run_from(cells, first);
+        const double length = run_length(run, count);
+        for (uint32_t i = 0; i < count; i++) {
+            run[i].thickness = fmin(run[i].thickness, length);
+            weight[run->group] += run[i].filling;
+            if (depth) depth[run->group] += run[i].filling * length;
+        }
+    }
+    for (int group = 0; depth && group <= PBMPM_MAX_MATERIALS; group++)
+        if (weight[group] > 0.0) depth[group] /= weight[group];
+}
+
+/* ---- Crowding ---- */
+
+/* The filling of all groups in a cell, 0 if there is none. Sorted by cell. */
+static double filling_at(const Cells *cells, const int32_t cell[3])
+{
+    const Share wanted = {.cell = {cell[0], cell[1], cell[2]}};
+    const uint64_t place = place_of(&wanted, 0, false);
+    uint32_t low = 0, high = cells->count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (cells->share[middle].place < place)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    double sum = 0.0;
+    for (uint32_t i = low; i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++) sum += cells->share[i].filling;
+    return sum;
+}
+
+/* A cell is inside if matter is in all next to it: walls and surfaces leave room there that nobody else takes. */
+static bool is_inside(const Cells *cells, const Share *share)
+{
+    for (int a = 0; a < cells->dimension; a++)
+        for (int step = -1; step <= 1; step += 2) {
+            int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+            cell[a] += step;
+            if (filling_at(cells, cell) == 0.0) return false;
+        }
+    return true;
+}
+
+static void measure_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1])
+{
+    uint32_t inside[PBMPM_MAX_MATERIALS + 1] = {0};
+    sort_along(cells, 0, false);
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        const double all = filling_at(cells, share->cell);
+        if (share->filling < 0.5 * all || !is_inside(cells, share)) continue;
+        filling[share->group] += all;
+        inside[share->group]++;
+    }
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) filling[group] = inside[group] < FEW ? 0.0 : filling[group] / inside[group];
+}
+
+/* On the mean of a cell, counted twice, and those next to it: by chance a single one holds up to twice what fits. */
+static const double TOO_FULL = 1.6;
+
+static bool is_too_full(const Cells *cells, const Share *share)
+{
+    double sum = 2.0 * filling_at(cells, share->cell);
+    for (int a = 0; a < cells->dimension; a++)
+        for (int step = -1; step <= 1; step += 2) {
+            int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+            cell[a] += step;
+            sum += filling_at(cells, cell);
+        }
+    return sum > TOO_FULL * (2.0 + 2.0 * cells->dimension);
+}
+
+/* Sorted by cell. */
+static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MATERIALS + 1])
+{
+    double volume[PBMPM_MAX_MATERIALS + 1] = {0};
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        volume[share->group] += share->filling;
+        if (is_too_full(cells, share)) overlapping[share->group] += share->filling;
+    }
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(volume[group], 1e-300);
+}
+
+/* ---- Particles ---- */
+
+/* The least and the largest singular value of F, from F^T F: its characteristic polynomial has three real roots (2D: two). */
+static void stretches(const Particles *p, uint32_t row, double *least, double *most)
+{
+    double c[3][3] = {{0}};
+    const int d = p->dimension;
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++)
+            for (int k = 0; k < d; k++) c[i][j] += (double)p->deformation[k * 3 + i][row] * (double)p->deformation[k * 3 + j][row];
+    double mean = 0.0, spread = 0.0;
+    for (int i = 0; i < d; i++) mean += c[i][i] / d;
+    for (int i = 0; i < d; i++)
+        for (int j = 0; j < d; j++) spread += (c[i][j] - (i == j ? mean : 0.0)) * (c[i][j] - (i == j ? mean : 0.0));
+    const double radius = sqrt(spread / (d * (d - 1))); /* eigenvalues are mean + 2 r cos(angle), in 2D mean +- r */
+    double high = mean + radius, low = mean - radius;
+    if (d == 3 && radius > 0.0) {
+        for (int i = 0; i < 3; i++) c[i][i] -= mean;
+        const double determinant = c[0][0] * (c[1][1] * c[2][2] - c[1][2] * c[2][1]) - c[0][1] * (c[1][0] * c[2][2] - c[1][2] * c[2][0]) +
+                                   c[0][2] * (c[1][0] * c[2][1] - c[1][1] * c[2][0]);
+        const double angle = acos(fmax(-1.0, fmin(1.0, 0.5 * determinant / (radius * radius * radius)))) / 3.0;
+        high = mean + 2.0 * radius * cos(angle);
+        low = mean + 2.0 * radius * cos(angle + 2.0 * 3.14159265358979 / 3.0);
+    }
+    *least = sqrt(fmax(low, 0.0));
+    *most = sqrt(fmax(high, 0.0));
+}
+
+/* Strain is cut off at the bounds once per substep, and a little moves it away again. */
+static bool is_clamped(const World *world, uint32_t row)
+{
+    const pbmpm_material_def *def = &world->materials.def[world->particles.material[row]];
+    double least, most;
+    stretches(&world->particles, row, &least, &most);
+    return least < 1.05 * (double)def->strain_min || most > 0.95 * (double)def->strain_max;
+}
+
+static void look_at_particles(const World *world, Survey *survey)
+{
+    const Particles *p = &world->particles;
+    for (uint32_t row = 0; row < p->count; row++) {
+        Heap *heap = &survey->heap[p->material[row]];
+        double speed2 = 0.0;
+        for (int a = 0; a < p->dimension; a++) speed2 += (double)p->velocity[a][row] * (double)p->velocity[a][row];
+        heap->particles++;
+        heap->speed = fmax(heap->speed, sqrt(speed2));
+        if (material_is_solid(&world->materials, p->material[row]) && is_clamped(world, row)) heap->clamped += 1.0;
+    }
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (survey->heap[slot].particles > 0) survey->heap[slot].clamped /= survey->heap[slot].particles;
+}
+
+static int axis_of_gravity(const World *world)
+{
+    int axis = -1;
+    for (int a = 0; a < world->def.dimension; a++)
+        if (world->settings.gravity[a] != 0.0f && (axis < 0 || fabsf(world->settings.gravity[a]) > fabsf(world->settings.gravity[axis]))) axis = a;
+    return axis;
+}
+
+/* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
+static const double THICKEST = 4.0;
+
+static void look_at_cells(const World *world, Cells *cells, Survey *survey)
+{
+    double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0};
+    const int down = axis_of_gravity(world);
+    for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
+    measure_filling(cells, filling);
+    measure_overlaps(cells, overlapping);
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
+        thickness[cells->share[i].group] += part * cells->share[i].thickness;
+        weight[cells->share[i].group] += part;
+        mean[cells->share[i].group] += cells->share[i].filling * cells->share[i].thickness;
+        mass[cells->share[i].group] += cells->share[i].filling;
+    }
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (survey->heap[slot].particles == 0) continue;
+        const uint32_t group = material_is_solid(&world->materials, slot) ? slot + 1 : 0;
+        survey->heap[slot].depth = depth[group];
+        survey->heap[slot].filling = filling[group];
+        survey->heap[slot].overlapping = overlapping[group];
+        if (!(weight[group] > 0.0)) continue;
+        survey->heap[slot].thickness = thickness[group] / weight[group];
+        survey->heap[slot].evenness = mean[group] / mass[group] / survey->heap[slot].thickness;
+    }
+}
+
+pbmpm_result survey_make(World *world, Survey *survey)
+{
+    *survey = (Survey){0};
+    const size_t bytes = world->particles.count * sizeof(Share);
+    if (bytes == 0) return PBMPM_OK;
+    Cells cells = {.share = memory_take(&world->memory, bytes), .dimension = world->def.dimension};
+    if (!cells.share) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u particles", world->particles.count);
+    look_at_particles(world, survey);
+    find_cells(world, &cells);
+    look_at_cells(world, &cells, survey);
+    memory_give(&world->memory, cells.share, bytes);
+    return PBMPM_OK;
+}

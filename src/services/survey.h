@@ -1,0 +1,26 @@
+/* A look at where matter lies, for advice: how deep, how thick, how crowded. Made on request; nothing here is kept. */
+#ifndef PBMPM_SRC_SERVICES_SURVEY_H
+#define PBMPM_SRC_SERVICES_SURVEY_H
+
+#include "world/world.h"
+
+/* Matter of one material. Lengths in cells, as rest volume fills them: what is compressed is as thick as it was. */
+typedef struct Heap {
+    uint32_t particles;
+    double speed;      /* the fastest [m/s] */
+    double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
+    double thickness;  /* the least over the axes, where it is thickest */
+    double evenness;   /* the mean thickness over that; 1: a box along the axes */
+    double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
+    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
+    double clamped;    /* share of particles that are strained to a bound; solids */
+} Heap;
+
+typedef struct Survey {
+    Heap heap[PBMPM_MAX_MATERIALS];
+} Survey;
+
+/* Needs some bytes per particle, which it gives back. */
+pbmpm_result survey_make(World *world, Survey *survey);
+
+#endif

@@ -1,0 +1,57 @@
+#include "solvers/moduli.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "solvers/passes.h"
+#include "solvers/plastic.h"
+#include "solvers/viscosity.h"
+
+double moduli_unit(const World *world, const pbmpm_material_def *def, double dt)
+{
+    const double cells = dt / (double)world->def.cell_size;
+    return 4.0 * cells * cells / (double)def->density;
+}
+
+static void set_liquid(World *world, uint32_t slot, float dt, float stiffest)
+{
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    KernelMaterial *material = &world->materials.kernel[slot];
+    const double c = moduli_unit(world, def, (double)dt);
+    const bool incompressible = def->bulk_modulus == 0.0f;
+    material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
+    if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
+    material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
+    material->rebound_max = FLT_MAX;
+    material->pascal = (float)fmin(1.0 / c, 1e30);
+    material->viscous_share = (float)viscosity_share(world, def, (double)dt);
+}
+
+void moduli_set_solid(World *world, uint32_t slot, float dt, double share)
+{
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    KernelMaterial *material = &world->materials.kernel[slot];
+    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
+    const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
+    const double c = moduli_unit(world, def, (double)dt) * share;
+    material->relaxation = def->relaxation;
+    material->shear = (float)fmin(c * shear, 1e30);
+    material->dilation = (float)fmin(c * lambda, 1e30);
+    if (material->yields == K_SAND) material->pascal = (float)fmin(1.0 / c, 1e30);
+    plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
+}
+
+void moduli_set(World *world, float dt, float stiffest)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (world->materials.generation[slot] == 0) continue;
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        KernelMaterial *material = &world->materials.kernel[slot];
+        material->relaxation = def->relaxation;
+        if (material_flows(def) || material->yields == K_SAND) material->volume_feedback = solver_follows_grid(world, slot) ? solver_feedback_share(def, dt) : 0.0f;
+        if (material->kind == K_LIQUID)
+            set_liquid(world, slot, dt, stiffest);
+        else
+            moduli_set_solid(world, slot, dt, 1.0);
+    }
+}

@@ -1,0 +1,17 @@
+/* What solvers but the paper's make of the moduli of materials: they lose their units. */
+#ifndef PBMPM_SRC_SOLVERS_MODULI_H
+#define PBMPM_SRC_SOLVERS_MODULI_H
+
+#include "world/world.h"
+
+/* c = 4 dt^2 / (dx^2 rho) makes the energy of a substep sum m/2 |u - u*|^2 + sum m dx^2/4 c Psi, see ispc/dual.isph. */
+double moduli_unit(const World *world, const pbmpm_material_def *def, double dt);
+
+/* All materials, for substeps of `dt` seconds: solids as stiff as they are, and so are liquids. Those without a bulk modulus are as stiff as `stiffest`, which
+ * bounds all of them with PBMPM_SOLVER_CONVERGENT. */
+void moduli_set(World *world, float dt, float stiffest);
+
+/* A solid with a share of its stiffness. */
+void moduli_set_solid(World *world, uint32_t slot, float dt, double share);
+
+#endif

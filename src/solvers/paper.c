@@ -1,0 +1,162 @@
+#include "solvers/paper.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "solvers/passes.h"
+#include "solvers/plastic.h"
+#include "world/depth.h"
+
+/* ---- The bound of the pressure ---- */
+
+/* What all liquid is, in one pass: its rest volume [m^d], the mean square of its speed [m^2/s^2], and the density of the heaviest. */
+typedef struct LiquidState {
+    double volume, speed2, densest;
+} LiquidState;
+
+static const double SUM_ROUNDING = 1e-4; /* of sums over a block in single precision */
+
+static LiquidState measure_liquid(const World *world)
+{
+    const Particles *p = &world->particles;
+    double mass = 0.0, volume = 0.0, energy = 0.0, lightness = INFINITY;
+    for (uint32_t run = 0; run < world->grid.runs; run++) {
+        const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
+        if (material->kind != K_LIQUID) continue;
+        lightness = fmin(lightness, (double)material->inverse_density);
+        for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++) {
+            float speed2 = 0.0f;
+            for (int a = 0; a < p->dimension; a++) speed2 += p->velocity[a][row] * p->velocity[a][row];
+            if (!(speed2 < FLT_MAX)) continue; /* about to be taken out */
+            mass += (double)p->mass[row];
+            volume += (double)(p->mass[row] * material->inverse_density);
+            energy += (double)(p->mass[row] * speed2);
+        }
+    }
+    for (uint32_t i = 0; i < world->sleep.asleep.count; i++) {
+        const SleepBlock *block = sleep_list_block(&world->sleep.asleep, i);
+        if (!(block->liquid_mass > 0.0f)) continue;
+        mass += (double)block->liquid_mass;
+        volume += (double)block->liquid_volume;
+        const double mean = (double)block->liquid_volume / (double)block->liquid_mass;
+        if (mean < (1.0 - SUM_ROUNDING) * lightness) lightness = mean;
+    }
+    return (LiquidState){volume * world_cell_volume(world), mass > 0.0 ? energy / mass : 0.0, 1.0 / lightness};
+}
+
+/* The weight of matter as high as it stands (or would stand as a cube: a column that has collapsed still weighs what it weighs), as a pressure
+ * over density g h [m^2/s^2]. 0 without gravity or liquid. */
+static double weight_head(const World *world, const LiquidState *liquid)
+{
+    const double strength = gravity_strength(world);
+    if (strength == 0.0 || liquid->volume == 0.0) return 0.0;
+    const double stands = depth_along_gravity(world, true) * (double)world->def.cell_size;
+    return fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
+}
+
+/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of its weight, and that of its motion when it is
+ * stopped, once: more would feed on the speed that it makes. */
+static double pressure_head(double weight, const LiquidState *liquid) { return 3.0 * weight + 0.5 * liquid->speed2; }
+
+/* What crushed liquid may grow by in a substep. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; what weighs g h leaves
+ * an opening at sqrt(2 g h) (Torricelli), faster where the weight is that of something heavier. Where matter is faster than that, growth may be, too;
+ * but the two do not add: it is the weight that moves what grows, and growth that its own motion quickens feeds on itself. The pressure alone does
+ * not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so
+ * its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a
+ * lower J bears the same pressure. */
+static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight, float dt)
+{
+    const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
+    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * (double)dt / (double)world->def.cell_size;
+}
+
+/* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
+ * the weight of the heaviest one, up to the pressure (1/J - 1) / J K that leaves it J = 0.73: what is crushed further gains energy when it grows. */
+static double pressure_bound(const World *world, const KernelMaterial *material, float dt, double head, double densest)
+{
+    static const double BEARS = 0.5;
+    const double cells = (double)dt / (double)world->def.cell_size;
+    const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
+    const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
+    return heavier > 1.0 + SUM_ROUNDING ? fmin(own * heavier, fmax(own, BEARS)) : own;
+}
+
+/* ---- Locking ---- */
+
+/* Each particle holds its own volume, and a stiff liquid's four per cell (eight in 3D) leave the two (three) velocities per node no way to flow: it
+ * acts like a jelly (volumetric locking: C. Mast et al., "Mitigating kinematic locking in the material point method", J. Comp. Phys. 231, 2012).
+ * What resists is the J that flows without divergence leave behind, different in the particles of a cell; a vortex of the wave number k (per axis)
+ * is held by a spring of 0.0025 w N k^4 dx^4 / dt^2 (measured). Where J moves to the mean of its cell by a share per substep, the flow meets a
+ * damping by the spring's constant times dt / share instead, which is less than that of the transfers. But a pool at rest needs the jelly:
+ * without it particles that were strewn at random creep into the gaps that the grid does not see, unless 2,400 iterations per second damp that
+ * (in cells of 0.2 m). So the share begins where gravity cannot move waves of less than 45 cells against that spring:
+ * g k < 0.0025 (w N dx / (g dt^2)) g k^4 dx^3. */
+static float even_share(const World *world, const KernelMaterial *material, float dt)
+{
+    static const double LOCKS = 1.5e5;
+    const double fall = gravity_fall(world, (double)dt);
+    const double stiffness = (double)material->relaxation * world->settings.iterations / fmax(fall, 1e-12);
+    const double share = fall > 0.0 ? fmin(fmax(stiffness / LOCKS - 1.0, 0.0), 1.0) : 0.0;
+    return (float)share * material->volume_feedback;
+}
+
+/* ---- Parameters of the substep ---- */
+
+/* Stiffness goes with 1/dt^2, so a dt that alternates pumps energy like a child on a swing. With the error of a mode shrinking
+ * by r per substep and steps T, t in turn, the product of the two transfer matrices has |trace| <= 1 + det for every r only if
+ * T/t + t/T <= 6. So when dt drops the relaxation is lowered at first: stiffness grows by at most 1/0.8^2 per substep. It drops at
+ * once, and a constant dt is not touched. */
+static float softening_of_step(World *world, float dt)
+{
+    world->slow_dt = fmax((double)dt, 0.8 * world->slow_dt);
+    const double ratio = (double)dt / world->slow_dt;
+    return (float)(ratio * ratio);
+}
+
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, double dt)
+{
+    const double dx = (double)world->def.cell_size;
+    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * dt / (world->settings.iterations * dx * dx), 1.0);
+}
+
+/* Without gravity nothing brings spray back, so crushed matter grows slowly. */
+static const float WEIGHTLESS_REBOUND = 0.3f;
+
+void paper_set_materials(World *world, float dt)
+{
+    const LiquidState liquid = measure_liquid(world);
+    const double weight = weight_head(world, &liquid), head = pressure_head(weight, &liquid);
+    const float soft = softening_of_step(world, dt) * (float)(world->slow_iterations / (double)world->settings.iterations);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (world->materials.generation[slot] == 0) continue;
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        KernelMaterial *material = &world->materials.kernel[slot];
+        material->relaxation = def->relaxation * soft;
+        if (material->yields == K_SAND) material->volume_feedback = 0.0f;
+        if (def->kind == PBMPM_VISCO) material->volume_feedback = solver_feedback_share(def, dt);
+        /* It answers a volume strain in full and a deviator by the share beta: 2 mu = beta (2 mu + d lambda), which needs no Poisson effect. */
+        if (material->kind != K_LIQUID) plastic_set(world, slot, (double)dt, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
+        if (material->kind != K_LIQUID) continue;
+        material->volume_feedback = def->volume_feedback;
+        material->even_share = even_share(world, material, dt);
+        material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
+        const bool weightless = weight == 0.0;
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight, dt);
+        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, dt, head, liquid.densest);
+    }
+}
+
+/* ---- The iteration ---- */
+
+void paper_solve(World *world, const ContactFrame *contacts)
+{
+    const int count = world->settings.iterations;
+    Loops loops;
+    loops_open(&loops, world->pool);
+    for (int i = 0; i < count; i++) {
+        solver_add_rows(&loops, world, world->kernels->iterate, &world->args);
+        solver_add_nodes(&loops, world, world->kernels->update_nodes, &world->args, contacts);
+    }
+    loops_run(&loops);
+    world->record.iterations_used = (uint32_t)count;
+}

@@ -1,0 +1,230 @@
+#include <math.h>
+#include <string.h>
+
+#include "contact/holds.h"
+#include "solvers/primal/primal_solve.h"
+
+/* ---- The energy check ---- */
+
+BodySum *primal_body_of(const Primal *p, int32_t block)
+{
+    const PrimalState *state = &p->world->primal;
+    return (BodySum *)state->body_sums.data + ((const int32_t *)state->bodies.of_block.data)[block];
+}
+
+bool primal_is_multistep(const Primal *p, int32_t block)
+{
+    const float *share = p->world->args.block_share;
+    return share && share[block] < 1.0f;
+}
+
+/* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
+static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const bool multistep = primal_is_multistep(p, block);
+    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[3] += mass;
+        for (size_t c = 0; c < 3; c++) {
+            const double u = (double)p->best[i + c], free = (double)p->base[i + c];
+            const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
+            if (multistep) { /* the energy that the step minimises */
+                sum[0] += 0.5 * mass * (u - free) * (u - free);
+                sum[1] += 0.5 * mass * free * free;
+            } else {
+                sum[0] += 0.5 * mass * u * u - mass * g * u;
+                sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
+            }
+            sum[4 + c] += mass * free;
+            sum[8] += 0.5 * mass * u * u;
+            sum[12] += 0.5 * mass * free * free;
+            sum[9 + c] += mass * u;
+        }
+    }
+    sum[2] = holds_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    sum[7] = (double)holds_touching(p->contacts, block);
+}
+
+static bool has_liquid(const World *world, int32_t block)
+{
+    const uint32_t *block_run = world->grid.block_run.data;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++)
+        if (world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS].kind == K_LIQUID) return true;
+    return false;
+}
+
+/* What rounding F, whose distance from the identity is the strain, may do to the energy of a strain: stress times 2^-24, with the body's stiffness k
+ * about sqrt(k Psi) 2^-24. */
+static double rounding_of(const BodySum *body)
+{
+    return PRIMAL_ENERGY_ROUNDING * (body->before + body->still) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
+}
+
+/* Whether more energy came out than went in. Of matter with liquid the elastic energy alone is judged: what a truncated solution leaves in
+ * the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that:
+ * of a body that starts at rest and without strain nothing else could. */
+static bool gained(const BodySum *body)
+{
+    const double after = body->with_liquid ? body->elastic - body->fallen : body->after;
+    return after > body->before + body->work + rounding_of(body);
+}
+
+void primal_note_stiffness(Primal *p)
+{
+    const double *sums = p->world->primal.sums.data;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->stiff += sums[(size_t)block * SUMS + 1];
+}
+
+uint32_t primal_check_bodies(Primal *p)
+{
+    const PrimalState *state = &p->world->primal;
+    const double *sums = state->sums.data;
+    const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    for (int32_t i = 0; i < state->bodies.count; i++) body[i] = (BodySum){.unsound = body[i].unsound, .leans = body[i].leans, .meets = body[i].meets, .held = body[i].held, .stiff = body[i].stiff, .with_liquid = body[i].with_liquid};
+    primal_over_blocks(p, sum_motion);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *b = primal_body_of(p, block);
+        const double *sum = sums + (size_t)block * SUMS;
+        b->after += sum[0];
+        b->before += sum[1];
+        b->work += sum[2];
+        b->mass += sum[3];
+        b->kinetic += sum[8];
+        b->still += sum[12];
+        if (!primal_is_multistep(p, block)) b->fallen += sum[8] - sum[0];
+        for (int c = 0; c < 3; c++) {
+            b->momentum[c] += sum[4 + c];
+            b->moved[c] += sum[9 + c];
+        }
+        b->touches = b->touches || sum[7] > 0.0;
+        if (block >= p->world->grid.particle_blocks) continue;
+        b->after += (double)energy[K_ENERGIES * block] + (p->joint ? 0.0 : (double)energy[K_ENERGIES * block + 1]); /* the dual's liquid stores none */
+        b->elastic += (double)energy[K_ENERGIES * block];
+        b->liquid += (double)energy[K_ENERGIES * block + 1];
+        b->before += (double)rest[K_ENERGIES * block + 2] + (double)rest[K_ENERGIES * block + 3];
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
+        body[i].failed = gained(&body[i]);
+        body[i].unsound = body[i].unsound || body[i].failed;
+        failed += body[i].failed;
+    }
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
+        holds_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+    for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++) {
+        BodySum *b = primal_body_of(p, block);
+        const double share = holds_free_share(p->contacts, block, b->start);
+        for (int c = 0; c < 3; c++) b->start[c] *= share;
+    }
+    return failed;
+}
+
+/* A mean motion may lead through a floor; a liquid that touches something starts from standing still, or where the dual has ended. */
+static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodySum *body = primal_body_of(p, block);
+    (void)sum;
+    if (body->failed && p->turned && primal_rigid_of(p, block)->turns) {
+        primal_write_rigid(p, block, begin, end, p->node);
+        for (size_t i = begin; i < end; i++) p->node[i] = i % W == 3 ? p->base[i] : p->node[i] + p->share * (p->best[i] - p->node[i]);
+        holds_project(p->contacts, p->node, block, block + 1);
+        return;
+    }
+    for (size_t i = begin; i < end; i++) {
+        const size_t c = i % W;
+        if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
+        const float start = p->joint && body->with_liquid ? ((const float *)p->world->joint.node.data)[i] : body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
+        p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
+    }
+    holds_project(p->contacts, p->node, block, block + 1);
+}
+
+void primal_pull_back_to(Primal *p, float share)
+{
+    p->share = share;
+    primal_over_blocks(p, pull_back);
+    primal_evaluate(p);
+    p->world->record.iterations_used++;
+    primal_accept(p, false);
+}
+
+/* A body that gained little goes where the solution leads, and pays with its velocities: they keep the share s of what they differ from its mean, with
+ * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
+static uint32_t let_pay(Primal *p)
+{
+    static const double MOST = 0.5; /* of that kinetic energy */
+    const PrimalState *state = &p->world->primal;
+    RigidBody *rigid = state->rigid.data;
+    BodySum *body = state->body_sums.data;
+    uint32_t failed = 0;
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        const BodySum *b = &body[i];
+        if (!b->failed) continue;
+        const double gain = b->after - b->before - b->work;
+        double own = b->kinetic;
+        for (int c = 0; c < 3; c++) own -= 0.5 * b->moved[c] * b->moved[c] / b->mass;
+        const bool pays = rigid[i].turns && gain <= MOST * own;
+        if (pays) {
+            rigid[i].kept = sqrt(1.0 - gain / own);
+            for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;
+        }
+        body[i].failed = !pays;
+        failed += !pays;
+    }
+    return failed;
+}
+
+/* For bodies that gained energy: see primal.h. */
+static void mend(Primal *p)
+{
+    memcpy(p->node, p->best, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->node); /* bodies were moved since */
+    primal_evaluate(p);
+    primal_accept(p, false);
+    primal_find_direction(p);
+    primal_descend_further(p); /* nearly there */
+    if (primal_check_bodies(p) == 0 || let_pay(p) == 0) return;
+    p->turned = true;
+    primal_pull_back_to(p, 0.0f);
+    primal_find_direction(p);
+    primal_descend_further(p);
+    for (int halving = 0; primal_check_bodies(p) > 0 && let_pay(p) > 0; halving++) {
+        p->turned = halving < 2;
+        primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
+        if (halving == 2) return;
+    }
+}
+
+void primal_keep_energy(Primal *p)
+{
+    StepRecord *record = &p->world->record;
+    record->energy_checks_failed = primal_check_bodies(p);
+    if (record->energy_checks_failed == 0) return;
+    mend(p);
+    record->residual = sqrt(fmax(primal_find_plain_direction(p), 0.0) / p->mass);
+    record->predicted_error = PRIMAL_ERROR_PER_RESIDUAL * record->residual;
+}
+
+/* What gravity moves in the substep [cells]. */
+static float fall_of(const World *world)
+{
+    const float *g = world->args.gravity;
+    return sqrtf(g[0] * g[0] + g[1] * g[1] + g[2] * g[2]);
+}
+
+void primal_find_leaning(Primal *p)
+{
+    const float fall = fall_of(p->world);
+    memset(p->world->primal.body_sums.data, 0, (size_t)p->world->primal.bodies.count * sizeof(BodySum));
+    for (int32_t block = 0; block < p->world->grid.particle_blocks; block++)
+        if (has_liquid(p->world, block)) primal_body_of(p, block)->with_liquid = true;
+    if (!p->sketches) primal_widen_gaps(p); /* the dual needs the spare array */
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodySum *body = primal_body_of(p, block);
+        body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->held = body->held || holds_held(p->contacts, block);
+        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
+    }
+}

@@ -1,0 +1,106 @@
+/* What an unfinished solution keeps of a body's momentum, and what contacts allow to give back.
+ *
+ * The energy of a body does not change under a translation t of all nodes but for sum m/2 |u + t - u*|^2 and friction, as long as t leads along the
+ * surfaces that it leans on: a body in mid-air gets all of its momentum back, one on a slope that along it. */
+#include <math.h>
+
+#include "contact/holds.h"
+#include "solvers/primal/primal_solve.h"
+
+static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)block;
+    for (size_t i = begin; i < end; i += W) {
+        const double mass = (double)p->base[i + 3];
+        sum[0] += mass;
+        for (size_t c = 0; c < 3; c++) sum[1 + c] += mass * ((double)p->base[i + c] - (double)p->best[i + c]);
+    }
+}
+
+static void take_out(const double direction[3], double v[3])
+{
+    const double part = direction[0] * v[0] + direction[1] * v[1] + direction[2] * v[2];
+    for (int a = 0; a < 3; a++) v[a] -= part * direction[a];
+}
+
+/* The body may not move along this normal. */
+static void block_normal(BodyMove *move, const float *normal)
+{
+    static const double NEW = 1e-3; /* sine of the angle to what is blocked already */
+    double n[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
+    for (int k = 0; k < move->blocked; k++) take_out(move->normal[k], n);
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (length < NEW || move->blocked == 3) return;
+    for (int a = 0; a < 3; a++) move->normal[move->blocked][a] = n[a] / length;
+    move->blocked++;
+}
+
+static BodyMove *move_of(const Primal *p, int32_t block)
+{
+    const PrimalState *state = &p->world->primal;
+    return (BodyMove *)state->moves.data + ((const int32_t *)state->bodies.of_block.data)[block];
+}
+
+/* Contacts that hold, and those that a body might run into. */
+static void find_blocked(const Primal *p)
+{
+    const Colliders *colliders = p->contacts->colliders;
+    const uint32_t *begin = colliders->contact_begin.data;
+    for (int32_t block = 0; block < p->world->grid.node_blocks && colliders->contacts > 0; block++)
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const Contact *contact = (const Contact *)colliders->contact.data + i;
+            BodyMove *move = move_of(p, block);
+            const float *u = p->best + (size_t)block * (size_t)p->floats + (size_t)contact->node * W;
+            if (!contact->active && (double)holds_room(contact, u) > move->longest) continue;
+            if (holds_whole(contact)) move->blocked = 3;
+            else block_normal(move, contact->normal);
+        }
+}
+
+/* A step of Newton's method for t, with friction's secant for its stiffness, which never goes too far. */
+static void move_on(Primal *p)
+{
+    BodyMove *move = p->world->primal.moves.data;
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+        for (int a = 0; a < 3; a++) move[i].pull[a] = move[i].missing[a] - move[i].mass * move[i].way[a];
+        move[i].stiffness = move[i].mass;
+    }
+    for (int32_t block = 0; block < p->world->grid.node_blocks && p->rubs; block++)
+        holds_pull(p->contacts, p->best, move_of(p, block)->way, p->slip_min, block, move_of(p, block)->pull, &move_of(p, block)->stiffness);
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
+        for (int k = 0; k < move[i].blocked; k++) take_out(move[i].normal[k], move[i].pull);
+        for (int a = 0; a < 3 && move[i].blocked < 3 && move[i].stiffness > 0.0; a++) move[i].way[a] += move[i].pull[a] / move[i].stiffness;
+    }
+}
+
+static void move_body(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const BodyMove *move = move_of(p, block);
+    (void)sum;
+    if (move->blocked == 3 || !(move->mass > 0.0)) return;
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)move->way[c];
+}
+
+void primal_keep_momentum(Primal *p)
+{
+    enum { STEPS = 3 };
+    const PrimalState *state = &p->world->primal;
+    const BodySum *body = state->body_sums.data;
+    BodyMove *move = state->moves.data;
+    const double *sums = state->sums.data;
+    for (int32_t i = 0; i < state->bodies.count; i++) move[i] = (BodyMove){.blocked = body[i].leans && body[i].with_liquid ? 3 : 0};
+    primal_over_blocks(p, sum_momentum_error);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        BodyMove *m = move_of(p, block);
+        m->mass += sums[(size_t)block * SUMS];
+        for (int c = 0; c < 3; c++) m->missing[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
+    }
+    for (int32_t i = 0; i < state->bodies.count; i++) {
+        const double *m = move[i].missing;
+        move[i].longest = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) / fmax(move[i].mass, 1e-30);
+    }
+    find_blocked(p);
+    for (int step = 0; step < (p->rubs ? STEPS : 1); step++) move_on(p);
+    primal_over_blocks(p, move_body);
+}

@@ -1,0 +1,220 @@
+/* What the files of the primal solver share: the state of a substep's solution. See primal.h. */
+#ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
+#define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
+
+#include "world/world.h"
+
+/* In cantilevers the true error of steps was 0.5 to 1.2 residuals (medians) where 10 and 20 iterations were enough, and 1.1 to 2.5 where 2 and
+ * 5 were too few. */
+#define PRIMAL_ERROR_PER_RESIDUAL 1.3
+#define PRIMAL_ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
+
+enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 6 };
+
+/* What a body had and has: see primal.h. */
+typedef struct BodySum {
+    double before, after, work;
+    double fallen;            /* work of gravity and forces, which `after` counts as a loss */
+    double stiff;             /* sum of the nodes' stiffnesses */
+    double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
+    double mass, momentum[3]; /* of the predictor */
+    double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
+    double elastic;           /* energy of the elastic particles */
+    double liquid;            /* energy of the liquid particles */
+    double kinetic, moved[3]; /* of the solution: energy, and momentum */
+    bool with_liquid, touches, failed;
+    bool unsound;             /* failed at first */
+    bool leans;               /* on an obstacle */
+    bool held;                /* by an obstacle that sticks: it has no rigid motion */
+    bool meets;               /* may meet one in this substep */
+    float kept, mean[3];      /* share of its velocities beside this mean displacement that a body with liquid keeps */
+} BodySum;
+
+/* Translations along and rotations about the axes, per radian. */
+enum { RIGID_MODES = 6 };
+
+/* A body's rigid motions: see primal_rigid.c. */
+typedef struct RigidBody {
+    bool used;
+    double centre[3];                          /* from the anchor [cells] */
+    double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
+    double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
+    double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
+    double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
+    bool multistep;                            /* it was solved for by BDF2, whether or not it forgets its past */
+    bool bounces;
+    double bounce;                             /* see primal_bounce.c */
+    double strain;                             /* energy at contacts, of `start` */
+    bool turns;                                /* it may; then: it gets this back */
+    double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
+    double share;                              /* see primal_find_shares() */
+} RigidBody;
+
+/* A translation of a body, see primal_momentum.c. */
+typedef struct BodyMove {
+    double mass, missing[3];  /* momentum */
+    double longest;           /* way */
+    int blocked;              /* how many directions it may not move along, and which */
+    double normal[3][3];
+    double way[3], pull[3], stiffness;
+} BodyMove;
+
+/* One substep. Vectors have W floats per node; the last is not used. */
+typedef struct Primal {
+    World *world;
+    const ContactFrame *contacts;
+    int floats;                             /* per block */
+    float *node, *base, *force;             /* where the energy was evaluated, the predictor, the gradient there */
+    float *best, *gradient;                 /* the accepted displacements and their gradient */
+    float *right, *direction;               /* what is solved for: free part of the gradient; the next step, with opposite sign */
+    float *step[PRIMAL_MEMORY], *change[PRIMAL_MEMORY]; /* differences of displacements and gradients, newest first */
+    double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
+    int pairs;
+    bool rubs;      /* there is friction */
+    float slip_min; /* see holds_slip_min() */
+    bool bounces; /* a body does */
+    bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
+    bool rigid; /* a body's rigid motions are solved for */
+    double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
+    bool mixed;                             /* of solids and liquid */
+    bool joint, sketches;                   /* the dual solves too, see joint.h, and has not yet */
+    float share;                            /* of the step that is tried */
+    double mass, energy, trial_energy, slope_before, slope_after;
+    double total[SUMS];                     /* what the last pass added up */
+} Primal;
+
+/* Works on the floats [begin, end) of one block; adds up into sum[SUMS]. */
+typedef void BlockPass(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
+
+/* ---- primal.c ---- */
+
+/* The sums of the blocks are added in order, to p->total, so they do not depend on the number of threads. */
+void primal_over_blocks(Primal *p, BlockPass *pass);
+
+/* Energy and gradient at p->node. */
+void primal_evaluate(Primal *p);
+
+/* Makes p->node the accepted displacements. */
+void primal_accept(Primal *p, bool with_pair);
+
+/* p->direction from p->right; p->first holds step . right of each pair. Returns gradient . direction. */
+double primal_find_direction(Primal *p);
+
+/* The same without the pairs, from the gradient. */
+double primal_find_plain_direction(Primal *p);
+
+/* Goes on along p->direction, without stop rules. */
+void primal_descend_further(Primal *p);
+
+/* ---- primal_bodies.c ---- */
+
+BodySum *primal_body_of(const Primal *p, int32_t block);
+
+/* Whether the block is stepped by BDF2. */
+bool primal_is_multistep(const Primal *p, int32_t block);
+
+/* Finds the bodies at or in an obstacle, and those with liquid. */
+void primal_find_leaning(Primal *p);
+
+/* After weigh_nodes(), which sums it. */
+void primal_note_stiffness(Primal *p);
+
+/* Compares energies at p->best. Returns the number of bodies that gained. */
+uint32_t primal_check_bodies(Primal *p);
+
+/* Moves failed bodies to `share` of the way from their start to the solution; the others stay as they are. */
+void primal_pull_back_to(Primal *p, float share);
+
+/* Mends the bodies whose solution has more energy than there was. */
+void primal_keep_energy(Primal *p);
+
+/* ---- primal_rigid.c: rigid motions, in the order of a direction's passes ---- */
+
+/* Finds the bodies whose rigid motions count, and what they weigh. After primal_find_leaning(). */
+void primal_find_rigid(Primal *p);
+
+/* With the contacts that are active now. */
+void primal_weigh_rigid(Primal *p);
+
+/* In a pass: sums Z'v of a block, v from its first float on. Then the motions zc follow. */
+void primal_sum_rigid(Primal *p, int32_t block, const float *v, double *sum);
+void primal_solve_rigid(Primal *p);
+
+/* In a pass: p->right -= H zc; uses p->direction. */
+void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end);
+
+/* In a pass: sums Z'Hz of z = p->direction. Then the motions become what is added to it. They use p->force. */
+void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, double *sum);
+void primal_correct_rigid(Primal *p);
+void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end);
+
+/* What the motion along d of a point at `arm` is made of; the energy of a spring there, added to body->factor; L of that; the solution of
+ * L L' x = body->sum. */
+void primal_motion_along(const double arm[3], const float d[3], double out[RIGID_MODES]);
+void primal_add_along(RigidBody *body, const double arm[3], const float direction[3], double stiffness);
+void primal_factorise(RigidBody *body);
+void primal_solve_modes(const RigidBody *body, double x[RIGID_MODES]);
+
+/* ---- primal_start.c ---- */
+
+/* Starts bodies from their rigid motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
+ * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
+void primal_choose_start(Primal *p);
+
+/* Writes those rigid motions to the nodes that have mass. */
+void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, float *node);
+
+/* The rigid motions of a block's body; from its centre to the block's first node, and to another one; the sums of the last pass per body. */
+RigidBody *primal_rigid_of(const Primal *p, int32_t block);
+void primal_corner(const Primal *p, int32_t block, const RigidBody *body, double corner[3]);
+void primal_arm(const double corner[3], size_t node, double arm[3]);
+void primal_gather_rigid(Primal *p, int count);
+
+/* ---- primal_spin.c ---- */
+
+/* Finds what bodies lose of their rotation. After all else; uses p->right. */
+void primal_find_spin(Primal *p);
+
+/* After particles have moved: gives it back. */
+void primal_turn(World *world);
+
+/* ---- primal_bounce.c ---- */
+
+/* Finds what bodies get back of the energy that being pushed took. After holds_book(). */
+void primal_find_bounces(Primal *p);
+
+/* After particles have moved: they get it, and contacts' impulses with them. */
+void primal_bounce(World *world, const ContactFrame *contacts);
+
+/* The largest q <= 1 with |v + q more| <= limit, or <= |v| where that is more. */
+double primal_share_within(const double v[3], const double more[3], double limit);
+
+/* The least share that blocks find, per body. It is 0 where a particle was slowed to max_displacement: what that took is not given back. */
+typedef double BlockShare(World *world, const RigidBody *body, int32_t block);
+void primal_find_shares(World *world, BlockShare *find);
+
+/* What max_displacement is as a speed. */
+double primal_fastest(const World *world);
+
+/* ---- primal_liquid.c ---- */
+
+/* Takes from loose liquid what an unfinished solution moves it by that no force does. */
+void primal_let_fly(Primal *p);
+
+/* Finds how much of their velocities bodies with liquid may keep, and pulls back those for which that is not enough. */
+void primal_find_kept(Primal *p);
+
+/* The displacements that make the velocities: p->node, or where bodies keep less, p->right. */
+const float *primal_kept_motion(Primal *p);
+
+/* ---- primal_gaps.c ---- */
+
+/* Lets nodes of solids go as far into obstacles as the particles that they carry have room. Nothing has been solved for yet. */
+void primal_widen_gaps(Primal *p);
+
+/* ---- primal_momentum.c ---- */
+
+/* Gives bodies the momentum that an unfinished solution kept from them, as far as they may move. */
+void primal_keep_momentum(Primal *p);
+
+#endif

@@ -1,0 +1,228 @@
+#include "solvers/solver.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/result.h"
+#include "solvers/dual/dual.h"
+#include "solvers/explicit.h"
+#include "solvers/joint.h"
+#include "solvers/paper.h"
+#include "solvers/passes.h"
+#include "solvers/primal/multistep.h"
+#include "solvers/primal/primal.h"
+#include "solvers/viscosity.h"
+#include "world/depth.h"
+#include "world/island_groups.h"
+#include "world/sleep_rows.h"
+
+enum { BLOCK_GRAIN = 2 };
+
+typedef struct SolverKind {
+    void (*set_materials)(World *world, float dt);
+    pbmpm_result (*prepare)(World *world); /* takes memory; the paper's needs none */
+    void (*solve)(World *world, const ContactFrame *contacts);
+} SolverKind;
+
+static const SolverKind kinds[] = {
+    [PBMPM_SOLVER_PAPER] = {paper_set_materials, NULL, paper_solve},
+    [PBMPM_SOLVER_DUAL] = {dual_set_materials, dual_prepare, dual_solve},
+    [PBMPM_SOLVER_PRIMAL] = {primal_set_materials, primal_prepare, primal_solve},
+    [PBMPM_SOLVER_EXPLICIT] = {explicit_set_materials, explicit_prepare, explicit_solve},
+    [PBMPM_SOLVER_CONVERGENT] = {joint_set_materials, joint_prepare, joint_solve},
+};
+
+/* ---- Parameters of the substep ---- */
+
+/* Of the feedback's share, that by which the mean of J over a block follows the grid. Pools of 4 to 48 cells kept their height with it; it takes 0.8 s. Without gravity
+ * nothing presses gaps shut, and a drop that only goes along would come to breathe: what the control corrects is strain, for which it corrects more. */
+static const double CONTROL_SHARE = 0.2;
+
+static void set_volume_control(World *world, float dt)
+{
+    const double part = gravity_fall(world, (double)dt) > 0.0 ? CONTROL_SHARE : 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        KernelMaterial *material = &world->materials.kernel[slot];
+        if (world->materials.generation[slot] == 0) continue;
+        const bool controlled = solver_follows_grid(world, slot) && material->yields != K_VISCO;
+        material->volume_share = controlled ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
+    }
+}
+
+/* Where the dual and the primal solver's liquid is slower than this [cells/s], feedback fades. By itself it moves matter by less: 6 per second (0.1 per 1/60 s) of
+ * 5 % of noise are 0.3 cells/s. */
+static const double CALM_SPEED = 2.4;
+
+/* More iterations make matter stiffer with the paper's solver, and with the dual where it does not get the stiffness that it is asked for. A body that
+ * carries its weight with the strain e stores M e^2 / 2: made stiffer at once, from M to r M, it holds r times as much and leaps. Made stiffer slowly it
+ * rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is (1 - 1/r) of what it held, whatever r is. Slowly: by
+ * about the factor e in the time in which its waves cross it twice. With the paper's solver, where M goes with N, they travel sqrt(w N) / 2 cells per
+ * substep, so a block of 8 cells takes 26 substeps for N = 1; for the dual see dual_stiffened(). Fewer iterations soften at once. */
+static void follow_iterations(World *world, float dt)
+{
+    static const double GROWTH = 1.04; /* per substep */
+    const double now = (double)world->settings.iterations, before = world->slow_iterations;
+    const double risen = solver_uses_dual(world) ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
+    world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
+}
+
+/* Whether liquids find each other by their mass, see held_for() in ispc/liquids.isph. The paper's solver bounds what crushed liquid grows with instead. */
+static bool weighs_liquids(const World *world)
+{
+    return world->record.solver != PBMPM_SOLVER_PAPER && materials_density_contrast(&world->materials, &world->particles) > 1.0;
+}
+
+void solver_bind(World *world, float dt, bool with_volume)
+{
+    Particles *p = &world->particles;
+    Grid *grid = &world->grid;
+    KernelArgs *a = &world->args;
+    const double cells_per_metre = 1.0 / (double)world->def.cell_size;
+    const float calm_way = (float)(CALM_SPEED * (double)dt);
+    *a = (KernelArgs){.volume_ratio = p->volume_ratio,
+                      .mass = p->mass,
+                      .identity = (const uint32_t *)(const void *)p->id,
+                      .status = p->status,
+                      .run_begin = grid->run_begin,
+                      .run_key = grid->run_key,
+                      .block_run = grid->block_run.data,
+                      .neighbour = grid->neighbour.data,
+                      .particle_blocks = grid->particle_blocks,
+                      .tile = grid->tile.data,
+                      .tile_volume = with_volume ? grid->tile_volume.data : NULL,
+                      .node = grid->node.data,
+                      .node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .node_volume = with_volume ? grid->node_volume.data : NULL,
+                      .node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
+                      .node_reach = grid->node_reach.data,
+                      .edged = with_volume ? grid->edged.data : NULL,
+                      .clamped = grid->clamped.data,
+                      .moved = grid->moved.data,
+                      .lost = grid->lost.data,
+                      .travel = grid->travel.data,
+                      .material = world->materials.kernel,
+                      .iterations = world->record.solver == PBMPM_SOLVER_PAPER ? world->settings.iterations : 0,
+                      .flip = world->settings.flip,
+                      .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
+                      .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
+                      .dt = dt,
+                      .cells_per_metre = (float)cells_per_metre,
+                      .max_displacement = world->settings.max_displacement,
+                      .max_cell = CELL_LIMIT,
+                      .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
+                      .check_strain = world->strain_unchecked};
+    follow_iterations(world, dt);
+    kinds[world->record.solver].set_materials(world, dt);
+    set_volume_control(world, dt);
+    memcpy(a->fraction, p->fraction, sizeof a->fraction);
+    memcpy(a->cell, p->cell, sizeof a->cell);
+    memcpy(a->velocity, p->velocity, sizeof a->velocity);
+    memcpy(a->affine, p->affine, sizeof a->affine);
+    memcpy(a->deformation, p->deformation, sizeof a->deformation);
+    multistep_bind(world);
+    for (int k = 0; k < world->def.dimension; k++) {
+        const double pull = (double)world->settings.gravity[k] * dt * dt * cells_per_metre;
+        a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
+    }
+}
+
+void solver_predict(World *world)
+{
+    solver_over_both(world, world->kernels->scatter, world->kernels->predict_nodes, NULL);
+    world->strain_unchecked = false;
+}
+
+/* ---- Solving ---- */
+
+bool solver_follows_walls(const World *world)
+{
+    if (!solver_uses_dual(world) && world->record.solver != PBMPM_SOLVER_EXPLICIT) return false;
+    return solver_holds_liquid(world) || (solver_uses_dual(world) && world->settings.iterations == 1);
+}
+
+/* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep; and it reaches through any depth of liquid, which
+ * stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch liquid the two work together, see joint.h; a single
+ * iteration finds no pressure that solids could float on, so there the primal takes all. */
+pbmpm_solver solver_for(uint32_t matter, int iterations)
+{
+    if (matter & KIND_SAND || matter == KIND_LIQUID) return PBMPM_SOLVER_DUAL;
+    return matter & KIND_LIQUID && iterations > 1 ? PBMPM_SOLVER_CONVERGENT : PBMPM_SOLVER_PRIMAL;
+}
+
+static pbmpm_solver chosen(const World *world)
+{
+    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(islands_kinds(world), world->settings.iterations) : world->settings.solver;
+}
+
+bool solver_wants_volume(const World *world)
+{
+    return materials_want_volume(&world->materials, &world->particles) || (chosen(world) == PBMPM_SOLVER_DUAL && solver_holds_sand(world));
+}
+
+pbmpm_result solver_prepare(World *world)
+{
+    const pbmpm_solver solver = chosen(world);
+    world->record.solver = solver;
+    if (solver != PBMPM_SOLVER_PRIMAL) multistep_expire(world);
+    if (solver == PBMPM_SOLVER_PAPER) return PBMPM_OK;
+    const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
+    if (!array_reserve(&world->memory, &world->grid.node_base, nodes * K_NODE_WIDTH, sizeof(float)) ||
+        (weighs_liquids(world) && !array_reserve(&world->memory, &world->grid.node_density, nodes, sizeof(float))))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the predictor of %d blocks", world->grid.node_blocks);
+    const pbmpm_result result = viscosity_prepare(world);
+    return result == PBMPM_OK ? kinds[solver].prepare(world) : result;
+}
+
+void solver_solve(World *world, const ContactFrame *contacts)
+{
+    StepRecord *record = &world->record;
+    record->stop = PBMPM_STOP_ITERATIONS;
+    record->iterations_used = record->energy_checks_failed = 0;
+    record->residual = record->predicted_error = 0.0;
+    contacts->colliders->impulses.adds_up = record->solver == PBMPM_SOLVER_PAPER;
+    solver_obey(world, contacts); /* the predictor obeys them too */
+    if (record->solver != PBMPM_SOLVER_PAPER) viscosity_apply(world, contacts);
+    kinds[record->solver].solve(world, contacts);
+}
+
+bool solver_ends_by_primal(const World *world) { return world->record.solver == PBMPM_SOLVER_PRIMAL || joint_is_chosen(world); }
+
+void solver_before_going(World *world)
+{
+    if (solver_ends_by_primal(world)) primal_before_going(world);
+}
+
+void solver_integrate(World *world, int32_t begin, int32_t end)
+{
+    if (world->grid.still_blocks == 0) {
+        world->kernels->integrate(&world->args, begin, end);
+        return;
+    }
+    for (int32_t block = begin, next; block < end; block = next) { /* stretches of blocks that move */
+        next = block + 1;
+        if (sleep_is_still(world, block)) continue;
+        while (next < end && !sleep_is_still(world, next)) next++;
+        world->kernels->integrate(&world->args, block, next);
+    }
+}
+
+static void fly(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    const int32_t first = world->grid.particle_blocks;
+    world->kernels->fly(&world->args, first + begin, first + end);
+}
+
+static void let_fly(World *world)
+{
+    if (world->grid.flights == 0) return;
+    world->args.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
+    pool_for(world->pool, world->grid.flights, BLOCK_GRAIN, fly, world);
+}
+
+void solver_after_going(World *world, const ContactFrame *contacts)
+{
+    if (solver_ends_by_primal(world)) primal_calm(world, contacts);
+    let_fly(world);
+}

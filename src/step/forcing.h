@@ -1,0 +1,12 @@
+/* What forces do to the nodes of the predictor. */
+#ifndef PBMPM_SRC_STEP_FORCING_H
+#define PBMPM_SRC_STEP_FORCING_H
+
+#include "world/world.h"
+
+/* Changes the predictor of a substep. On failure (no memory) it is as it was. */
+pbmpm_result forces_apply(World *world, float dt);
+/* That substep is done: what the forces did in it counts. */
+void forces_account(Forces *forces, int32_t node_blocks);
+
+#endif

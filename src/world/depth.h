@@ -1,0 +1,27 @@
+/* How high matter stands. */
+#ifndef PBMPM_SRC_WORLD_DEPTH_H
+#define PBMPM_SRC_WORLD_DEPTH_H
+
+#include "world/world.h"
+
+/* The length along gravity between which all but a fiftieth of the particles at either end lie, in cells times |g|: narrowed by histograms
+ * of blocks, so that a stray particle far away does not count. `asleep_too`: of all particles; else of those in the grid. */
+double depth_along_gravity(const World *world, bool asleep_too);
+
+/* The same of those in the grid in cells; without gravity the edge of a cube as large as the blocks with matter. At least 1. */
+double matter_depth(const World *world);
+
+/* The same of the liquid alone. 1 without gravity. */
+double liquid_depth(const World *world);
+
+/* sqrt(a) of the slowest mode of the pressure in matter that rests on something: a wave with the wave number k per cell has the eigenvalue
+ * a = (k / 2)^2 of "scatter stresses, gather gradients", and the slowest is a quarter wave over the n cells of the depth, a = (pi / 4n)^2. */
+double slowest_pressure(const World *world);
+
+/* |g| [m/s^2]. */
+double gravity_strength(const World *world);
+
+/* What gravity moves matter by in a substep: |g| dt^2 / dx [cells]. */
+double gravity_fall(const World *world, double substep);
+
+#endif
