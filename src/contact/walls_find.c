@@ -412,15 +412,17 @@ static double motion_along(const Builder *b, uint32_t node, const Profile *profi
     return along;
 }
 
-/* A wall pushes and does not pull: it is the pressure p before it that keeps matter there. By Bernoulli's law that turns what leaves no faster than v^2 = 2 p / rho; a
- * fall of one cell, the pressure that the grid does not see, counts as in clings(). What leaves is what the node has beyond its share, `scale`, of the motion before it.
- * Held, a sheet that slides over an edge, before whose other face nothing is, would lose half of its speed there and creep round it. */
+/* A wall pushes and does not pull. What flows along it moves off in proportion to the distance, `scale` of the motion before it; what leaves moves as what is before it
+ * does. Where the node is nearer to the second, it is the pressure p before the wall that keeps matter there. By Bernoulli's law that turns what leaves no faster than
+ * v^2 = 2 p / rho; a fall of one cell, the pressure that the grid does not see, counts as in clings(). Held, a sheet that slides over an edge, before whose other face
+ * nothing is, would lose half of its speed there and creep round it. Let go, a box full of vortices, which has no pressures at first, would lose a third of its energy. */
 static bool leaves(const Builder *b, const Bound *bound, const WallEntry *entry, const Profile *profile, double scale)
 {
     const WallNode *list = b->walls->node.data;
-    double beyond = motion_along(b, bound->node, profile), pressure = 0.0;
-    for (uint32_t k = 0; k < entry->corners; k++) beyond -= scale * (double)entry->weight[k] * motion_along(b, list[entry->parent[k]].node, profile);
-    if (beyond <= 0.0 || beyond * beyond <= 2.0 * b->frame->fall) return false;
+    double before = 0.0, pressure = 0.0;
+    for (uint32_t k = 0; k < entry->corners; k++) before += (double)entry->weight[k] * motion_along(b, list[entry->parent[k]].node, profile);
+    const double beyond = motion_along(b, bound->node, profile) - scale * before;
+    if (beyond <= 0.5 * (1.0 - scale) * before || beyond <= 0.0 || beyond * beyond <= 2.0 * b->frame->fall) return false;
     for (uint32_t k = 0; k < entry->corners; k++) pressure += (double)entry->weight[k] * pressure_at(b->frame, list[entry->parent[k]].node);
     return beyond * beyond > 2.0 * (pressure + b->frame->fall);
 }
