@@ -142,12 +142,14 @@ bool solver_follows_walls(const World *world)
 }
 
 /* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep; and it reaches through any depth of liquid, which
- * stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch liquid the two work together, see joint.h; a single
- * iteration finds no pressure that solids could float on, so there the primal takes all. */
+ * stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch liquid the two work together, see joint.h. A single
+ * iteration of the dual finds no pressure that bears water or solids: of 12 cells of it 4 were lost at 60 Hz, of 24 ten. The primal's loses 0.2 and 0.3. So there it takes
+ * all but sand; and what the dual crushed, which costs it nothing, is never let go by the primal, to which it is energy. */
 pbmpm_solver solver_for(uint32_t matter, int iterations)
 {
-    if (matter & KIND_SAND || matter == KIND_LIQUID) return PBMPM_SOLVER_DUAL;
-    return matter & KIND_LIQUID && iterations > 1 ? PBMPM_SOLVER_CONVERGENT : PBMPM_SOLVER_PRIMAL;
+    if (matter & KIND_SAND) return PBMPM_SOLVER_DUAL;
+    if (!(matter & KIND_LIQUID) || iterations == 1) return PBMPM_SOLVER_PRIMAL;
+    return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_CONVERGENT;
 }
 
 static pbmpm_solver chosen(const World *world)
