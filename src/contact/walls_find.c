@@ -4,6 +4,7 @@
 #include "base/result.h"
 #include "base/vector.h"
 #include "contact/field.h"
+#include "contact/flowing.h"
 #include "contact/reach.h"
 #include "contact/sight.h"
 #include "contact/walls.h"
@@ -217,6 +218,34 @@ static Turn turn_of(const Builder *b, const Bound *bound)
     return turn;
 }
 
+/* Whether an even pressure works on what a normal lets through. It pushes nodes with the sum over particles of the slopes of their weights; as these lie, that leans from
+ * the wall's normal by some degrees at walls that lean against the grid, and so drives eddies along them for ever. Behind the wall, and where the wall is straight along
+ * an axis, that is little. */
+static bool pressure_leans(const Bound *bound)
+{
+    static const double STRAIGHT = 0.999;
+    const double *n = bound->face[0].normal;
+    for (int k = 1; k < bound->faces; k++)
+        if (!field_same_way(&bound->face[k], &bound->face[0]) && bound->face[k].distance < 1.5) return false; /* that one bears a part */
+    return fabs(bound->face[0].distance) < CLEAR && fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) < STRAIGHT;
+}
+
+/* The normal goes half way to the push of an even pressure: along the wall's own that works, along the push's matter goes through the wall. By more than planes that
+ * count as one differ the push leans where more than the wall bears it: at surfaces. */
+static void lean(const Builder *b, const Bound *bound, double normal[3])
+{
+    const FlowingSite site = {b->frame, bound->block, {bound->local[0], bound->local[1], bound->local[2]}};
+    double push[3], size2 = 0.0;
+    flowing_push(&site, push);
+    const double size = sqrt(dot3(push, push)), along = dot3(push, normal);
+    if (!(along > sqrt(1.0 - LEAST_TURN * LEAST_TURN) * size)) return;
+    for (int a = 0; a < 3; a++) {
+        normal[a] = field_rounded(0.5 * (normal[a] + push[a] / size));
+        size2 += normal[a] * normal[a];
+    }
+    for (int a = 0; a < 3; a++) normal[a] /= sqrt(size2);
+}
+
 /* Matter that is faster than it would be after a fall of one cell, v^2 > 2 g dx, flies on where the wall turns away: a jet contracts. */
 static bool clings(const ContactFrame *frame, const Bound *bound)
 {
@@ -254,7 +283,9 @@ static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NOR
     }
     const bool turns = used == 1 && clings(b->frame, bound);
     const Turn turn = turns ? turn_of(b, bound) : (Turn){.bend = 0.0};
-    for (int a = 0; a < 3 && turns; a++) profile[0].normal[a] = profile[0].axis[a] = field_rounded(turn.normal[a]);
+    for (int a = 0; a < 3 && turns; a++) profile[0].normal[a] = field_rounded(turn.normal[a]);
+    if (turns && b->frame->pressed && pressure_leans(bound)) lean(b, bound, profile[0].normal);
+    for (int a = 0; a < 3 && turns; a++) profile[0].axis[a] = profile[0].normal[a];
     for (int i = 0; i < used; i++) {
         Profile *p = &profile[i];
         p->distance = field_rounded(own[i]->distance - turn.bend);
@@ -362,45 +393,12 @@ static double share_of_set(const Profile *profile, int count, int set)
     return share;
 }
 
-/* p / rho of a particle [cells^2 / substep^2], a fourth of its multiplier: kept by the dual, by the law of liquids with the explicit solver. */
-static double pressure_of(const ContactFrame *frame, const KernelMaterial *material, uint32_t row)
-{
-    const double ratio = (double)frame->pressed->volume_ratio[row];
-    if (frame->pressure) return 0.25 * (double)frame->pressure[row] / (double)material->pascal;
-    return 0.25 * (double)material->dilation * ratio * fmax(0.0, 1.0 - ratio);
-}
-
-/* Adds mass and mass times p / rho of the liquid and sand nearest to a node. */
-static void add_pressure(const ContactFrame *frame, int64_t node, double *mass, double *sum)
-{
-    const Grid *grid = frame->grid;
-    const int32_t block = (int32_t)(node / grid->block_cells);
-    const uint32_t cell = (uint32_t)(node % grid->block_cells), *run = grid->block_run.data;
-    if (block >= grid->particle_blocks) return;
-    for (uint32_t r = run[block]; r < run[block + 1]; r++) {
-        const KernelMaterial *material = &frame->kernel[grid->run_key[r] >> K_RUN_CELL_BITS];
-        if ((grid->run_key[r] & K_RUN_CELL_MASK) != cell || (material->kind != K_LIQUID && material->yields != K_SAND)) continue;
-        for (uint32_t row = grid->run_begin[r]; row < grid->run_begin[r + 1]; row++) {
-            *mass += (double)frame->pressed->mass[row];
-            *sum += (double)frame->pressed->mass[row] * pressure_of(frame, material, row);
-        }
-    }
-}
-
-/* The mean of p / rho around a node: of single particles it is noise. */
+/* The mean of p / rho around a node of the grid. */
 static double pressure_at(const ContactFrame *frame, uint32_t node)
 {
-    const Grid *grid = frame->grid;
-    const int32_t block = (int32_t)(node / (uint32_t)grid->block_cells);
-    const int cell = (int)(node % (uint32_t)grid->block_cells), local[3] = {cell & 3, cell >> 2 & 3, cell >> 4};
-    double sum = 0.0, mass = 0.0;
-    for (int n = 0; n < grid->neighbours && frame->pressed; n++) {
-        int32_t way[3];
-        grid_neighbour_offset(n, grid->dimension, way);
-        const int64_t beside = grid_node_beside(grid, block, local, way);
-        if (beside != GRID_NOWHERE) add_pressure(frame, beside, &mass, &sum);
-    }
-    return mass > 0.0 ? sum / mass : 0.0;
+    const int cell = (int)(node % (uint32_t)frame->grid->block_cells);
+    const FlowingSite site = {frame, (int32_t)(node / (uint32_t)frame->grid->block_cells), {cell & 3, cell >> 2 & 3, cell >> 4}};
+    return frame->pressed ? flowing_pressure(&site) : 0.0;
 }
 
 /* The normal motion of a node of the grid against the wall that a profile stands for. */

@@ -9,6 +9,7 @@
 #include "bounds.h"
 #include "check.h"
 #include "contact/contacts_find.h"
+#include "contact/flowing.h"
 #include "contact/open_volume.h"
 #include "contact/walls.h"
 #include "scene.h"
@@ -195,6 +196,52 @@ static void test_a_full_box_has_its_density(void)
 static void open_walls(World *world)
 {
     for (int place = 0; place < DOMAIN_WALLS; place++) world->domain.wall[place].open = 1;
+}
+
+/* ---- The push of an even pressure ---- */
+
+/* The volume that a spline at a place finds [cells^d], with all particles. */
+static double volume_around(const World *world, const double place[3])
+{
+    const Particles *p = &world->particles;
+    double sum = 0.0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        double weight = (double)p->mass[i] / 1000.0;
+        for (int a = 0; a < p->dimension; a++) weight *= spline(p->cell[a][i] + (double)p->fraction[a][i] - place[a]);
+        sum += weight;
+    }
+    return sum;
+}
+
+/* It is the slope of that volume as the node moves, here by central differences whose error is h^2 / 6 times third derivatives: 0 but where pieces of splines meet,
+ * of which each contributes up to h times the particles there. */
+static void test_the_push_of_an_even_pressure_is_a_slope_of_volume(void)
+{
+    const double h = 1e-5;
+    for (int dimension = 2; dimension <= 3; dimension++) {
+        Scene scene = full_box(cpu_isa(), dimension, 0.3, 2);
+        World *world = scene.world;
+        int pushed = 0;
+        predict(&scene);
+        const ContactFrame frame = {.grid = &world->grid, .cell_size = CELL, .pressed = &world->particles, .kernel = world->materials.kernel};
+        for (int32_t block = 0; block < world->grid.node_blocks; block++)
+            for (int node = 0; node < world->grid.block_cells; node += dimension == 2 ? 1 : 5) {
+                const FlowingSite site = {&frame, block, {node & 3, node >> 2 & 3, node >> 4}};
+                double point[3], push[3];
+                contacts_node_position(&frame, block, node, point);
+                for (int a = 0; a < 3; a++) point[a] = round(point[a] / CELL);
+                flowing_push(&site, push);
+                pushed += fabs(push[0]) + fabs(push[1]) + fabs(push[2]) > 0.1;
+                for (int a = 0; a < dimension; a++) {
+                    double above[3] = {point[0], point[1], point[2]}, below[3] = {point[0], point[1], point[2]};
+                    above[a] += h;
+                    below[a] -= h;
+                    TEST_ASSERT_DOUBLE_WITHIN(10.0 * h, (volume_around(world, above) - volume_around(world, below)) / (2.0 * h), push[a]);
+                }
+            }
+        TEST_ASSERT_GREATER_THAN_INT(10, pushed);
+        scene_close(&scene);
+    }
 }
 
 /* On a single plane what is far from all other ends of the matter has its density, too. */
@@ -591,6 +638,7 @@ int main(void)
     RUN_TEST(test_the_open_share_ends_at_the_support);
     RUN_TEST(test_surfaces_that_lie_on_each_other_count_once);
     RUN_TEST(test_a_full_box_has_its_density);
+    RUN_TEST(test_the_push_of_an_even_pressure_is_a_slope_of_volume);
     RUN_TEST(test_a_layer_on_a_plane_has_its_density);
     RUN_TEST(test_blocks_near_edges_are_marked);
     RUN_TEST(test_marks_go_with_the_obstacle);
