@@ -26,7 +26,7 @@ static void give(Adviser *adviser, pbmpm_advice advice)
 
 /* ---- What helps, and its price ---- */
 
-/* Share of a step that goes with the iterations, where none was made yet: of ten, in 3D (see the README's table of speed). */
+/* Share of a step that goes with the iterations, where none was made yet: of ten, in 3D (see docs/performance.md). */
 static const double ITERATED_SHARE = 0.4;
 
 static double iterated_share(const World *world)

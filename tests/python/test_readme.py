@@ -25,10 +25,3 @@ def test_the_python_example_runs(root: Path, capsys: pytest.CaptureFixture[str])
     particles, height = capsys.readouterr().out.split()
     assert int(particles) == 800
     assert 0.125 < float(height) < 0.5  # between that of the pool it becomes and that of the column it was: energy is not gained
-
-
-def test_files_that_the_readme_names_exist(root: Path) -> None:
-    text = (root / "README.md").read_text(encoding="utf-8")
-    named = set(re.findall(r"\]\(([\w./-]+)\)", text)) | set(re.findall(r"`((?:samples|tests|bindings|include|src|ispc)/[\w./-]+)`", text))
-    assert named
-    assert [name for name in sorted(named) if not (root / name).exists()] == []

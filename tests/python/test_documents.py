@@ -1,0 +1,69 @@
+"""The documents: what they point to exists, the README stays short, sentences stay short."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md")])
+NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
+
+
+def prose(text: str) -> str:
+    """Without code, tables, headings and lists' marks."""
+    text = re.sub(r"```.*?```", "", text, flags=re.DOTALL)
+    lines = [line for line in text.splitlines() if not line.startswith(("|", "#", "    "))]
+    return "\n".join(re.sub(r"^\s*(-|\d+\.)\s", "\n", line) for line in lines)
+
+
+def sentences(text: str) -> list[int]:
+    """How many words each has. A paragraph ends one; so do a colon and a semicolon, which a reader takes as a stop. A piece of code is a word."""
+    plain = re.sub(r"`[^`]*`", "code", re.sub(r"\]\([^)]*\)", "]", prose(text)))
+    parts = re.split(r"(?<=[.!?:;])[)*_]*\s+|\n\s*\n", plain)
+    return [count for part in parts if (count := len(re.findall(r"\w[\w'/.+-]*", part))) > 0]
+
+
+def percentile(counts: list[int], share: float) -> int:
+    return sorted(counts)[min(len(counts) - 1, int(share * len(counts)))]
+
+
+def anchor(heading: str) -> str:
+    return re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-")
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=NAMES)
+def test_links_lead_somewhere(path: Path) -> None:
+    lost = []
+    for target in re.findall(r"\]\((?!https?:)([^)\s]+)\)", path.read_text(encoding="utf-8")):
+        name, _, part = target.partition("#")
+        there = (path.parent / name).resolve() if name else path
+        headings = re.findall(r"^#+ (.*)$", there.read_text(encoding="utf-8"), re.MULTILINE) if there.suffix == ".md" and there.exists() else []
+        if not there.exists() or (part and part not in map(anchor, headings)):
+            lost.append(target)
+    assert lost == []
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=NAMES)
+def test_files_that_are_named_exist(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    named = set(re.findall(r"[`\s]((?:samples|tests|bindings|include|src|ispc|docs)/[\w./-]*\w)", text))
+    assert sorted(name for name in named if not (ROOT / name).exists() and not re.search(r"[A-Z]{4}", name)) == []  # VERSION stands for any
+
+
+def test_the_readme_is_short() -> None:
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    assert len(text.splitlines()) <= 160
+    assert len(text.split()) <= 1600
+    assert len((ROOT / "docs" / "glossary.md").read_text(encoding="utf-8").splitlines()) <= 40
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=NAMES)
+def test_sentences_are_short(path: Path) -> None:
+    counts = sentences(path.read_text(encoding="utf-8"))
+    middle, long = percentile(counts, 0.5), percentile(counts, 0.95)
+    print(f"{path.name}: {len(counts)} sentences, median {middle} words, 95 % at most {long}, longest {max(counts)}")
+    assert middle <= 12
+    assert long <= 24
