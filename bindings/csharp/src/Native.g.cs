@@ -180,9 +180,9 @@ namespace Pbmpm
         /// <summary>default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
         /// axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
         /// finds the pressures, the primal moves solids under them, before and after, which takes half as long again as
-        /// one solver. Islands that hold the same kinds are solved together, as if nothing else were there. A
-        /// single iteration leaves solids with liquid to the primal. While matter sleeps (settings.sleeping) all of the
-        /// world is one island.</summary>
+        /// one solver. Islands that hold the same kinds are solved together, as if nothing else were there. With
+        /// a single iteration the primal solves all but what sand is in. While matter sleeps (settings.sleeping) all of
+        /// the world is one island.</summary>
         Convergent = 4,
     }
 

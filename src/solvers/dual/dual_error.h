@@ -9,9 +9,7 @@
  *
  * Where r < s, a part of R moves no node: there are more constraints than nodes can meet, and as particles keep their pressures each substep asks for those
  * anew. What does move is at most U / s in the slowest mode, and the error at most f(s) U / s, which is predicted. At rest it is most of R, and R alone
- * predicts too much; where modes are left that are slower than those of a pool (particles in disorder make such), U predicts half of the truth.
- * The same part makes r too large a guess of slow modes while fast ones move more: a column of 16 cells that comes to rest at 60 Hz x 5 is predicted up to
- * 8.5 times too large, a third of its steps by more than 3. */
+ * predicts too much; where modes are left that are slower than those of a pool (particles in disorder make such), U predicts half of the truth. */
 #ifndef PBMPM_SRC_SOLVERS_DUAL_DUAL_ERROR_H
 #define PBMPM_SRC_SOLVERS_DUAL_DUAL_ERROR_H
 
