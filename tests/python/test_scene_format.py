@@ -122,9 +122,10 @@ def test_error_names_the_field(path: str, value: Any, named: str, said: str) -> 
         (b"[" * 100_000, "nested too deeply"),
         (b'{"a":' * 100_000, "nested too deeply"),
         (b'{"seconds": ' + b"9" * 5000 + b"}", "cannot be read"),
-        (b'{"name": "\xff"}', "cannot be read"),
+        (b'{"name": "\xff"}', "not a text file"),
         (b"{", "scene.json:1:2: not JSON"),
-        (b"", "scene.json:1:1: not JSON"),
+        (b"", "the file is empty"),
+        (b" \n", "the file is empty"),
     ],
 )
 def test_files_that_are_no_json(tmp_path: Path, text: bytes, said: str) -> None:
@@ -132,6 +133,27 @@ def test_files_that_are_no_json(tmp_path: Path, text: bytes, said: str) -> None:
     path.write_bytes(text)
     with pytest.raises(InputError, match=said):
         load_scene(path)
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "said"),
+    [
+        ("fils", [], "fils: unknown field; did you mean 'fills'?"),
+        ("solver", {"integratr": "bdf2"}, "solver.integratr: unknown field; did you mean 'integrator'?"),
+        ("solver", "primel", "did you mean 'primal'?"),
+        ("solver", {"solver": "Dual"}, "did you mean 'dual'?"),
+        ("materials.water.kind", "fluid", "'fluid' is not one of"),
+        ("materials.water.kind", "liqid", "did you mean 'liquid'?"),
+        ("zzz", 1, "zzz: unknown field$"),
+    ],
+)
+def test_misspelt_words_get_a_suggestion(path: str, value: object, said: str) -> None:
+    with pytest.raises(InputError, match=said.replace("?", r"\?")):
+        parse_scene(changed(path, value))
+
+
+def test_a_solver_may_stand_by_its_name() -> None:
+    assert parse_scene(changed("solver", "primal")).solver == parse_scene(changed("solver", {"solver": "primal"})).solver
 
 
 def test_the_world_gets_what_the_scene_says() -> None:
@@ -180,8 +202,12 @@ def test_not_a_scene(tmp_path: Path, text: str, said: str) -> None:
 
 
 def test_missing_file(tmp_path: Path) -> None:
-    with pytest.raises(InputError, match="cannot be read"):
+    with pytest.raises(InputError, match="none.json: there is no such file"):
         load_scene(tmp_path / "none.json")
+    with pytest.raises(InputError, match="is a folder, not a file"):
+        load_scene(tmp_path)
+    with pytest.raises(InputError, match="scene.yaml: this is YAML; scenes and presets are JSON"):
+        load_scene(tmp_path / "scene.yaml")
 
 
 def test_sample_scenes_are_valid_and_named_like_their_files(root: Path) -> None:

@@ -149,10 +149,14 @@ def test_nothing_is_written_without_being_asked(scene_file: Path, tmp_path: Path
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        (("run", "none.json"), "none.json: cannot be read"),
+        (("run", "none.json"), "none.json: there is no such file"),
         (("run", "small.json", "--rate", "0"), "--rate"),
         (("run", "small.json", "--solver", "newton"), "--solver"),
-        (("run", "small.json", "--preset", "none.json"), "none.json: cannot be read"),
+        (("run", "small.json", "--solver", "dula"), "did you mean 'dual'?"),
+        (("run", "small.json", "--json", "."), ".: is a folder"),
+        (("run", "small.json", "--json", "small.json/a.json"), "small.json: cannot be made"),
+        (("run", "small.json", "--output", "small.json"), "small.json: cannot be made"),
+        (("run", "small.json", "--preset", "none.json"), "none.json: there is no such file"),
         (("run", "small.json", "--seconds", "-1"), "--seconds"),
         (("run", "small.json", "--pictures", "0,x"), "not a list of times"),
         (("run", "small.json", "--pictures", "9"), "9 s is after the end"),
@@ -161,6 +165,8 @@ def test_nothing_is_written_without_being_asked(scene_file: Path, tmp_path: Path
         (("run", "bad.json"), "bad.json: fills[0].shape.half_extents"),
         (("run", "empty.json"), "no point of its lattice"),
         (("accuracy", "quicksand"), "quicksand"),
+        (("accuracy", "colunm"), "did you mean 'column'?"),
+        (("stability", "h3"), "there is no hard case"),
         (("accuracy", "column", "--rates", "a"), "not a list of numbers"),
     ],
 )

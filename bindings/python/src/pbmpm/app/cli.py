@@ -20,6 +20,8 @@ from .options import (
     EXIT_INTERRUPTED,
     EXIT_USAGE,
     JSON_HELP,
+    OutputFile,
+    OutputFolder,
     TimeList,
     emit_json,
     run_settings,
@@ -78,7 +80,7 @@ def main() -> None:
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @click.option(
-    "--output", type=click.Path(path_type=Path, file_okay=False), help="Folder for files.  [default: NAME-output]"
+    "--output", type=OutputFolder(), help="Folder for files.  [default: NAME-output]"
 )
 @click.option("--ply", is_flag=True, help="Write a PLY file per frame.")
 @click.option("--vtk", is_flag=True, help="Write a VTU file per frame and a PVD index for ParaView.")
@@ -93,7 +95,7 @@ def main() -> None:
     show_default=True,
     help="First steps to leave out of the timing.",
 )
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options: Any) -> None:
     """Simulate a scene file, ours or one of the EA demo.
 

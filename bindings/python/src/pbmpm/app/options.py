@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shlex
 import sys
 from collections.abc import Callable, Sequence
@@ -10,6 +11,8 @@ from typing import TYPE_CHECKING, Any, get_args
 
 import click
 
+from .errors import InputError
+from .hints import did_you_mean
 from .names import IntegratorName, PressureName, SolverName
 
 if TYPE_CHECKING:
@@ -47,6 +50,23 @@ def emit_json(data: dict[str, Any], target: str | None) -> None:
         print(json_text(data))
     elif target is not None:
         write_json(data, Path(target))
+
+
+def ready_folder(folder: Path) -> None:
+    """Makes a folder that is missing; InputError where files cannot be written to it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{folder}: cannot be written to")
+
+
+def ready_file(path: Path) -> None:
+    """The same for the folder of a file, which may not be a folder itself."""
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder")
+    ready_folder(path.parent)
 
 
 class TimeList(click.ParamType):
@@ -94,7 +114,7 @@ class NameList(click.ParamType):
         wanted = {part.strip() for part in str(value).split(",")}
         unknown = sorted(wanted - set(self._words))
         if unknown:
-            self.fail(f"'{unknown[0]}' is not one of {', '.join(self._words)}", param, ctx)
+            self.fail(f"'{unknown[0]}' is not one of {', '.join(self._words)}{did_you_mean(unknown[0], self._words)}", param, ctx)
         return tuple(word for word in self._words if word in wanted)
 
 
@@ -123,9 +143,48 @@ def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
     return command
 
 
+class Word(click.Choice):
+    """One word out of a few."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value not in self.choices:
+            self.fail(f"'{value}' is not one of {', '.join(self.choices)}{did_you_mean(value, self.choices)}", param, ctx)
+        return super().convert(value, param, ctx)
+
+
 def choice_of(names: Any) -> click.Choice:
     """The members of a Literal as a choice."""
-    return click.Choice(get_args(names))
+    return Word(get_args(names))
+
+
+class OutputFile(click.ParamType):
+    """A file that a command will write: its folder is made and tried before any work. A Path; with ``dash`` a word, which may be "-"."""
+
+    name = "file"
+
+    def __init__(self, dash: bool = False) -> None:
+        self._dash = dash
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str | Path:
+        if not (self._dash and value == "-"):
+            try:
+                ready_file(Path(value))
+            except InputError as problem:
+                self.fail(str(problem), param, ctx)
+        return str(value) if self._dash else Path(value)
+
+
+class OutputFolder(click.ParamType):
+    """A folder that a command will fill: it is made and tried before any work."""
+
+    name = "directory"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        try:
+            ready_folder(Path(value))
+        except InputError as problem:
+            self.fail(str(problem), param, ctx)
+        return Path(value)
 
 
 _SETTINGS = {"rate": "rate_hz"} | {

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import json
 import math
+import re
 from pathlib import Path
 from typing import Annotated, Any, Literal, cast
 
@@ -18,6 +19,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from ..materials import Elastic, Liquid, Sand, Visco
 from ..settings import DEFAULTS
 from .errors import InputError
+from .hints import did_you_mean
 from .names import EffectName, IntegratorName, PressureName, SolverName
 
 FORMAT_NAME = "pbmpm-scene"
@@ -377,7 +379,12 @@ class CameraPart(_Part):
 
 
 class SolverPart(_Part):
-    """How the equations are solved. Fields and defaults are those of ``pbmpm_settings``."""
+    """How the equations are solved. Fields and defaults are those of ``pbmpm_settings``. A name alone stands for ``{"solver": name}``."""
+
+    @model_validator(mode="before")
+    @classmethod
+    def _from_name(cls, data: Any) -> Any:
+        return {"solver": data} if isinstance(data, str) else data
 
     solver: SolverName = cast(SolverName, DEFAULTS.solver.name.lower())
     pressure: PressureName = cast(PressureName, DEFAULTS.pressure.name.lower())
@@ -499,10 +506,20 @@ def parse_scene(data: Any, source: str = "scene") -> Scene:
 
 def read_json(path: Path) -> Any:
     """Decodes a file; InputError says what is wrong with it, and where."""
+    if path.suffix.lower() in (".yaml", ".yml"):
+        raise InputError(f"{path}: this is YAML; scenes and presets are JSON")
     try:
         text = path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"{path}: cannot be read: {error}") from None
+    except FileNotFoundError:
+        raise InputError(f"{path}: there is no such file") from None
+    except IsADirectoryError:
+        raise InputError(f"{path}: is a folder, not a file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{path}: not a text file") from None
+    if not text.strip():
+        raise InputError(f"{path}: the file is empty")
     try:
         return json.loads(text)
     except json.JSONDecodeError as error:
@@ -519,11 +536,26 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
     for item in error.errors():
         message = item["msg"].removeprefix("Value error, ")
         if item["type"] == "extra_forbidden":
-            message = "unknown field"
+            message = f"unknown field{did_you_mean(item['loc'][-1], _all_fields())}"
+        elif item["type"] == "literal_error":
+            message += did_you_mean(item["input"], re.findall(r"'(\w+)'", item["ctx"]["expected"]))
+        elif item["type"] == "union_tag_invalid":
+            message = f"'{item['ctx']['tag']}' is not one of {item['ctx']['expected_tags']}"
+            message += did_you_mean(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
         elif item["type"] == "missing":
             message = "this field is required"
         lines.append(f"{source}: {_field_path(item['loc'], data)}: {message}")
     return "\n".join(dict.fromkeys(lines))
+
+
+def _all_fields() -> list[str]:
+    """The names of the fields of all parts of a scene."""
+    parts, names = [_Part], dict[str, None]()
+    while parts:
+        part = parts.pop()
+        parts += part.__subclasses__()
+        names.update(dict.fromkeys(part.model_fields))
+    return list(names)
 
 
 def _field_path(location: tuple[int | str, ...], data: Any) -> str:

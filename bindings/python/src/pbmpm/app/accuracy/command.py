@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from ..errors import InputError
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, emit_json, own_command, own_options
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, OutputFile, OutputFolder, emit_json, own_command, own_options
 from ..saved import file_to_resume
 
 
@@ -69,9 +69,9 @@ class VariantList(click.ParamType):
     "--resume", is_flag=True, help="Keep the cases that the file of --json holds already; it is written after each case."
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
-@click.option("--chart", type=click.Path(path_type=Path, file_okay=False), help="Folder for a PNG per case.")
-@click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write charts, verdicts and tables as a page.")
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--chart", type=OutputFolder(), help="Folder for a PNG per case.")
+@click.option("--html", type=OutputFile(), metavar="FILE", help="Write charts, verdicts and tables as a page.")
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def accuracy(
     names: tuple[str, ...],
     only_list: bool,

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from ..options import JSON_HELP, NameList, emit_json
+from ..options import JSON_HELP, NameList, OutputFile, emit_json
 from .subjects import MATERIALS, QUICK_MATERIALS, VARIANTS
 
 WARMUP_STEPS = 60
@@ -29,7 +29,7 @@ Measured = tuple[Report, str]
 @click.option("--lake", is_flag=True, help="Measure instead what a jelly in a lake costs over both by themselves.")
 @click.option("--pool", is_flag=True, help="Measure instead a pool asleep against awake, and what one drop wakes in it.")
 @click.option("--against", metavar="LIBRARY", type=click.Path(exists=True, dir_okay=False, path_type=Path), help="Measure this build against another, in turns.")
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def bench(scene_files: tuple[Path, ...], json_target: str | None, rounds: int, **options: Any) -> None:
     """Measure what an iteration and a step cost, per particle, with each solver.
 

@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from ..errors import InputError
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, emit_json, run_settings, solver_options
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, emit_json, run_settings, solver_options
 
 DEFAULT_SCENE = "workshop_2d.json"
 """A file of the package, the one of the samples."""
@@ -33,7 +33,7 @@ LONGEST_SETTLING = 2.0
 @click.option("--threads", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--list", "only_list", is_flag=True, help="List the effects, with those of the scene marked, and end.")
 @click.option("--chart", type=click.Path(path_type=Path, dir_okay=False), help="Write a bar chart (PNG).")
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def effects(
     scene_file: Path | None, at: float | None, rounds: int, only: str | None, only_list: bool, **options: Any
 ) -> None:

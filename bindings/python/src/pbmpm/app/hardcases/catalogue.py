@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from . import bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume
+from ..hints import did_you_mean
 from .case import HardCase
 
 _MODULES = (bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume)
@@ -14,4 +15,5 @@ def find_case(identifier: str) -> HardCase:
     for case in CASES:
         if case.id == identifier.upper():
             return case
-    raise ValueError(f"there is no hard case '{identifier}'; there are {', '.join(case.id for case in CASES)}")
+    known = [case.id for case in CASES]
+    raise ValueError(f"there is no hard case '{identifier}'; there are {', '.join(known)}{did_you_mean(identifier, known)}")

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import click
 
 from ..names import SolverName
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, emit_json, own_command
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, OutputFile, emit_json, own_command
 from ..saved import file_to_resume
 
 _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # that is one of the others
@@ -33,8 +33,8 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
     is_flag=True,
     help="Keep the runs that the file of --json holds, show them too, and run what it has not; it is written while they run.",
 )
-@click.option("--html", type=click.Path(path_type=Path, dir_okay=False), help="Write the map as a page.")
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--html", type=OutputFile(), metavar="FILE", help="Write the map as a page.")
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def stability(
     cases: tuple[str, ...],
     json_target: str | None,

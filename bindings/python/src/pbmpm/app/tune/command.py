@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from ..options import EXIT_CHECK_FAILED, JSON_HELP, emit_json
+from ..options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, OutputFolder, emit_json
 
 _PERCENTILES = {"median": 50.0, "p99": 99.0}
 
@@ -47,10 +47,10 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
 @click.option(
     "--output",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=OutputFolder(),
     help="Folder for presets and chart.  [default: NAME-tune]",
 )
-@click.option("--json", "json_target", metavar="FILE", help=JSON_HELP)
+@click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def tune(scene_file: Path, output: Path | None, json_target: str | None, **options: Any) -> None:
     """Find settings for a SCENE that fit into a time budget per frame.
 
