@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 install_build_tools
 stage "Building the library"
 cmake --workflow --preset demo
-make_environment build/release/lib/libpbmpm.so
+make_environment build/release/lib/libpbmpm.so lab
 pbmpm=build/venv/bin/pbmpm
 mkdir -p build/demo
 

@@ -17,8 +17,8 @@ import traceback
 from pathlib import Path
 from typing import Any
 
-from pbmpm.app.errors import InputError
-from pbmpm.app.scene import load_scene
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.loading import load_scene
 
 ROOT = Path(__file__).resolve().parents[2]
 WORK = ROOT / "build" / "fuzz" / "work" / "scenes"

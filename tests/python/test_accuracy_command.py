@@ -12,13 +12,13 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from pbmpm.app.accuracy.case import Case, ErrorMeasure, Measurement, Setting, parse_variant, settings_of
-from pbmpm.app.accuracy.explore import Explorer, LeftOut, next_iterations, next_rate
-from pbmpm.app.accuracy.registry import all_cases, find_cases
-from pbmpm.app.accuracy.saved import merged
-from pbmpm.app.accuracy.sweep import TIMINGS, Choice, Sweep, row_of
-from pbmpm.app.accuracy.table import legend, table
-from pbmpm.app.errors import InputError
+from pbmpm.lab.accuracy.case import Case, ErrorMeasure, Measurement, Setting, parse_variant, settings_of
+from pbmpm.lab.accuracy.explore import Explorer, LeftOut, next_iterations, next_rate
+from pbmpm.lab.accuracy.registry import all_cases, find_cases
+from pbmpm.lab.accuracy.parts import merged
+from pbmpm.lab.accuracy.sweep import TIMINGS, Choice, Sweep, row_of
+from pbmpm.lab.accuracy.table import legend, table
+from pbmpm.lab.errors import InputError
 
 ROW_KEYS = {
     "case",
@@ -37,7 +37,7 @@ ROW_KEYS = {
 
 
 def accuracy(*arguments: object) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "pbmpm.app", "accuracy", *map(str, arguments)]
+    command = [sys.executable, "-m", "pbmpm", "accuracy", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
 
 
@@ -192,7 +192,7 @@ class Priced(Stub):
 def priced(monkeypatch: pytest.MonkeyPatch) -> Priced:
     """The case, with a clock that only its measurements move."""
     Priced.measured.clear()
-    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: Priced.clock)
+    monkeypatch.setattr("pbmpm.lab.accuracy.explore.time.process_time", lambda: Priced.clock)
     return Priced()
 
 
@@ -234,7 +234,7 @@ def test_settings_on_a_front_are_timed_again_and_the_cheapest_counts(priced: Pri
 def test_search_leaves_out_what_takes_too_long_and_says_so(monkeypatch: pytest.MonkeyPatch) -> None:
     """A clock on which a setting takes a second per 1000 of its work: 480 Hz x 20 takes 11 s, more than all there is."""
     clock = [0.0]
-    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: clock[0])
+    monkeypatch.setattr("pbmpm.lab.accuracy.explore.time.process_time", lambda: clock[0])
     rows: list[Setting] = []
 
     def measure(setting: Setting) -> dict[str, Any]:
@@ -255,7 +255,7 @@ def test_what_the_search_begins_with_takes_no_time_from_it(monkeypatch: pytest.M
     begins. Each gets its third of them all the same: at half a second per setting 13 or 14 of them, as no search is over
     before."""
     clock = [0.0]
-    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: clock[0])
+    monkeypatch.setattr("pbmpm.lab.accuracy.explore.time.process_time", lambda: clock[0])
     case = Priced()
     begun, searched = set(case.start(8)), dict.fromkeys(("paper", "dual", "explicit"), 0)
 
@@ -295,7 +295,7 @@ def test_converged_solutions_that_take_too_long_are_those_of_the_worse_settings(
 ) -> None:
     """Time for two of them: those of the two rates with the least errors. The dearest part of the dual's equals the paper's
     converged solution, which costs nothing again."""
-    monkeypatch.setattr("pbmpm.app.accuracy.sweep.REFERENCES_SHARE", 0.02)
+    monkeypatch.setattr("pbmpm.lab.accuracy.sweep.REFERENCES_SHARE", 0.02)
     report = Sweep(with_converged=True).search(Converging(), 100.0)
     rows = [row for row in report.rows if row["solver"] == "dual" and row["cells"] == 8]
     known = {(row["variant"], row["rate_hz"]) for row in rows if row["converged_error"] is not None}
@@ -328,7 +328,7 @@ def test_cells_alone_choose_the_grids_of_the_search(monkeypatch: pytest.MonkeyPa
 
 def test_a_search_that_has_an_end_is_not_cut_short(monkeypatch: pytest.MonkeyPatch) -> None:
     """On a clock that stands still all neighbours get tried; one setting left out is enough to be short of time."""
-    monkeypatch.setattr("pbmpm.app.accuracy.explore.time.process_time", lambda: 0.0)
+    monkeypatch.setattr("pbmpm.lab.accuracy.explore.time.process_time", lambda: 0.0)
     case = Priced()
     explorer = Explorer(case, lambda setting: row_of(case, setting, case.measure(setting), None), 10.0, 8)
     explorer.run()

@@ -9,18 +9,18 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy.case import Setting
-from pbmpm.app.accuracy.elastic import ELASTIC_CASES, strain
-from pbmpm.app.accuracy.elastic.bar import STIFF_BAR
-from pbmpm.app.accuracy.elastic.block import Block, uniaxial_stress, uniaxial_stretch
-from pbmpm.app.accuracy.elastic.beam_cases import AxialBar, CantileverCase
-from pbmpm.app.accuracy.elastic.body_cases import BlockCase, SpinningDiscCase, TwoDiscsCase
-from pbmpm.app.accuracy.elastic.case import integrator_of
-from pbmpm.app.accuracy.elastic.prediction import compare, copy_state
-from pbmpm.app.accuracy.elastic.references import uniaxial_curve
-from pbmpm.app.accuracy.elastic.stage import Record, Stage, disc, failures, lattice, run
-from pbmpm.app.accuracy.elastic.theory import Solid
-from pbmpm.app.simulation import RunSettings
+from pbmpm.lab.accuracy.case import Setting
+from pbmpm.lab.accuracy.elastic import ELASTIC_CASES, strain
+from pbmpm.lab.accuracy.elastic.bar import STIFF_BAR
+from pbmpm.lab.accuracy.elastic.block import Block, uniaxial_stress, uniaxial_stretch
+from pbmpm.lab.accuracy.elastic.beam_cases import AxialBar, CantileverCase
+from pbmpm.lab.accuracy.elastic.body_cases import BlockCase, SpinningDiscCase, TwoDiscsCase
+from pbmpm.lab.accuracy.elastic.case import integrator_of
+from pbmpm.lab.accuracy.elastic.prediction import compare, copy_state
+from pbmpm.lab.accuracy.elastic.references import uniaxial_curve
+from pbmpm.lab.accuracy.elastic.stage import Record, Stage, disc, failures, lattice, run
+from pbmpm.lab.accuracy.elastic.theory import Solid
+from pbmpm.lab.simulation import RunSettings
 
 SOFT = Solid(young=1e5, poisson=0.3, density=1000.0)
 DUAL = RunSettings(240.0, 1, 20, 1, solver="dual")

@@ -7,9 +7,9 @@ import math
 import numpy as np
 import pytest
 
-from pbmpm.app.accuracy.elastic import references, strain
-from pbmpm.app.accuracy.elastic.signal import fit_oscillation, measure_swing
-from pbmpm.app.accuracy.elastic.theory import (
+from pbmpm.lab.accuracy.elastic import references, strain
+from pbmpm.lab.accuracy.elastic.signal import fit_oscillation, measure_swing
+from pbmpm.lab.accuracy.elastic.theory import (
     CANTILEVER_ROOTS,
     Beam,
     Solid,

@@ -10,19 +10,19 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy import laws
-from pbmpm.app.accuracy.case import Case, Setting
-from pbmpm.app.accuracy.liquid.channel import Couette, Poiseuille, couette, poiseuille
-from pbmpm.app.accuracy.liquid.claims import RecoveryClaim, VolumeClaim
-from pbmpm.app.accuracy.liquid.column import Column
-from pbmpm.app.accuracy.liquid.dam_break import DamBreak
-from pbmpm.app.accuracy.liquid.drop import EllipticalDrop, exact_axis
-from pbmpm.app.accuracy.liquid.invariance import Invariance
-from pbmpm.app.accuracy.liquid.obstacle import ObstacleDamBreak, measured_heights
-from pbmpm.app.accuracy.liquid.vortex import TaylorGreen
-from pbmpm.app.accuracy.liquid.wave import OffGridWave, StandingWave
-from pbmpm.app.hardcases import find_case
-from pbmpm.app.hardcases.volume import volume_at_rest
+from pbmpm.lab.accuracy import laws
+from pbmpm.lab.accuracy.case import Case, Setting
+from pbmpm.lab.accuracy.liquid.channel import Couette, Poiseuille, couette, poiseuille
+from pbmpm.lab.accuracy.liquid.claims import RecoveryClaim, VolumeClaim
+from pbmpm.lab.accuracy.liquid.column import Column
+from pbmpm.lab.accuracy.liquid.dam_break import DamBreak
+from pbmpm.lab.accuracy.liquid.drop import EllipticalDrop, exact_axis
+from pbmpm.lab.accuracy.liquid.invariance import Invariance
+from pbmpm.lab.accuracy.liquid.obstacle import ObstacleDamBreak, measured_heights
+from pbmpm.lab.accuracy.liquid.vortex import TaylorGreen
+from pbmpm.lab.accuracy.liquid.wave import OffGridWave, StandingWave
+from pbmpm.lab.stability.cases import find_case
+from pbmpm.lab.stability.cases.volume import volume_at_rest
 
 
 def test_dam_break_reaches_the_experiment_at_a_moderate_setting() -> None:

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pbmpm.app.accuracy import laws
-from pbmpm.app.accuracy.measures import (
+from pbmpm.lab.accuracy import laws
+from pbmpm.lab.accuracy.measures import (
     Curve,
     absolute_rms,
     best_shift,
@@ -18,7 +18,7 @@ from pbmpm.app.accuracy.measures import (
     occupied_area,
     relative_rms,
 )
-from pbmpm.app.accuracy.stability import ENERGY_TOLERANCE, StabilityJudge
+from pbmpm.lab.stability.judge import ENERGY_TOLERANCE, StabilityJudge
 
 
 def test_experiment_has_the_published_points() -> None:

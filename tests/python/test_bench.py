@@ -12,12 +12,12 @@ from typing import Any
 import pytest
 from click.testing import CliRunner
 
-from pbmpm.app.bench import lake, scenes
-from pbmpm.app.bench.builds import builds_text, measure_builds
-from pbmpm.app.bench.command import bench
-from pbmpm.app.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
-from pbmpm.app.bench.measure import Costs, measure, pieces
-from pbmpm.app.bench.pool import (
+from pbmpm.lab.bench import lake, scenes
+from pbmpm.lab.bench.builds import builds_text, measure_builds
+from pbmpm.lab.commands.bench import bench
+from pbmpm.lab.bench.lake import BOTH, PARTS, LakeCosts, lake_pieces, lake_row, lake_scene, lake_text, measure_lake, over_parts
+from pbmpm.lab.bench.measure import Costs, measure, pieces
+from pbmpm.lab.bench.pool import (
     AWAKE_STEPS,
     PACES,
     PATIENCE,
@@ -28,12 +28,12 @@ from pbmpm.app.bench.pool import (
     pool_scene,
     pool_text,
 )
-from pbmpm.app.bench.report import ratios_of, row_of
-from pbmpm.app.bench.scenes import GAME, SceneCosts, measure_scenes, scene_pieces, scene_row, scenes_text
-from pbmpm.app.bench.subjects import CELL, ITERATIONS, MATERIALS, RATE_HZ, VARIANTS, applies, scene_of
-from pbmpm.app.meter import Meter
-from pbmpm.app.scene import load_scene
-from pbmpm.app.simulation import RunSettings
+from pbmpm.lab.bench.report import ratios_of, row_of
+from pbmpm.lab.bench.scenes import GAME, SceneCosts, measure_scenes, scene_pieces, scene_row, scenes_text
+from pbmpm.lab.bench.subjects import CELL, ITERATIONS, MATERIALS, RATE_HZ, VARIANTS, applies, scene_of
+from pbmpm.lab.meter import Meter
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.simulation import RunSettings
 
 ROW_KEYS = {
     "material",
@@ -126,7 +126,7 @@ def test_pressures_in_cells_are_measured_with_liquids_only() -> None:
 
 
 def run_bench(*arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([sys.executable, "-m", "pbmpm.app", "bench", *arguments], capture_output=True, text=True)
+    return subprocess.run([sys.executable, "-m", "pbmpm", "bench", *arguments], capture_output=True, text=True)
 
 
 def test_the_command_says_where_the_figures_come_from() -> None:

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pbmpm.app.scene import parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 CELL = 0.05  # [m]
 SOLIDS: dict[str, dict[str, Any]] = {

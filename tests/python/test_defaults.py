@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.scene import SolverPart
-from pbmpm.app.simulation import RunSettings
+from pbmpm.lab.scenes.scene import SolverPart
+from pbmpm.lab.simulation import RunSettings
 from pbmpm.settings import DEFAULTS
 
 

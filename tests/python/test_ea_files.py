@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pbmpm.app.ea_scene import FUNCTIONS, MATERIALS, SHAPES, import_ea_scene
-from pbmpm.app.effects.catalogue import effects_on
-from pbmpm.app.scene import Scene, load_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.ea_scene import FUNCTIONS, MATERIALS, SHAPES, import_ea_scene
+from pbmpm.lab.effects.catalogue import effects_on
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.scenes.scene import Scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 EMITTER, COLLIDER, DRAIN, FILL = 0, 1, 2, 3
 LIQUID, ELASTIC, SAND, VISCO = 0, 1, 2, 3

@@ -11,10 +11,10 @@ from typing import Any
 import pytest
 
 import pbmpm
-from pbmpm.app.effects.catalogue import effects_on
-from pbmpm.app.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
-from pbmpm.app.errors import InputError
-from pbmpm.app.scene import load_scene
+from pbmpm.lab.effects.catalogue import effects_on
+from pbmpm.lab.ea_scene import STANDARD_GRAVITY, import_ea_scene, looks_like_ea_scene
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.loading import load_scene
 
 SMALL: dict[str, Any] = {
     "version": 2,

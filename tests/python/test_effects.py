@@ -12,18 +12,19 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from pbmpm.app.effects.advice import advice_of, advice_text
-from pbmpm.app.effects.catalogue import EFFECTS, effects_on, presences, remarks
-from pbmpm.app.effects.chart import save_chart
-from pbmpm.app.effects.effect import Effect, NotHere
-from pbmpm.app.effects.hosting import HOST_EFFECTS
-from pbmpm.app.effects.measure import BARE, Plan, bare, cost_of, measure, names, settled
-from pbmpm.app.effects.probe import Comparison, Probe, compare, comparison_of
-from pbmpm.app.effects.report import report_of, text_of, whole
-from pbmpm.app.errors import InputError
-from pbmpm.app.scene import Scene, parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
-from pbmpm.app.state import state_of
+from pbmpm.lab.effects.advice import advice_of, advice_text
+from pbmpm.lab.effects.catalogue import EFFECTS, effects_on, presences, remarks
+from pbmpm.lab.effects.cost_chart import save_chart
+from pbmpm.lab.effects.effect import Effect, NotHere
+from pbmpm.lab.effects.hosting import HOST_EFFECTS
+from pbmpm.lab.effects.measure import BARE, Plan, bare, cost_of, measure, names, settled
+from pbmpm.lab.effects.probe import Comparison, Probe, compare, comparison_of
+from pbmpm.lab.effects.report import report_of, text_of, whole
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.scenes.scene import Scene
+from pbmpm.lab.simulation import RunSettings, Simulation
+from pbmpm.lab.state import state_of
 from test_scene_run import pbmpm_command
 
 WATER: dict[str, Any] = {
@@ -488,7 +489,7 @@ def test_bad_input_is_exit_code_2(tmp_path: Path, arguments: tuple[str, ...], sa
 def test_a_scene_that_breaks_is_exit_code_1(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from click.testing import CliRunner
 
-    from pbmpm.app.cli import cli
+    from pbmpm.lab.commands.cli import cli
 
     (tmp_path / "scene.json").write_text(json.dumps(WATER))
     monkeypatch.setattr(Simulation, "problems", lambda self: ["7 particles are gone"])

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy import granular, slump
-from pbmpm.app.accuracy.registry import find_cases
+from pbmpm.lab.accuracy import granular, slump
+from pbmpm.lab.accuracy.registry import find_cases
 
 SOLVERS = [pbmpm.Solver.PAPER, pbmpm.Solver.DUAL, pbmpm.Solver.PRIMAL, pbmpm.Solver.EXPLICIT]
 RATE = 480.0  # for the explicit solver: the wave takes 0.8 cells per step

@@ -13,16 +13,16 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy import laws
-from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case, rest
-from pbmpm.app.hardcases.case import EXPLICIT, KnownFailure
-from pbmpm.app.hardcases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
-from pbmpm.app.hardcases.contrast import overturn_seconds
-from pbmpm.app.hardcases.energy import energy_density
-from pbmpm.app.hardcases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
-from pbmpm.app.hardcases.volume import RECOVERED_SHARE
-from pbmpm.app.hardcases.watch import make_world
-from pbmpm.app.stability.plan import Selection, plan
+from pbmpm.lab.accuracy import laws
+from pbmpm.lab.stability.cases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case, rest
+from pbmpm.lab.stability.cases.case import EXPLICIT, KnownFailure
+from pbmpm.lab.stability.cases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
+from pbmpm.lab.stability.cases.contrast import overturn_seconds
+from pbmpm.lab.stability.cases.energy import energy_density
+from pbmpm.lab.stability.cases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
+from pbmpm.lab.stability.cases.volume import RECOVERED_SHARE
+from pbmpm.lab.stability.cases.watch import make_world
+from pbmpm.lab.stability.plan import Selection, plan
 
 #: The explicit solver is the one to compare with: it is expected to fail.
 TESTED_SOLVERS = tuple(solver for solver in SOLVERS if solver != EXPLICIT)

@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pbmpm.app.accuracy.elastic.floating import FloatingBlock
-from pbmpm.app.scene import load_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.accuracy.elastic.floating import FloatingBlock
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 
 def test_a_stiff_block_floats_as_a_block() -> None:

@@ -12,13 +12,15 @@ import plyfile
 import pytest
 from PIL import Image
 
-from pbmpm.app.files import json_text, replace_when_complete, write_json
-from pbmpm.app.frame import Frame
-from pbmpm.app.output import Sequence
-from pbmpm.app.picture import annotate, draw_picture, look_of, particle_colours
-from pbmpm.app.picture2d import draw_2d
-from pbmpm.app.picture3d import draw_3d
-from pbmpm.app.scene import Scene, parse_scene
+from pbmpm.lab.files import json_text, replace_when_complete, write_json
+from pbmpm.lab.frame import Frame
+from pbmpm.lab.output import Sequence
+from pbmpm.lab.pictures.drawing import draw_picture
+from pbmpm.lab.pictures.look import annotate, look_of, particle_colours
+from pbmpm.lab.pictures.flat import draw_2d
+from pbmpm.lab.pictures.traced import draw_3d
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.scenes.scene import Scene
 
 
 def make_frame(

@@ -13,7 +13,7 @@ import numpy.typing as npt
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy import laws
+from pbmpm.lab.accuracy import laws
 
 Array = npt.NDArray[np.float64]
 

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.accuracy.case import Setting
-from pbmpm.app.accuracy.elastic.beam_cases import PredictionCase
-from pbmpm.app.accuracy.elastic.prediction import Agreement
-from pbmpm.app.accuracy.liquid.prediction import ColumnPrediction, DamBreakPrediction
+from pbmpm.lab.accuracy.case import Setting
+from pbmpm.lab.accuracy.elastic.beam_cases import PredictionCase
+from pbmpm.lab.accuracy.elastic.prediction import Agreement
+from pbmpm.lab.accuracy.liquid.prediction import ColumnPrediction, DamBreakPrediction
 
 SHARE = 0.8
 """Of the steps that must be predicted within a factor of 3."""

@@ -12,13 +12,13 @@ import pytest
 
 from browser import browser, open_page
 from pbmpm._library import library_path
-from pbmpm.app.report.accuracy_page import save_accuracy_page
-from pbmpm.app.report.build import compilers
-from pbmpm.app.report.chart import accuracy_figure
-from pbmpm.app.report.pareto import Point, cost_of, front_of
-from pbmpm.app.report.rows import cases_of, verdicts_of
-from pbmpm.app.report.verdict import GOOD, LEVELS, judge, round_levels
-from pbmpm.app.report.words import error_text, shortfalls, verdict_table
+from pbmpm.lab.report.accuracy_page import save_accuracy_page
+from pbmpm.lab.report.build import compilers
+from pbmpm.lab.report.case_chart import accuracy_figure
+from pbmpm.lab.report.pareto import Point, cost_of, front_of
+from pbmpm.lab.report.rows import cases_of, verdicts_of
+from pbmpm.lab.report.verdict import GOOD, LEVELS, judge, round_levels
+from pbmpm.lab.report.words import error_text, shortfalls, verdict_table
 
 
 def line(solver: str, factor: float, errors: list[float]) -> list[Point]:

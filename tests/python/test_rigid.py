@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.scene import load_scene, parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 SCENES = Path(__file__).parents[2] / "samples" / "scenes"
 DX, DT, SIDE, DEPTH = 0.05, 1 / 60, 1.6, 0.8

@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pbmpm.app.scene import load_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 NAMES = ["glass_jelly", "water_wheel", "hourglass", "boat", "jelly_tower", "tiled_level"]
 

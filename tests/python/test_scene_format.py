@@ -12,10 +12,12 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.errors import InputError
-from pbmpm.app.motion import pose_at, quaternion, rotation_matrix
-from pbmpm.app.scene import MotionPart, load_scene, parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.scenes.motion import pose_at, quaternion, rotation_matrix
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.scenes.scene import MotionPart
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 VALID: dict[str, Any] = {
     "format": "pbmpm-scene",

@@ -14,10 +14,10 @@ from typing import Any
 import plyfile
 import pytest
 
-from pbmpm.app.errors import InputError
-from pbmpm.app.preset import Preset, PresetSettings, load_preset, save_preset
-from pbmpm.app.scene import parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.scenes.preset import Preset, PresetSettings, load_preset, save_preset
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 SCENE: dict[str, Any] = {
     "format": "pbmpm-scene",
@@ -52,7 +52,7 @@ def scene_file(tmp_path: Path) -> Path:
 
 
 def pbmpm_command(*arguments: object, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "pbmpm.app", *map(str, arguments)]
+    command = [sys.executable, "-m", "pbmpm", *map(str, arguments)]
     return subprocess.run(command, capture_output=True, text=True, cwd=cwd, timeout=300, check=False)
 
 
@@ -187,7 +187,7 @@ def test_ctrl_c_leaves_complete_files(scene_file: Path, tmp_path: Path) -> None:
     command = [
         sys.executable,
         "-m",
-        "pbmpm.app",
+        "pbmpm",
         "run",
         str(scene_file),
         "--seconds",

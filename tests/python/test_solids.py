@@ -11,13 +11,14 @@ import numpy as np
 import pytest
 
 import pbmpm
-from pbmpm.app.effects.catalogue import effects_on
-from pbmpm.app.errors import InputError
-from pbmpm.app.picture2d import draw_2d
-from pbmpm.app.picture import look_of
-from pbmpm.app.scene import load_scene, parse_scene
-from pbmpm.app.simulation import RunSettings, Simulation
-from pbmpm.app.solids import distance_function
+from pbmpm.lab.effects.catalogue import effects_on
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.pictures.flat import draw_2d
+from pbmpm.lab.pictures.look import look_of
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
+from pbmpm.lab.scenes.solids import distance_function
 
 SQUARE = np.array([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)], float)
 AROUND = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])

@@ -17,16 +17,16 @@ import numpy as np
 import pytest
 
 from browser import browser, open_page
-from pbmpm.app.errors import InputError
-from pbmpm.app.files import json_text
-from pbmpm.app.hardcases import CASES, SOLVERS, Check, HardCase, Kind, Outcome, Setting, find_case
-from pbmpm.app.report.stability_page import save_stability_page
-from pbmpm.app.stability import saved
-from pbmpm.app.stability import sweep as sweeping
-from pbmpm.app.stability.plan import ITERATIONS, RATES, Run, Selection, cases_named, plan
-from pbmpm.app.stability.result import counts, lines_of, row_of
-from pbmpm.app.stability.sweep import run_one, sweep
-from pbmpm.app.stability.table import cells_text, goals_text, map_text, summary
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.files import json_text
+from pbmpm.lab.stability.cases import CASES, SOLVERS, Check, HardCase, Kind, Outcome, Setting, find_case
+from pbmpm.lab.report.stability_page import save_stability_page
+from pbmpm.lab.stability import record as saved
+from pbmpm.lab.stability import sweep as sweeping
+from pbmpm.lab.stability.plan import ITERATIONS, RATES, Run, Selection, cases_named, plan
+from pbmpm.lab.stability.result import counts, lines_of, row_of
+from pbmpm.lab.stability.sweep import run_one, sweep
+from pbmpm.lab.stability.table import cells_text, goals_text, map_text, summary
 
 ROW_KEYS = {"case", "solver", "material", "dims", "rate_hz", "iterations", "passed", "figure", "limit", "seconds"}
 
@@ -303,9 +303,9 @@ def test_a_process_that_dies_is_a_failure_and_takes_nothing_with_it(tmp_path: Pa
     script = tmp_path / "dying.py"
     script.write_text(
         "import os\n"
-        "from pbmpm.app.hardcases import Setting\n"
-        "from pbmpm.app.stability import sweep\n"
-        "from pbmpm.app.stability.plan import Run\n"
+        "from pbmpm.lab.stability.cases import Setting\n"
+        "from pbmpm.lab.stability import sweep\n"
+        "from pbmpm.lab.stability.plan import Run\n"
         "original = sweep.run_one\n"
         "def run_one(run):\n"
         "    if run.setting.variant == 'line':\n"
@@ -345,7 +345,7 @@ def test_what_was_run_before_an_interrupt_is_in_the_file(tmp_path: Path, monkeyp
 
 def command(*options: str, **more: Any) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
-        [sys.executable, "-m", "pbmpm.app", "stability", *options],
+        [sys.executable, "-m", "pbmpm", "stability", *options],
         capture_output=True,
         text=True,
         timeout=600,
@@ -425,8 +425,8 @@ def test_command_fails_where_something_fails_and_its_replay_gives_the_same_figur
     script = tmp_path / "failing.py"
     script.write_text(
         "import dataclasses, sys\n"
-        "from pbmpm.app import cli\n"
-        "from pbmpm.app.hardcases import Check, catalogue\n"
+        "from pbmpm.lab.commands import cli\n"
+        "from pbmpm.lab.stability.cases import Check, catalogue\n"
         "case = catalogue.find_case('H04')\n"
         "def function(setting):\n"
         "    return [Check('half of the volume', 2.0 * case.function(setting)[0].figure, 0.1)]\n"
@@ -455,7 +455,7 @@ def test_an_interrupt_ends_the_command_and_its_processes(tmp_path: Path) -> None
     code = (
         "import os, signal, sys, threading\n"
         "signal.signal(signal.SIGINT, signal.default_int_handler)\n"
-        "from pbmpm.app import cli\n"
+        "from pbmpm.lab.commands import cli\n"
         "sys.argv = ['pbmpm', 'stability', 'H16', '--processes', '2']\n"
         "if __name__ == '__main__':\n"
         "    threading.Timer(3.0, os.kill, (os.getpid(), signal.SIGINT)).start()\n"

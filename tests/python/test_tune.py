@@ -12,14 +12,15 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from pbmpm.app.preset import load_preset
-from pbmpm.app.scene import Scene, parse_scene
-from pbmpm.app.simulation import RunSettings
-from pbmpm.app.tune import candidates
-from pbmpm.app.tune.distance import distance
-from pbmpm.app.tune.observe import Observation, Sample, observe, sample_frames
-from pbmpm.app.tune.presets import presets
-from pbmpm.app.tune.sweep import Plan, Reference, Result, Tuning
+from pbmpm.lab.scenes.preset import load_preset
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.scenes.scene import Scene
+from pbmpm.lab.simulation import RunSettings
+from pbmpm.lab.tune import candidates
+from pbmpm.lab.tune.distance import distance
+from pbmpm.lab.tune.observe import Observation, Sample, observe, sample_frames
+from pbmpm.lab.tune.presets import presets
+from pbmpm.lab.tune.sweep import Plan, Reference, Result, Tuning
 
 CELL = 0.05
 
@@ -171,7 +172,7 @@ def tune_command(folder: Path, data: dict[str, Any], *options: str) -> subproces
     command = [
         sys.executable,
         "-m",
-        "pbmpm.app",
+        "pbmpm",
         "tune",
         str(file),
         "--reference-substeps",
@@ -198,7 +199,7 @@ def test_tune_command_writes_chart_and_presets_that_run(tmp_path: Path) -> None:
     command = [
         sys.executable,
         "-m",
-        "pbmpm.app",
+        "pbmpm",
         "run",
         "scene.json",
         "--preset",

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pbmpm.app.effects.catalogue import effects_on
-from pbmpm.app.frame import Frame
-from pbmpm.app.scene import Scene, load_scene
-from pbmpm.app.simulation import RunSettings, Simulation
+from pbmpm.lab.effects.catalogue import effects_on
+from pbmpm.lab.frame import Frame
+from pbmpm.lab.loading import load_scene
+from pbmpm.lab.scenes.scene import Scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 SECONDS = 2.0
 

@@ -1,1 +1,0 @@
-"""The ``pbmpm`` command: scenes, runs, pictures, particle files and accuracy studies."""

@@ -1,5 +1,0 @@
-"""``python -m pbmpm.app`` is the ``pbmpm`` command."""
-
-from .cli import main
-
-main()

@@ -1,0 +1,1 @@
+"""The commands of ``pbmpm``, one file each."""

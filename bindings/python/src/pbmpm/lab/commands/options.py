@@ -1,0 +1,202 @@
+"""What the commands have in common: exit codes, kinds of options, and where reports go."""
+
+from __future__ import annotations
+
+import os
+import shlex
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, get_args
+
+import click
+
+from ..errors import InputError
+from ..hints import did_you_mean
+from ..names import IntegratorName, PressureName, SolverName
+
+if TYPE_CHECKING:
+    from ..scenes.scene import Scene
+    from ..simulation import RunSettings
+
+EXIT_CHECK_FAILED = 1
+EXIT_USAGE = 2
+EXIT_INTERRUPTED = 130
+
+JSON_HELP = "Write the figures as JSON to this file, or to standard output with '-'."
+
+
+def own_command() -> str:
+    """The command line that is running, for reports."""
+    return shlex.join(["pbmpm", *sys.argv[1:]])
+
+
+def own_options(but: Sequence[str], arguments: Sequence[str]) -> str:
+    """The options of the command line that is running, without some (each with its value) and without the arguments."""
+    words, kept = iter(sys.argv[2:]), []
+    for word in words:
+        if word in but:
+            next(words, None)
+        elif word not in arguments:
+            kept.append(word)
+    return shlex.join(kept)
+
+
+def emit_json(data: dict[str, Any], target: str | None) -> None:
+    """Writes a report where ``--json`` says; nothing without the option."""
+    from ..files import json_text, write_json
+
+    if target == "-":
+        print(json_text(data))
+    elif target is not None:
+        write_json(data, Path(target))
+
+
+def ready_folder(folder: Path) -> None:
+    """Makes a folder that is missing; InputError where files cannot be written to it."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise InputError(f"{folder}: cannot be made: {error.strerror}") from None
+    if not os.access(folder, os.W_OK):
+        raise InputError(f"{folder}: cannot be written to")
+
+
+def ready_file(path: Path) -> None:
+    """The same for the folder of a file, which may not be a folder itself."""
+    if path.is_dir():
+        raise InputError(f"{path}: is a folder")
+    ready_folder(path.parent)
+
+
+class TimeList(click.ParamType):
+    """Times in seconds separated by commas."""
+
+    name = "t1,t2,..."
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[float]:
+        try:
+            times = [float(part) for part in str(value).split(",") if part.strip()]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of times like 0,0.5,1", param, ctx)
+        if not all(0 <= time < float("inf") for time in times):
+            self.fail("times must be finite and not negative", param, ctx)
+        return times
+
+
+class NumberList(click.ParamType):
+    """Numbers above zero separated by commas."""
+
+    name = "n1,n2,..."
+
+    def __init__(self, kind: type, highest: float) -> None:
+        self._kind, self._highest = kind, highest
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> list[Any]:
+        try:
+            numbers = [self._kind(part) for part in str(value).split(",")]
+        except ValueError:
+            self.fail(f"'{value}' is not a list of numbers like 30,60,120", param, ctx)
+        if not all(0 < number <= self._highest for number in numbers):
+            self.fail(f"numbers must be above 0 and at most {self._highest:g}", param, ctx)
+        return sorted(set(numbers))
+
+
+class NameList(click.ParamType):
+    """Words out of a few, separated by commas; kept in the order of the few."""
+
+    name = "w1,w2,..."
+
+    def __init__(self, words: Sequence[str]) -> None:
+        self._words = tuple(words)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> tuple[str, ...]:
+        wanted = {part.strip() for part in str(value).split(",")}
+        unknown = sorted(wanted - set(self._words))
+        if unknown:
+            self.fail(f"'{unknown[0]}' is not one of {', '.join(self._words)}{did_you_mean(unknown[0], self._words)}", param, ctx)
+        return tuple(word for word in self._words if word in wanted)
+
+
+def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """The options that say how the equations are solved; None where the scene decides."""
+    options = (
+        click.option(
+            "--solver", type=choice_of(SolverName), help="How the equations are solved.  [default: the scene's]"
+        ),
+        click.option(
+            "--pressure", type=choice_of(PressureName), help="Dual solver: calm (particles) or lively (cells)."
+        ),
+        click.option("--integrator", type=choice_of(IntegratorName), help="Primal solver: order in time."),
+        click.option("--flip", type=click.FloatRange(0, 1), help="Share of the finest motion that liquids keep."),
+        click.option(
+            "--target-error", type=click.FloatRange(0, 1), help="Iterate to this predicted error [cells]; 0: off."
+        ),
+        click.option(
+            "--time-budget-ms",
+            type=click.FloatRange(0, 1e6),
+            help="Iterate for this wall time per step [ms]; 0: off. Not deterministic.",
+        ),
+    )
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+class Word(click.Choice):
+    """One word out of a few."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value not in self.choices:
+            self.fail(f"'{value}' is not one of {', '.join(self.choices)}{did_you_mean(value, self.choices)}", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+def choice_of(names: Any) -> click.Choice:
+    """The members of a Literal as a choice."""
+    return Word(get_args(names))
+
+
+class OutputFile(click.ParamType):
+    """A file that a command will write: its folder is made and tried before any work. A Path; with ``dash`` a word, which may be "-"."""
+
+    name = "file"
+
+    def __init__(self, dash: bool = False) -> None:
+        self._dash = dash
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str | Path:
+        if not (self._dash and value == "-"):
+            try:
+                ready_file(Path(value))
+            except InputError as problem:
+                self.fail(str(problem), param, ctx)
+        return str(value) if self._dash else Path(value)
+
+
+class OutputFolder(click.ParamType):
+    """A folder that a command will fill: it is made and tried before any work."""
+
+    name = "directory"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Path:
+        try:
+            ready_folder(Path(value))
+        except InputError as problem:
+            self.fail(str(problem), param, ctx)
+        return Path(value)
+
+
+_SETTINGS = {"rate": "rate_hz"} | {
+    name: name
+    for name in ("substeps", "iterations", "solver", "pressure", "integrator", "flip", "target_error", "time_budget_ms")
+}
+"""Options and the fields of `RunSettings` that they set."""
+
+
+def run_settings(scene: Scene, options: dict[str, Any], changes: dict[str, Any] | None = None) -> RunSettings:
+    """What a scene asks for, but for changes and, before these, for what the options of a command say."""
+    from ..simulation import RunSettings
+
+    given = {field: options[name] for name, field in _SETTINGS.items() if options.get(name) is not None}
+    return RunSettings.of(scene, options["threads"], **{**(changes or {}), **given})

@@ -1,0 +1,1 @@
+"""Scene files and presets: their parts, how they are read, what is checked, how obstacles move."""

@@ -1,0 +1,167 @@
+"""Measures a scene's settings against its converged solution."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+from ..errors import InputError
+from ..progress import progress_bar
+from ..report.pareto import front_of
+from ..scenes.scene import Scene
+from ..simulation import RunSettings
+from . import candidates as plans
+from .distance import ALIKE, Distance, distance
+from .observe import Observation, observe
+
+#: A setting whose first frames cost more than this many budgets is given up.
+FAR_TOO_DEAR = 4.0
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a sweep is asked for."""
+
+    seconds: float
+    frame_rate: float
+    budget_ms: float
+    threads: int
+    percentile: float  #: of the frame times that has to keep the budget
+    reference_substeps: int = plans.REFERENCE_SUBSTEPS
+    reference_iterations: int = plans.REFERENCE_ITERATIONS
+
+
+@dataclass
+class Reference:
+    """The converged solution, and how much it changes when it is solved with half the substeps."""
+
+    observation: Observation
+    halved: Distance
+
+    @property
+    def by_particles(self) -> bool:
+        """Whether particles are compared one by one: only when they do the same in both converged runs."""
+        return self.halved.particles is not None and self.halved.particles < ALIKE
+
+    @property
+    def floor(self) -> float:
+        """Errors below this cannot be told apart [cells]."""
+        return self.halved.error(self.by_particles) or 0.0
+
+
+@dataclass(frozen=True)
+class Result:
+    """One setting of the sweep. Times are wall milliseconds per frame."""
+
+    settings: RunSettings
+    error: float  #: [cells]; infinite where it broke or was given up
+    ms_median: float
+    ms_p99: float
+    cost: float  #: the percentile of the frame times that has to keep the budget
+    iterations_used: float
+    predicted_error: float  #: mean over the frames, by the library [cells]
+    parts: Distance | None
+    reasons: tuple[str, ...]  #: why it is not stable
+    too_dear: bool
+
+    @property
+    def usable(self) -> bool:
+        """Whether it may become a preset."""
+        return math.isfinite(self.error) and not self.reasons
+
+    def as_dict(self) -> dict[str, Any]:
+        """The row of a report."""
+        parts = self.parts
+        return {
+            **self.settings.as_dict(),
+            "error": self.error,
+            "error_unit": "cells",
+            "particles": parts.particles if parts else None,
+            "spread": parts.spread if parts else None,
+            "energy": parts.energy if parts else None,
+            "crowding": parts.crowding if parts else None,
+            "ms_median": self.ms_median,
+            "ms_p99": self.ms_p99,
+            "iterations_used": self.iterations_used,
+            "predicted_error_by_library": self.predicted_error,
+            "stable": not self.reasons,
+            "reasons": list(self.reasons),
+            "given_up": self.too_dear,
+        }
+
+
+@dataclass
+class Tuning:
+    """A sweep's results."""
+
+    scene: Scene
+    plan: Plan
+    reference: Reference
+    results: list[Result] = field(default_factory=list)
+    skipped: int = 0  #: settings that can only be dearer than one that was given up
+
+    def front(self) -> list[Result]:
+        """The settings that no other beats in both time and error, cheap ones first."""
+        return front_of(result for result in self.results if result.usable)
+
+    def best_within(self, ms: float) -> Result | None:
+        """The setting with the lowest error whose frames keep a budget."""
+        fitting = [result for result in self.front() if result.cost <= ms]
+        return fitting[-1] if fitting else None
+
+
+def tune(scene: Scene, plan: Plan) -> Tuning:
+    """Solves the reference, then measures all candidates, one after the other so that they do not disturb each other."""
+    settings = plans.candidates(scene, plan.frame_rate, plan.threads)
+    with progress_bar(len(settings) + 2, "run", scene.name) as bar:
+        tuning = Tuning(scene, plan, _reference(scene, plan, bar))
+        given_up: set[tuple[Any, ...]] = set()
+        for item in settings:
+            bar.set_postfix_str(item.text())
+            family = (item.solver, item.integrator, item.substeps, item.target_error)
+            if family in given_up:
+                tuning.skipped += 1
+            else:
+                result = _measure(tuning, item)
+                tuning.results.append(result)
+                if result.too_dear and not item.target_error:
+                    given_up.add(family)
+            bar.update()
+    return tuning
+
+
+def _reference(scene: Scene, plan: Plan, bar: Any) -> Reference:
+    full = plans.reference(scene, plan.frame_rate, plan.threads, plan.reference_substeps, plan.reference_iterations)
+    observations = []
+    for substeps in (full.substeps, max(1, full.substeps // 2)):
+        settings = replace(full, substeps=substeps)
+        bar.set_postfix_str(f"reference: {settings.text()}")
+        observation = observe(scene, settings, plan.seconds)
+        if not observation.stable:
+            raise InputError(
+                f"{scene.name}: the converged solution breaks ({settings.text()}): {'; '.join(observation.reasons)}"
+            )
+        observations.append(observation)
+        bar.update()
+    return Reference(observations[0], distance(scene, observations[1], observations[0]))
+
+
+def _measure(tuning: Tuning, settings: RunSettings) -> Result:
+    plan, reference = tuning.plan, tuning.reference
+    observation = observe(tuning.scene, settings, plan.seconds, FAR_TOO_DEAR * plan.budget_ms)
+    done = observation.stable and not observation.too_dear
+    parts = distance(tuning.scene, observation, reference.observation) if done else None
+    error = parts.error(reference.by_particles) if parts else None
+    return Result(
+        settings,
+        math.inf if error is None else error,
+        observation.ms(50),
+        observation.ms(99),
+        observation.ms(plan.percentile),
+        observation.iterations_used,
+        observation.predicted_error,
+        parts,
+        tuple(observation.reasons),
+        observation.too_dear,
+    )
