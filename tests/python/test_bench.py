@@ -35,6 +35,8 @@ from pbmpm.lab.meter import Meter
 from pbmpm.lab.loading import load_scene
 from pbmpm.lab.simulation import RunSettings
 
+from progress_lines import without_progress
+
 ROW_KEYS = {
     "material",
     "dims",
@@ -138,7 +140,7 @@ def test_the_command_says_where_the_figures_come_from() -> None:
     assert [ratio["solver"] for ratio in report["ratios"]] == ["dual"]
     assert {"cpu", "isa", "date"} <= set(report["machine"])
     assert any(name.startswith("ISPC") for name in report["compilers"])
-    assert done.stderr == ""
+    assert without_progress(done.stderr) == []
 
 
 def test_unknown_solvers_are_refused() -> None:

@@ -25,6 +25,8 @@ from pbmpm.lab.parsing import parse_scene
 from pbmpm.lab.scenes.scene import Scene
 from pbmpm.lab.simulation import RunSettings, Simulation
 from pbmpm.lab.state import state_of
+
+from progress_lines import without_progress
 from test_scene_run import pbmpm_command
 
 WATER: dict[str, Any] = {
@@ -450,7 +452,19 @@ def test_advice() -> None:
     assert (advice["off_saves_percent"], advice["off_saves_bytes_per_particle"]) == (24.0, 2.0)
     text = advice_text(advice)
     assert "calls for: liquid, emitters" in text and "leave out elastic: no particles; saves 8.0 %" in text
-    assert "4 effects that are off saves 24 %" in text
+    assert "no effect that is on costs accuracy" in text
+    assert "the 4 effects that are off cost nothing; together they would cost 24 % of a step" in text
+
+
+def test_advice_names_what_costs_accuracy() -> None:
+    """Only what is on, and only what grows by more than a hundredth and a tenth."""
+    worse = {"predicted_error_with": 0.05, "predicted_error_without": 0.02, "volume_error_with": 0.03, "volume_error_without": 0.03}
+    alike = {"predicted_error_with": 1.05, "predicted_error_without": 1.0, "volume_error_with": 0.2, "volume_error_without": 0.1}
+    advice = advice_of(["flip"], [row("flip", True, 4.0, **worse), row("elastic", True, 1.0, **alike), row("bdf2", False, 1.0, **worse)])
+    assert [(hurt["effect"], hurt["error"]) for hurt in advice["hurts_accuracy"]] == [("flip", "predicted_error"), ("elastic", "volume_error")]
+    text = advice_text(advice)
+    assert "flip costs accuracy: predicted error 0.05 cells, without it 0.02 cells" in text
+    assert "elastic costs accuracy: volume error 20 %, without it 10 %" in text and "no effect that is on" not in text
 
 
 # The command
@@ -461,10 +475,11 @@ def test_command(tmp_path: Path) -> None:
     options = ("--rounds", 3, "--at", 0.05, "--only", "elastic,statistics")
     done = pbmpm_command("effects", "scene.json", *options, "--json", "-", "--chart", "chart.png", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
-    assert done.stderr == ""
+    assert without_progress(done.stderr) == []
     report = json.loads(done.stdout)
     assert [row["effect"] for row in report["rows"]] == [BARE, "elastic", "statistics"]
     assert [row["on"] for row in report["rows"]] == [True, False, False]
+    assert report["rows"][1]["volume_error_without"] > 0.0 and report["rows"][1]["predicted_error_with"] >= 0.0
     assert (report["scene"], report["particles"], report["rounds"]) == ("water", 240, 3)
     assert (tmp_path / "chart.png").read_bytes().startswith(b"\x89PNG")
 

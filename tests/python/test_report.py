@@ -240,6 +240,8 @@ def test_verdicts_of_a_report(report: dict[str, Any]) -> None:
     line = r"^good +10 +0\.1 .*5 % to 2.5 % +4x \(4x to 4x\) +20x \(20x to 20x\) +dual +reached$"
     assert re.search(line, text, re.M)
     assert re.search(r"^poor .*0.1x .*below 3x.*not measured.*paper on the front too", text, re.M)
+    assert "good, 10 cells: dual, 60 Hz x 5 iterations, cell 0.1 m: 5 % for 4 ms per simulated second; the paper's solver needs 16 ms for that;" in text
+    assert "the explicit solver needs 80 ms for that." in text
     assert "1 of 2 cases, on 1 of 2 grids" in text and "on 1 grids at every error" in text
 
 
@@ -326,9 +328,23 @@ def test_unstable_settings_are_crosses_and_count_for_nothing(report: dict[str, A
 
 def test_chart_has_a_front_for_each_grid(report: dict[str, Any]) -> None:
     report["rows"].append({**row("good", "paper", 0.1, 0.001), "cells": 5})
-    lines = [trace for trace in accuracy_figure(cases_of(report)[0]).data if trace.mode == "lines"]
+    lines = [trace for trace in accuracy_figure(cases_of(report)[0]).data if trace.mode.startswith("lines")]
     assert [trace.name for trace in lines] == ["front at 5 cells", "front at 10 cells"]
     assert (lines[0].x, min(lines[1].x)) == ((0.1,), 2.0)
+
+
+def test_points_of_fronts_carry_rate_and_iterations(report: dict[str, Any]) -> None:
+    report["rows"][0]["substeps"] = 2
+    figure = accuracy_figure(cases_of(report)[0])
+    front = next(trace for trace in figure.data if trace.name == "front at 10 cells")
+    assert front.text[0] == "60 x 2 x 5" and set(front.text[1:]) == {"60 x 5"}
+
+
+def test_another_solver_that_does_not_get_there_is_told_how_far_it_gets(report: dict[str, Any]) -> None:
+    for item in report["rows"]:
+        if item["case"] == "good" and item["solver"] == "paper":
+            item["error"] = 0.2
+    assert "the paper's solver gets to 20 % at best" in verdict_table(cases_of(report))
 
 
 def test_chart_shows_every_error_of_a_case_but_one_at_a_time(report: dict[str, Any]) -> None:

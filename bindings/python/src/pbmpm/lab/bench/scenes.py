@@ -108,7 +108,7 @@ def scenes_text(rows: Sequence[dict[str, Any]]) -> str:
         " CPU times, one thread."
     ]
     for row in rows:
-        pace = f"{row['rate_hz']:g} Hz{' x %d' % row['substeps'] if row['substeps'] > 1 else ''} x {row['iterations']}, {row['solver']}"
+        pace = f"{row['rate_hz']:g} Hz{' x ' + str(row['substeps']) if row['substeps'] > 1 else ''} x {row['iterations']}, {row['solver']}"
         lines.append(
             f"  {row['scene']:<22} {row['dims']}D {row['particles']:>7} particles  {pace:<24} {row['times_real_time']:>6.1f} x"
             f"  {row['ms_per_simulated_second']:>8.1f} {row['ms_per_simulated_second_min']:>8.1f}  {row['ms_per_step_p99']:>7.2f}"

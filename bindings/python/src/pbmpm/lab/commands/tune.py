@@ -66,7 +66,7 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     from ..simulation import RunSettings
     from ..tune.sweep_chart import save_chart
     from ..tune.presets import presets, save_presets
-    from ..tune.report import report_of, text_of
+    from ..tune.report import closing_line, report_of, text_of
     from ..tune.sweep import Plan
     from ..tune.sweep import tune as sweep
 
@@ -98,7 +98,5 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
     if "high" in made and (made["high"].ms_p99 or 0.0) > plan.budget_ms:
         click.echo(f"note: one frame in a hundred of 'high' takes {made['high'].ms_p99:.3g} ms or more", err=True)
     if "high" not in made:
-        cheapest = min((item.cost for item in tuning.results if item.usable), default=None)
-        least = "no setting is stable" if cheapest is None else f"the cheapest setting takes {cheapest:.3g} ms"
-        click.echo(f"check failed: nothing fits into {plan.budget_ms:g} ms per frame; {least}", err=True)
+        click.echo(f"check failed: {closing_line(tuning)}", err=True)
         sys.exit(EXIT_CHECK_FAILED)

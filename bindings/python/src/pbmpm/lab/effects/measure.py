@@ -190,12 +190,14 @@ class _Bench:
         switch = item.effect.off if item.on else item.effect.on
         with self.probe(*switch(self.whole.scene, self.state)) as other:
             comparison, more = self.against(other)
+            errors = errors_of(*((self.whole, other) if item.on else (other, self.whole)))
         facts = {
             "description": item.effect.description,
             "tried_as": None if item.on else item.effect.typical,
             "where": item.where,
             "called_for": item.called_for,
             "idle": item.idle,
+            **errors,
         }
         return cost_of(item.effect.name, item.on, comparison, more, whole_ns, facts)
 
@@ -204,6 +206,17 @@ class _Bench:
             comparison, more = self.against(other)
         facts = {"description": host.description, "tried_as": host.typical, "where": None, "called_for": False, "idle": None}
         return cost_of(host.name, False, comparison, more, whole_ns, facts)
+
+
+def errors_of(having: Probe, lacking: Probe) -> dict[str, float]:
+    """What the library says about the accuracy of the last step of a turn, with an effect and without."""
+    one, other = having.world.stats, lacking.world.stats
+    return {
+        "predicted_error_with": one.predicted_error,
+        "predicted_error_without": other.predicted_error,
+        "volume_error_with": one.volume_error_rms,
+        "volume_error_without": other.volume_error_rms,
+    }
 
 
 def cost_of(

@@ -67,11 +67,12 @@ def _section(case: CaseRows, options: str) -> dict[str, Any]:
 
 def _grid(judged: GridVerdict) -> dict[str, Any]:
     """What was found on one grid: the verdict, what errors cost, the front."""
-    case, verdict, unit = judged.case, judged.verdict, judged.case.measure["unit"]
+    verdict, unit = judged.verdict, judged.case.measure["unit"]
     solvers = list(verdict.levels[0].costs) if verdict.levels else []
     return {
         "title": f"{judged.cells} cells of {judged.cell_m:.3g} m",
         "passed": verdict.passed,
+        "advice": words.advice_text(judged),
         "verdict_cells": words.verdict_cells(judged),
         "verdict_text": f"Verdict at {judged.cells} cells: {words.verdict_text(verdict)}",
         "solvers": solvers,

@@ -29,6 +29,7 @@ class Point:
     setting: str  #: for people
     cost: float  #: milliseconds
     error: float
+    pace: str = ""  #: Hz x iterations, for labels
 
 
 def front_of(points: Iterable[AnyPriced]) -> list[AnyPriced]:

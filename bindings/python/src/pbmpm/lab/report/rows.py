@@ -100,7 +100,13 @@ class GridVerdict:
 
 def point_of(row: dict[str, Any]) -> Point:
     """A row as a point of a front."""
-    return Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(row["error"], SMALLEST_ERROR))
+    return Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(row["error"], SMALLEST_ERROR), pace_of(row))
+
+
+def pace_of(row: dict[str, Any]) -> str:
+    """Hz x iterations, with substeps where there are some."""
+    parts = [f"{row['rate_hz']:g}", *([f"{row['substeps']}"] if row.get("substeps", 1) > 1 else [])]
+    return " x ".join([*parts, *([] if row["solver"] == "explicit" else [f"{row['iterations']}"])])
 
 
 def setting_of(row: dict[str, Any]) -> str:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from .pareto import Point, front_of
-from .rows import SMALLEST_ERROR, CaseRows, setting_of
+from .rows import CaseRows, point_of
 
 CONVERGED_NAME = "distance from the converged solution"
 
@@ -30,7 +30,7 @@ class View:
     def front(self, cells: int) -> list[Point]:
         """The stable settings on a grid that no other beats."""
         return front_of(
-            Point(row["solver"], setting_of(row), row["ms_per_simulated_second"], max(error, SMALLEST_ERROR))
+            point_of({**row, "error": error})
             for row, error in zip(self.rows, self.errors, strict=True)
             if row["cells"] == cells and row["stable"] and error is not None and row["ms_per_simulated_second"] is not None
         )

@@ -5,7 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from .rows import CaseRows, GridVerdict, verdicts_of
+from .pareto import Point, cost_of, front_of
+from .rows import CaseRows, GridVerdict, point_of, verdicts_of
 from .verdict import ACCELERATED, GOOD, LEVELS, NOT_REACHED, WANTED, Comparison, Verdict
 
 HEADINGS = (
@@ -83,6 +84,31 @@ def verdict_text(verdict: Verdict) -> str:
     return "; ".join(shortfalls(verdict)) or "reached"
 
 
+def advice_text(judged: GridVerdict) -> str:
+    """What to take, and what the others need for the same error: "dual, 60 Hz x 5 iterations: 0.6 % for 26 ms per simulated second"."""
+    stable = [point_of(row) for row in judged.case.stable if row["cells"] == judged.cells]
+    own = front_of(point for point in stable if point.solver in ACCELERATED)
+    if not own:
+        return "No accelerated setting is stable here."
+    chosen = next((point for point in own if point.error <= judged.verdict.highest), own[-1])
+    unit = judged.case.measure["unit"]
+    said = f"{chosen.setting}: {error_text(chosen.error, unit)} for {chosen.cost:.3g} ms per simulated second"
+    others = [_other_text(other, front_of(point for point in stable if point.solver == other), chosen.error, unit) for other in WANTED]
+    return "; ".join([said, *(text for text in others if text)]) + "."
+
+
+_OTHERS = {"paper": "the paper's solver", "explicit": "the explicit solver"}
+
+
+def _other_text(other: str, front: Sequence[Point], error: float, unit: str) -> str:
+    if not front:
+        return ""
+    cost = cost_of(front, error)
+    if cost is None:
+        return f"{_OTHERS[other]} gets to {error_text(front[-1].error, unit)} at best"
+    return f"{_OTHERS[other]} needs {cost:.3g} ms for that"
+
+
 def verdict_cells(judged: GridVerdict) -> list[str]:
     """One line of the table of verdicts."""
     case, verdict, unit = judged.case, judged.verdict, judged.case.measure["unit"]
@@ -105,7 +131,8 @@ def verdict_table(cases: Sequence[CaseRows]) -> str:
     rows = [list(HEADINGS), *(verdict_cells(judged) for judged in verdicts)]
     widths = [max(len(row[column]) for row in rows) for column in range(len(HEADINGS))]
     lines = ["  ".join(f"{cell:<{width}}" for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
-    said = [f"How many times cheaper the accelerated solvers are. {MEANING}", *lines, counted(verdicts)]
+    advised = [f"{judged.case.name}, {judged.cells} cells: {advice_text(judged)}" for judged in verdicts]
+    said = ["What to take:", *advised, "", f"How many times cheaper the accelerated solvers are. {MEANING}", *lines, counted(verdicts)]
     return "\n".join(said + not_compared(cases))
 
 

@@ -11,6 +11,11 @@ import numpy.typing as npt
 
 import pbmpm
 
+try:
+    import resource
+except ImportError:  # Windows
+    resource = None
+
 from ..scenes.scene import Scene
 from ..simulation import RunSettings, Simulation
 
@@ -45,6 +50,7 @@ class Observation:
     predicted_error: float = 0.0  #: mean over the frames, by the library [cells]
     reasons: list[str] = field(default_factory=list)  #: why it is not stable
     too_dear: bool = False  #: given up after a few frames
+    interruptions: int = 0  #: times that the system gave a processor of this process to another one; 0 where it does not say
 
     @property
     def stable(self) -> bool:
@@ -66,6 +72,7 @@ def observe(scene: Scene, settings: RunSettings, seconds: float, most_ms: float 
     frames = max(1, math.ceil(seconds * settings.rate_hz - 1e-9))
     wanted, out = set(sample_frames(frames)), Observation(settings)
     used = predicted = 0.0
+    before = _interruptions()
     with Simulation(scene, settings) as simulation:
         for frame in range(1, frames + 1):
             start = time.perf_counter()
@@ -83,8 +90,14 @@ def observe(scene: Scene, settings: RunSettings, seconds: float, most_ms: float 
             if frame in wanted:
                 out.samples.append(_sample(simulation))
         out.threads = simulation.thread_count
+        out.interruptions = _interruptions() - before
         out.iterations_used, out.predicted_error = used / len(out.frame_ms), predicted / len(out.frame_ms)
     return out
+
+
+def _interruptions() -> int:
+    """Of this process so far."""
+    return 0 if resource is None else resource.getrusage(resource.RUSAGE_SELF).ru_nivcsw
 
 
 def _reasons(simulation: Simulation, stats: pbmpm.Stats) -> list[str]:

@@ -7,10 +7,8 @@ from typing import Any
 
 from ..scenes.preset import Preset, PresetSettings, save_preset
 from ..simulation import RunSettings
-from .sweep import Tuning
+from .sweep import SHARES, Tuning
 
-#: Share of the budget that each preset may use.
-SHARES = {"low": 0.25, "medium": 0.5, "high": 1.0}
 REFERENCE = "reference"
 
 

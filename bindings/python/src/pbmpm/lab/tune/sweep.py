@@ -14,7 +14,12 @@ from ..simulation import RunSettings
 from . import candidates as plans
 from .distance import ALIKE, Distance, distance
 from .observe import Observation, observe
+from .visible import Visible, visible
 
+#: Errors above this [cells] show: matter is a cell away from where it belongs.
+SHOWS = 1.0
+#: Share of the budget that each preset may use.
+SHARES = {"low": 0.25, "medium": 0.5, "high": 1.0}
 #: A setting whose first frames cost more than this many budgets is given up.
 FAR_TOO_DEAR = 4.0
 
@@ -64,11 +69,18 @@ class Result:
     parts: Distance | None
     reasons: tuple[str, ...]  #: why it is not stable
     too_dear: bool
+    seen: Visible | None = None
+    interruptions: int = 0
 
     @property
     def usable(self) -> bool:
         """Whether it may become a preset."""
         return math.isfinite(self.error) and not self.reasons
+
+    @property
+    def good(self) -> bool:
+        """Whether its error does not show."""
+        return self.usable and self.error <= SHOWS
 
     def as_dict(self) -> dict[str, Any]:
         """The row of a report."""
@@ -81,8 +93,11 @@ class Result:
             "spread": parts.spread if parts else None,
             "energy": parts.energy if parts else None,
             "crowding": parts.crowding if parts else None,
+            "seen": self.seen.text() if self.seen else None,
+            "seen_cells": self.seen.cells if self.seen else None,
             "ms_median": self.ms_median,
             "ms_p99": self.ms_p99,
+            "interruptions": self.interruptions,
             "iterations_used": self.iterations_used,
             "predicted_error_by_library": self.predicted_error,
             "stable": not self.reasons,
@@ -100,6 +115,7 @@ class Tuning:
     reference: Reference
     results: list[Result] = field(default_factory=list)
     skipped: int = 0  #: settings that can only be dearer than one that was given up
+    alone: dict[RunSettings, float] = field(default_factory=dict)  #: median ms per frame with one thread, of the settings of presets
 
     def front(self) -> list[Result]:
         """The settings that no other beats in both time and error, cheap ones first."""
@@ -109,6 +125,10 @@ class Tuning:
         """The setting with the lowest error whose frames keep a budget."""
         fitting = [result for result in self.front() if result.cost <= ms]
         return fitting[-1] if fitting else None
+
+    def cheapest(self, good: bool = False) -> Result | None:
+        """The cheapest usable setting, or the cheapest whose error does not show."""
+        return min((item for item in self.results if (item.good if good else item.usable)), key=lambda item: item.cost, default=None)
 
 
 def tune(scene: Scene, plan: Plan) -> Tuning:
@@ -128,7 +148,17 @@ def tune(scene: Scene, plan: Plan) -> Tuning:
                 if result.too_dear and not item.target_error:
                     given_up.add(family)
             bar.update()
+        if plan.threads != 1:
+            _measure_alone(tuning, bar)
     return tuning
+
+
+def _measure_alone(tuning: Tuning, bar: Any) -> None:
+    """The settings that presets will hold, with one thread: small scenes need no more."""
+    best = [tuning.best_within(share * tuning.plan.budget_ms) for share in SHARES.values()]
+    for settings in {item.settings: None for item in best if item is not None}:
+        bar.set_postfix_str(f"one thread: {settings.text()}")
+        tuning.alone[settings] = observe(tuning.scene, replace(settings, threads=1), tuning.plan.seconds).ms(tuning.plan.percentile)
 
 
 def _reference(scene: Scene, plan: Plan, bar: Any) -> Reference:
@@ -164,4 +194,6 @@ def _measure(tuning: Tuning, settings: RunSettings) -> Result:
         parts,
         tuple(observation.reasons),
         observation.too_dear,
+        visible(tuning.scene, observation, reference.observation) if done else None,
+        observation.interruptions,
     )

@@ -15,7 +15,7 @@ from ..files import save_figure
 from ..simulation import RunSettings
 from .sweep import Result, Tuning
 
-_COLOURS = {"paper": "#c8781e", "dual": "#1f6fb4", "primal": "#1d8a5b", "explicit": "#a0479a"}
+_COLOURS = {"paper": "#c8781e", "convergent": "#4a4a4a", "dual": "#1f6fb4", "primal": "#1d8a5b", "explicit": "#a0479a"}
 _MARKERS = ("o", "s", "D", "^", "v", "P")
 _SMALLEST_ERROR = 1e-6  # [cells]
 _BROKEN_HEADROOM = 2.0  # how far above the highest error settings are drawn that have none, as a factor
@@ -95,13 +95,14 @@ def _percentile_name(tuning: Tuning) -> str:
 def table(tuning: Tuning) -> str:
     """All settings, cheap ones first; those on the front are starred."""
     front = {id(item) for item in tuning.front()}
-    rows = [["", "setting", "error", "median ms", "p99 ms", "used", "fits", ""]]
+    rows = [["", "setting", "error", "top", "median ms", "p99 ms", "used", "fits", ""]]
     for result in sorted(tuning.results, key=lambda item: item.cost):
         rows.append(
             [
                 "*" if id(result) in front else "",
                 setting_text(result.settings),
                 f"{result.error:.3g}" if math.isfinite(result.error) else "-",
+                f"{result.seen.cells:+.2f}" if result.seen else "-",
                 f"{result.ms_median:.2f}",
                 f"{result.ms_p99:.2f}",
                 f"{result.iterations_used:.1f}",
