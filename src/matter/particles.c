@@ -169,8 +169,17 @@ pbmpm_result particles_enable(Particles *p, Memory *memory, FieldTag tag)
     case FIELD_PAST_WAY: return enable_past(p, memory, tag, (void **)p->past_way);
     case FIELD_PAST_TURN: return enable_past(p, memory, tag, (void **)p->past_turn);
     case FIELD_PAST_DT: return enable_past(p, memory, tag, (void **)&p->past_dt);
-    default: return fail(PBMPM_ERROR_UNSUPPORTED, "particles have no field %d", (int)tag);
+    case FIELD_CELL:
+    case FIELD_FRACTION:
+    case FIELD_VELOCITY:
+    case FIELD_AFFINE:
+    case FIELD_VOLUME_RATIO:
+    case FIELD_MASS:
+    case FIELD_MATERIAL:
+    case FIELD_STATUS:
+    case FIELD_ID: break; /* are always there */
     }
+    return fail(PBMPM_ERROR_UNSUPPORTED, "particles have no field %d", (int)tag);
 }
 
 void particles_keep_fields(Particles *p, Memory *memory, int count)

@@ -533,15 +533,22 @@ static void rolling_braked(Adviser *adviser)
 
 /* ---- Obstacles ---- */
 
-/* The farthest that a point of a shape is from its position; planes have none. */
+/* The farthest that a turn about its position carries a point of a shape; of planes and baked solids it is not known. */
 static double reach_of(const Collider *collider)
 {
     const pbmpm_shape *shape = &collider->shape;
     double sum = 0.0;
-    for (int a = 0; a < 3; a++) sum += (double)shape->half_extents[a] * (double)shape->half_extents[a];
-    if (shape->kind == PBMPM_BOX) return sqrt(sum);
-    if (shape->kind == PBMPM_CAPSULE) return (double)shape->half_extents[0] + (double)shape->radius;
-    return shape->kind == PBMPM_SPHERE ? 0.0 : 0.0;
+    switch (shape->kind) {
+    case PBMPM_BOX:
+        for (int a = 0; a < 3; a++) sum += (double)shape->half_extents[a] * (double)shape->half_extents[a];
+        return sqrt(sum);
+    case PBMPM_CAPSULE: return (double)shape->half_extents[0] + (double)shape->radius;
+    case PBMPM_SPHERE: /* turns in its own place */
+    case PBMPM_BAKED:
+    case PBMPM_PLANE:
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return 0.0;
 }
 
 static double way_of(const Collider *collider, int dimension)
@@ -575,9 +582,16 @@ static double thickness_of(const Collider *collider, int dimension)
 {
     const pbmpm_shape *shape = &collider->shape;
     double least = INFINITY;
-    if (shape->kind == PBMPM_BOX)
+    switch (shape->kind) {
+    case PBMPM_BOX:
         for (int a = 0; a < dimension; a++) least = fmin(least, 2.0 * (double)shape->half_extents[a]);
-    if (shape->kind == PBMPM_SPHERE || shape->kind == PBMPM_CAPSULE) least = 2.0 * (double)shape->radius;
+        break;
+    case PBMPM_SPHERE:
+    case PBMPM_CAPSULE: least = 2.0 * (double)shape->radius; break;
+    case PBMPM_PLANE:
+    case PBMPM_BAKED: /* is not looked for in its grid */
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
     return least;
 }
 

@@ -372,8 +372,12 @@ static uint32_t settable_components(const World *world, pbmpm_field field)
     case PBMPM_VOLUME_RATIO:
     case PBMPM_USER_VALUE:
     case PBMPM_PRESSURE: return inspect_components(world, field);
-    default: return 0;
+    case PBMPM_MATERIAL:
+    case PBMPM_PARTICLE:
+    case PBMPM_MASS:
+    case PBMPM_FIELD_FORCE32: break;
     }
+    return 0;
 }
 
 /* Whether row may take these values; fails with a message otherwise. */
@@ -396,10 +400,15 @@ static pbmpm_result check_value(const World *world, pbmpm_field field, uint32_t 
         if (!is_solid(world, row)) return fail(PBMPM_ERROR_UNSUPPORTED, "only elastic particles have a deformation gradient");
         if (all_in_range(values, components, -1e6, 1e6)) return PBMPM_OK;
         return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a deformation gradient is not finite or has an entry above 1e6");
-    default:
-        if (all_in_range(values, components, -VALUE_LIMIT, VALUE_LIMIT)) return PBMPM_OK;
-        return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a value is not finite or above 1e9");
+    case PBMPM_VELOCITY:
+    case PBMPM_AFFINE_VELOCITY:
+    case PBMPM_MATERIAL:
+    case PBMPM_PARTICLE:
+    case PBMPM_MASS:
+    case PBMPM_FIELD_FORCE32: break;
     }
+    if (all_in_range(values, components, -VALUE_LIMIT, VALUE_LIMIT)) return PBMPM_OK;
+    return fail(PBMPM_ERROR_INVALID_ARGUMENT, "a value is not finite or above 1e9");
 }
 
 static void write_value(World *world, pbmpm_field field, uint32_t row, const float *values)

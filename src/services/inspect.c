@@ -31,8 +31,14 @@ uint32_t inspect_components(const World *world, pbmpm_field field)
     case PBMPM_AFFINE_VELOCITY:
     case PBMPM_DEFORMATION: return d * d;
     case PBMPM_PARTICLE: return 2;
-    default: return 1;
+    case PBMPM_VOLUME_RATIO:
+    case PBMPM_MATERIAL:
+    case PBMPM_MASS:
+    case PBMPM_PRESSURE:
+    case PBMPM_USER_VALUE:
+    case PBMPM_FIELD_FORCE32: break;
     }
+    return 1;
 }
 
 bool inspect_is_field(pbmpm_field field) { return in_enum(field, PBMPM_POSITION, INSPECT_FIELDS - 1); }
@@ -46,8 +52,16 @@ bool inspect_has(const World *world, pbmpm_field field)
     case PBMPM_DEFORMATION: return p->deformation[0];
     case PBMPM_PRESSURE: return p->pressure;
     case PBMPM_USER_VALUE: return p->user_value;
-    default: return true;
+    case PBMPM_POSITION:
+    case PBMPM_VELOCITY:
+    case PBMPM_AFFINE_VELOCITY:
+    case PBMPM_VOLUME_RATIO:
+    case PBMPM_MATERIAL:
+    case PBMPM_PARTICLE:
+    case PBMPM_MASS:
+    case PBMPM_FIELD_FORCE32: break;
     }
+    return true;
 }
 
 pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
@@ -76,6 +90,7 @@ pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
         if (!p->user_value) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has user values only once a particle was given one");
         found = packed(p->user_value, 1);
         break;
+    case PBMPM_FIELD_FORCE32:
     default: return inspect_no_field(field);
     }
     found.size = sizeof found;

@@ -26,8 +26,15 @@ static Moments round_moments(const Solid *s)
 
 static Moments moments_of(const Solid *s)
 {
-    if (s->grid) return s->grid->moments;
-    return s->kind == PBMPM_BOX ? box_moments(s) : round_moments(s);
+    switch (s->kind) {
+    case PBMPM_BOX: return box_moments(s);
+    case PBMPM_SPHERE:
+    case PBMPM_CAPSULE: return round_moments(s);
+    case PBMPM_BAKED: return s->grid->moments;
+    case PBMPM_PLANE: /* is refused before */
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return (Moments){0};
 }
 
 double solid_volume(const Solid *s) { return moments_of(s).volume; }

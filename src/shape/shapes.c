@@ -155,10 +155,15 @@ static inline double box_distance(const Solid *s, const double local[3], double 
 static inline double local_distance(const Solid *s, const double local[3], double *normal, int d)
 {
     double unused[3], offset[3] = {local[0], local[1], local[2]};
-    if (s->kind == PBMPM_BOX) return box_distance(s, local, normal, d);
-    if (s->grid) return distance_grid_at(s->grid, local, normal ? normal : unused);
-    if (s->kind == PBMPM_CAPSULE) offset[0] -= fmax(-s->half_extents[0], fmin(s->half_extents[0], local[0]));
-    return round_distance(s, offset, normal, d);
+    switch (s->kind) {
+    case PBMPM_BOX: return box_distance(s, local, normal, d);
+    case PBMPM_BAKED: return distance_grid_at(s->grid, local, normal ? normal : unused);
+    case PBMPM_CAPSULE: offset[0] -= fmax(-s->half_extents[0], fmin(s->half_extents[0], local[0])); return round_distance(s, offset, normal, d);
+    case PBMPM_SPHERE: return round_distance(s, offset, normal, d);
+    case PBMPM_PLANE: /* has no frame: see distance_in() */
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return INFINITY;
 }
 
 static inline void to_local(const Solid *s, const double point[3], double local[3], int d)

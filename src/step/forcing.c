@@ -30,8 +30,10 @@ static double share_at(const Force *force, const double point[3])
     case PBMPM_FALLOFF_LINEAR: return fmax(0.0, 1.0 - part);
     case PBMPM_FALLOFF_SMOOTH: return part < 1.0 ? (1.0 - part * part) * (1.0 - part * part) : 0.0;
     case PBMPM_FALLOFF_INVERSE_SQUARE: return 1.0 / ((1.0 + part) * (1.0 + part));
-    default: return distance <= range ? 1.0 : 0.0;
+    case PBMPM_FALLOFF_NONE:
+    case PBMPM_FALLOFF_FORCE32: break;
     }
+    return distance <= range ? 1.0 : 0.0;
 }
 
 /* n cross r, r from the centre to the point. */
