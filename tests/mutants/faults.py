@@ -176,3 +176,71 @@ def equivalents(file: Path) -> dict[tuple[str, str, str], str]:
             where, before, after, reason = lines
             known[where, before.removeprefix("  - "), after.removeprefix("  + ")] = reason.strip()
     return known
+
+
+_VALUE = r"-?(?:\d+\.\d*|\d*\.\d+|\d+)(?:e[-+]?\d+)?f?"
+_NAMED = re.compile(rf"\b([A-Z][A-Z0-9_]+) = ({_VALUE}(?: [*/+-] {_VALUE})*)(?=[,;])")
+_DEFINED = re.compile(rf"^#define ([A-Z][A-Z0-9_]+) ({_VALUE})(?=\s|$)")
+#: Of mathematics, of number formats, and marks: nothing that could be chosen otherwise.
+_GIVEN = re.compile(r"PI|TURN|LN2_|HALF_PI_|UNKNOWN|NONE|NOTHING|GUESS_KEEPS_ALL|^K_|MAX_ISA")
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number with a name: what somebody chose, so that half or twice of it is a question that a test should answer."""
+
+    file: str
+    line: int  #: from 1
+    name: str
+    value: str
+    about: str  #: the comment beside it, or the one above
+
+    def fault(self, text: str, factor: float) -> Fault:
+        """The line with half or twice the value."""
+        suffix = "f" if self.value.endswith("f") else ""
+        changed = text.replace(f"{self.name} = {self.value}", f"{self.name} = {factor}{suffix} * ({self.value})")
+        if changed == text:
+            changed = text.replace(f"{self.name} {self.value}", f"{self.name} ({factor}{suffix} * {self.value})", 1)
+        return Fault(self.file, self.line, "halved" if factor < 1.0 else "doubled", text, changed)
+
+
+def constants_of(root: Path, file: str) -> Iterator[Constant]:
+    """The named real numbers of a file."""
+    text = (root / file).read_text(encoding="utf-8")
+    lines = text.splitlines()
+    for number, (line, code) in enumerate(zip(lines, bare(text), strict=True), 1):
+        named = _NAMED.finditer(code) if re.match(r"\s*static const (double|float) ", code) else filter(None, [_DEFINED.match(code)])
+        for match in named:
+            if "." in match[2] or "e" in match[2]:
+                if not _GIVEN.search(match[1]):
+                    yield Constant(file, number, match[1], match[2], _about(lines, number - 1))
+
+
+def _about(lines: list[str], place: int) -> str:
+    """The comment behind a line or, without one, the block that ends above it; a blank line ends the search."""
+    beside = re.search(r"/\*\s*(.*?)\s*\*/|//\s*(.*)$", lines[place])
+    if beside:
+        return beside[1] or beside[2]
+    above: list[str] = []
+    for line in reversed(lines[max(0, place - 12) : place]):
+        if not re.match(r"\s*(/\*|\*|//)", line):
+            if above or not re.match(r"\s*(static const|enum|#define)", line):
+                break
+            continue
+        above.append(re.sub(r"^\s*(/\*|\*/?|//)\s*|\s*\*/\s*$", "", line))
+        if re.match(r"\s*/\*", line):
+            break
+    return " ".join(reversed(above)).strip()
+
+
+def constants(root: Path) -> list[Constant]:
+    """All of the library's, in the order of their files."""
+    files = sorted(str(path.relative_to(root)) for pattern in ("src/**/*.[ch]", "ispc/*.isph") for path in root.glob(pattern))
+    return [constant for file in files for constant in constants_of(root, file)]
+
+
+def constant_faults(root: Path) -> Iterator[Fault]:
+    """Half and twice of each constant; kernels last, which take longest to build."""
+    for constant in sorted(constants(root), key=lambda it: it.file.startswith("ispc")):
+        text = (root / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
+        yield from (constant.fault(text, factor) for factor in (0.5, 2.0))

@@ -23,7 +23,7 @@ import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from faults import Fault, choose, equivalents
+from faults import Fault, choose, constant_faults, equivalents
 
 ROOT = Path(__file__).resolve().parents[2]
 LEAST = 0.9
@@ -233,6 +233,9 @@ class Campaign:
         if options.again:
             todo = [_fault(it) for it in self.verdicts.values() if it["verdict"] == "survived"]
             planned, count = iter([it for it in todo if _is_there(it)]), len(todo)
+        elif options.constants:
+            todo = list(constant_faults(ROOT))
+            planned, count = iter(todo), len(todo)
         else:
             files = [str(path.relative_to(ROOT)) for pattern in options.files for path in ROOT.glob(pattern)]
             planned, count = choose(ROOT, files, options.seed), options.count
@@ -300,6 +303,7 @@ def main() -> int:
     arguments.add_argument("--patience", type=float, default=120.0, help="of the tests with one fault [s]")
     arguments.add_argument("--python", action="store_true", help="run the quicker physics tests of Python, too (needs build/venv)")
     arguments.add_argument("--again", action="store_true", help="try the survivors of before once more")
+    arguments.add_argument("--constants", action="store_true", help="halve and double each named constant instead; see constants.py")
     arguments.add_argument("--list", action="store_true", help="print the faults and plant none")
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/mutants", help="where to work and keep verdicts")
     options = arguments.parse_args()

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -67,3 +69,8 @@ def test_sentences_are_short(path: Path) -> None:
     print(f"{path.name}: {len(counts)} sentences, median {middle} words, 95 % at most {long}, longest {max(counts)}")
     assert middle <= 12
     assert long <= 24
+
+
+def test_the_page_of_constants_is_current() -> None:
+    done = subprocess.run([sys.executable, str(ROOT / "tests" / "mutants" / "constants.py"), "--check"], check=False)
+    assert done.returncode == 0, "run: python3 tests/mutants/constants.py"

@@ -1,0 +1,97 @@
+"""Writes docs/constants.md: every named number of the library, what it is, and which test turns red when it is halved or doubled.
+
+    python3 tests/mutants/constants.py [--verdicts build/constants/verdicts.jsonl] [--check]
+
+Names, values and words come from the sources, verdicts from constants.json beside this file, which --verdicts brings up to date from what
+`sh tests/mutants.sh --constants --folder build/constants` found. A verdict counts as long as file, name and value are what they were.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import re
+import sys
+from pathlib import Path
+
+from faults import Constant, constants
+
+ROOT = Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs/constants.md"
+VERDICTS = Path(__file__).with_name("constants.json")
+HEAD = """# Constants
+
+Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value, what it is for, and the test that turns red
+when the number is halved or doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
+A dash means that nobody has tried yet. The full reason stands above each constant in its file.
+
+This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
+"""
+WORDS = 22
+"""Of what a line says about a constant."""
+
+
+def key_of(constant: Constant) -> str:
+    return f"{constant.file} {constant.name} = {constant.value}"
+
+
+def known_verdicts() -> dict[str, dict[str, str]]:
+    return json.loads(VERDICTS.read_text(encoding="utf-8")) if VERDICTS.is_file() else {}
+
+
+def gathered(found: list[Constant], campaign: Path) -> dict[str, dict[str, str]]:
+    """What is known, brought up to date: by constant, the test for "halved" and "doubled"; "none" where none noticed."""
+    known = {key: verdict for key, verdict in known_verdicts().items() if key in map(key_of, found)}
+    judged = [json.loads(line) for line in campaign.read_text(encoding="utf-8").splitlines()]
+    for constant in found:
+        text = (ROOT / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
+        for factor in (0.5, 2.0):
+            fault = constant.fault(text, factor)
+            for verdict in judged:
+                if verdict["name"] == fault.name:
+                    found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
+                    known.setdefault(key_of(constant), {})[fault.kind] = str(found_by)
+    return dict(sorted(known.items()))
+
+
+def sentence(about: str) -> str:
+    """The first words of a comment, as one cell of a table."""
+    first = re.split(r"(?<=\.) ", about.replace("|", "\\|"))[0]
+    words = first.split()
+    return first if len(words) <= WORDS else " ".join(words[:WORDS]) + " …"
+
+
+def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
+    rooms: dict[str, list[Constant]] = {}
+    for constant in found:
+        rooms.setdefault(str(Path(constant.file).parent), []).append(constant)
+    tried = sum(len(verdicts.get(key_of(constant), {})) for constant in found)
+    quiet = [constant for constant in found if "none" in verdicts.get(key_of(constant), {}).values()]
+    lines = [HEAD, f"{len(found)} constants; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
+    for room, own in rooms.items():
+        lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
+        for constant in own:
+            verdict = verdicts.get(key_of(constant), {})
+            cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
+            lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
+    return "\n".join(lines) + "\n"
+
+
+def main() -> int:
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("--verdicts", type=Path, help="of a campaign, to take up")
+    arguments.add_argument("--check", action="store_true", help="only say whether the page is current")
+    options = arguments.parse_args()
+    found = constants(ROOT)
+    if options.verdicts:
+        verdicts = gathered(found, options.verdicts)
+        VERDICTS.write_text(json.dumps(verdicts, indent=0) + "\n", encoding="utf-8")
+    text = page(found, known_verdicts())
+    if options.check:
+        return int(PAGE.read_text(encoding="utf-8") != text)
+    PAGE.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
