@@ -16,20 +16,20 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_NO_GRAVITY = 1,       /**< settings.gravity is 0, and no uniform force acts */
     PBMPM_ADVICE_FALLS_FOREVER = 2,    /**< matter has nothing below it along gravity, and no kill bounds take it. Figure: share of the matter */
     PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
-    PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
+    PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
-    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep */
+    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2, dt the substep's */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
-                                            strain that bears it */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2, dt the substep's; else the mean
+                                            strain under its own weight */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
-    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body */
-    PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells] */
-    PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle passes matter by. Figure: its way in the next substep [cells] */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< dual solver: the time step damps what bounces. Figure: how many substeps the contact of a ball as thick as the body lasts (Hertz's theory) */
+    PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
+    PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
     PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
-    PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of it that lies where too much
-                                            is; of liquids, of all of them */
+    PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
+                                            overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
@@ -40,7 +40,7 @@ typedef enum pbmpm_advice_code {
 
 /** What would help. */
 typedef enum pbmpm_change {
-    PBMPM_CHANGE_NONE = 0,       /**< nothing that a number says; see the text */
+    PBMPM_CHANGE_NONE = 0,       /**< no setting would help; see the text */
     PBMPM_CHANGE_SUBSTEPS = 1,   /**< settings.substeps, or the rate in the same proportion */
     PBMPM_CHANGE_ITERATIONS = 2, /**< settings.iterations */
     PBMPM_CHANGE_CELL_SIZE = 3,  /**< world_def.cell_size [m] */
@@ -61,16 +61,16 @@ typedef struct pbmpm_advice {
     pbmpm_material_id material;  /**< whose; all zero: of no material */
     pbmpm_collider_id collider;  /**< whose; all zero: of no obstacle */
     float figure;                /**< what was found; the code says of what */
-    float bound;                 /**< what it would have to keep to */
-    pbmpm_change change;         /**< what would help */
-    float value;                 /**< to what; where it is out of a setting's range it is the end of that range */
+    float bound;                 /**< the limit that the figure should keep to */
+    pbmpm_change change;         /**< which setting would help */
+    float value;                 /**< what to set it to, within the setting's range */
     float price;                 /**< what that costs, in percent of a step; negative: not known */
     int32_t came_true;           /**< 1: measured in the present state; 0: foreseen */
     const char *text;            /**< one sentence, constant, valid as long as the library; never null */
 } pbmpm_advice;
 
 /** What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
- *  Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
+ *  What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
  *
  *  Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
  *  capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a

@@ -12,7 +12,7 @@ extern "C" {
 /* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks.
  *
  * If the hooks nest (base.h) it is a task of the host instead, and the world has no such thread. pbmpm_world_step_begin() enqueues one task. That
- * task enqueues others and finishes them. pbmpm_world_step_end() finishes it, on the thread that calls; so does the end of the world.
+ * task calls `enqueue` and `finish` for others. The thread in pbmpm_world_step_end() or pbmpm_world_destroy() calls `finish` for the first task.
  *
  * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until an end gives another
  * result than BUSY the world takes these calls only, and answers all others with BUSY:
@@ -33,9 +33,9 @@ extern "C" {
  * published state. The copy is made before anything else, by the step or by the first view that is asked for: that may take
  * some milliseconds for a million particles.
  *
- * A published state stays readable for a renderer that is a frame late. Begins take turns with two sets of memory. So what a view
- * shows stays, bit for bit, until the next begin but one or until the world is destroyed, whatever else is called. Any thread reads it,
- * without a call. When pbmpm_world_generation() has moved on, there is a newer state, and this one is still whole. A frame loop:
+ * A published state stays readable for a renderer that is a frame late. Two sets of memory take turns. So a view of the state
+ * that begin number n published stays whole, bit for bit, until begin number n + 2, or until the world is destroyed. Any thread may read it.
+ * When pbmpm_world_generation() has moved on, there is a newer state, and this one is still whole. A frame loop:
  *
  *   pbmpm_world_step_begin();          the state of now is published
  *   pbmpm_particles_view() ...         hand the views to the renderer; it may read them while the next frame's step runs, too
@@ -57,8 +57,8 @@ extern "C" {
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
 
-/** Begins a step of `dt` seconds and returns. Expires all views. What was published by the begin before stays readable until the next
- *  begin.
+/** Begins a step of `dt` seconds and returns. Expires all views. What the previous begin published stays readable until the next
+ *  one.
  *  Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
  *  published fields), THREAD (no thread for the step): then no step was begun and nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_step_begin(pbmpm_world_id world, float dt);

@@ -33,7 +33,7 @@ extern "C" {
  *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
  * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
  * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
- * Nobody waits for a turn: a host whose threads read steps when they have come out. */
+ * No call waits for another. So a host steps its world when its reading threads have returned. */
 
 /** What a call came to. Zero is success; everything else left the world as it was before the call, except
  *  where the function says otherwise. Details: pbmpm_last_error(). */
@@ -129,14 +129,14 @@ typedef void pbmpm_task(int32_t index, void *context);
  *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
  *  of them have returned. Read at the creation of a world.
  *
- *  Tasks of one handle may wait for each other, for some milliseconds at most. They do not block but give up their core. Nobody waits for a task that
- *  has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
+ *  Tasks of one handle may wait for each other, for some milliseconds at most. While they wait they yield their core. None waits for a task that
+ *  has not begun, so a host may also run them one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
  *  `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
  *
  *  A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
  *  some 40 microseconds run on the caller.
  *
- *  For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
+ *  One call at a time uses the hooks of a world; other calls that read the world meanwhile work on their own thread alone. There is one exception: the
  *  step in the background goes on enqueuing while another thread is in `finish` for the step itself. */
 typedef struct pbmpm_task_hooks {
     uint32_t size;                                                                /**< sizeof(pbmpm_task_hooks), set by the caller */

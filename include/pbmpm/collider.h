@@ -31,11 +31,11 @@ typedef struct pbmpm_collider_def {
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
     uint32_t meets;             /**< groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
                                      one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-                                     pbmpm_collider_submerged() go by it, too; queries do not. Nodes hold one velocity, though. So matter that
-                                     passes is braked within some 2.5 cells of matter that is held, and held along within 1.5.
+                                     pbmpm_collider_submerged() go by it, too; queries do not. But a node has one velocity. So matter that
+                                     passes is slowed within some 2.5 cells of matter that is held; within 1.5 cells it is held too.
                                      This parts bodies from liquid, but not one liquid from another. */
-    uint64_t key;       /**< what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
-                             snapshot.h */
+    uint64_t key;       /**< how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
+                             see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
     int32_t sensor;          /**< 1: acts on nothing, for triggers; matter passes through it, so it measures no impulse. 0 (default): an obstacle */
     int32_t reports_touches; /**< 1: pbmpm_world_touches() tells what touches it; 0 (default): costs nothing */
@@ -63,12 +63,12 @@ PBMPM_API pbmpm_result pbmpm_world_get_colliders(pbmpm_world_id world, pbmpm_col
 /** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape);
 
-/** Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
+/** Changes an obstacle, which keeps its identifier. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks.
  *  A new shape is there at once, without velocity. It ends a way that pbmpm_collider_move() asked for; so does `kinematic` 0.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED: nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_collider_def *def, const pbmpm_shape *shape);
 
-/** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
+/** Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the distance; what
  *  matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
  *  `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT (also: not kinematic), BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
@@ -79,10 +79,9 @@ PBMPM_API pbmpm_result pbmpm_collider_move(pbmpm_world_id world, pbmpm_collider_
 PBMPM_API pbmpm_result pbmpm_collider_teleport(pbmpm_world_id world, pbmpm_collider_id collider, const float position[3],
                                                const float rotation[4]);
 
-/** What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
- *  sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
- *  depth.
- *  pbmpm_rigid_advance() moves a rigid body by it, see rigid.h. */
+/** What matter gave to an obstacle in a step: the momentum that matter lost to it. A host that moves a rigid body
+ *  itself adds it to the body's momentum; pbmpm_rigid_advance() does that, see rigid.h. The sum over all obstacles and walls is what matter lost,
+ *  apart from gravity, forces, and deleted or slowed particles. In 2D per metre of depth. */
 typedef struct pbmpm_impulse {
     uint32_t size;     /**< sizeof(pbmpm_impulse), set by the caller */
     double linear[3];  /**< [N s] */
@@ -100,7 +99,7 @@ PBMPM_API pbmpm_result pbmpm_domain_impulse(pbmpm_world_id world, int32_t axis, 
 /** A wall of the domain. Read it with pbmpm_domain_wall_get(), change what differs, and give it to pbmpm_domain_wall_set(). */
 typedef struct pbmpm_domain_wall {
     uint32_t size;              /**< sizeof(pbmpm_domain_wall), set by the caller */
-    int32_t open;               /**< 0 (default): holds matter in. 1: there is no wall. The others are planes without end, so a
+    int32_t open;               /**< 0 (default): holds matter in. 1: there is no wall. The other walls are planes without end: a
                                      floor goes on outside. What gets out falls for ever: set kill bounds (drain.h). */
     pbmpm_friction friction;    /**< default PBMPM_FRICTION_COULOMB */
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default world_def.domain_friction */
@@ -134,9 +133,9 @@ typedef struct pbmpm_touch {
 } pbmpm_touch;
 
 /** Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
- *  that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen, nor what was left of
- *  a destroyed collider.
- *  *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
+ *  that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
+ *  seen, nor the end of the touches of a destroyed collider.
+ *  *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
  *  `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count);

@@ -25,8 +25,8 @@ typedef struct pbmpm_drain_def {
     uint32_t size;              /**< sizeof(pbmpm_drain_def), set by pbmpm_drain_def_init() */
     int32_t enabled;            /**< 1 (default) or 0 */
     pbmpm_material_id material; /**< what it takes; null (default): everything */
-    uint64_t key;       /**< what snapshots know it by: not 0, and no other drain of the world has it; 0 (default): its place in the world, see
-                             snapshot.h */
+    uint64_t key;       /**< how snapshots find it again; no two drains of a world may share one. 0 (default): none; the index of its identifier counts,
+                             see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_drain_def;
 
@@ -58,7 +58,7 @@ PBMPM_API pbmpm_result pbmpm_world_get_drains(pbmpm_world_id world, pbmpm_drain_
 /** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def, pbmpm_shape *shape);
 
-/** Changes a drain (its place, too). A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */
+/** Changes a drain (its place, too). With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */
 PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const pbmpm_drain_def *def, const pbmpm_shape *shape);
 
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */

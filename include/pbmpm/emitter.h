@@ -31,14 +31,13 @@ typedef enum pbmpm_emitter_region {
  *
  *  With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
  *  (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
- *  A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
- *  velocity that it would have in gravity: a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
+ *  A particle appears at the end of the substep in which it is due. It is then where gravity has taken it since it was due, with the velocity of
+ *  that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
  *  Places follow a sequence that fills the region evenly.
  *
- *  A particle that is due is refused, and never made up for, when the matter at its place already fills the share
- *  `fill_limit` of the grid, when that would fill more than this share of a room that obstacles close around the emitter, up to about four cells
- *  away, when the budget is spent, or when the world has no room. Refusals are counted in
- *  pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
+ *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, when it would
+ *  fill more than this share of a space that obstacles enclose around the emitter (up to about four cells away), when the budget is spent, or when
+ *  the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
 typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
     uint32_t seed;               /**< of places and directions; equal seeds give equal particles; default 1 */
@@ -56,8 +55,8 @@ typedef struct pbmpm_emitter_def {
                                       Only what obstacles leave open counts. A source inside a pool needs more: liquid at rest measures 1 +-
                                       0.1, and at depth up to 1.2 with the paper's solver */
     uint64_t budget;             /**< particles that it may emit in its life; 0 (default): no limit */
-    uint64_t key;       /**< what snapshots know it by: not 0, and no other emitter of the world has it; 0 (default): its place in the world, see
-                             snapshot.h */
+    uint64_t key;       /**< how snapshots find it again; no two emitters of a world may share one. 0 (default): none; the index of its identifier counts,
+                             see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
     uint32_t user_value; /**< of its particles, see PBMPM_USER_VALUE; default 0 */
     uint32_t reserved;   /**< 0 */
@@ -98,13 +97,13 @@ PBMPM_API pbmpm_result pbmpm_world_get_emitters(pbmpm_world_id world, pbmpm_emit
  *  UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def, pbmpm_shape *shape);
 
-/** Changes an emitter. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
+/** Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
  *  Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY. */
 PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def,
                                          const pbmpm_shape *shape);
 
 /** Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
- *  motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
+ *  motion. A path that crosses more than 2^22 nodes per substep (in the domain) is not followed: the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, const float position[3], const float rotation[4]);
 
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */

@@ -18,8 +18,8 @@ typedef struct pbmpm_force_id {
     uint32_t generation;
 } pbmpm_force_id;
 
-/** What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size, over which
- *  what has no direction at the centre goes to 0. */
+/** What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size. Nearer
+ *  than dx to the centre or the axis, RADIAL and VORTEX fall to 0. */
 typedef enum pbmpm_force_kind {
     PBMPM_FORCE_UNIFORM = 0, /**< acceleration strength * s along `direction` */
     PBMPM_FORCE_RADIAL = 1,  /**< acceleration strength * s * r / max(|r|, dx): pushes away, or pulls when negative */
@@ -60,8 +60,8 @@ typedef struct pbmpm_force_def {
     float direction[3];    /**< UNIFORM: of the acceleration; VORTEX, DRAG and GRAB in 3D: the axis. Any length > 1e-6; default (0, 1, 0) */
     float velocity[3];     /**< DRAG and GRAB [m/s], in [-1e9, 1e9]; default 0 */
     float spin;            /**< DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0 */
-    uint64_t key;       /**< what snapshots know it by: not 0, and no other force of the world has it; 0 (default): its place in the world, see
-                             snapshot.h */
+    uint64_t key;       /**< how snapshots find it again; no two forces of a world may share one. 0 (default): none; the index of its identifier counts,
+                             see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
 } pbmpm_force_def;
 

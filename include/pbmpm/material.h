@@ -40,19 +40,18 @@ typedef enum pbmpm_elastic_model {
 } pbmpm_elastic_model;
 
 /** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
- *  Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion, and parts by no
- *  more per cell than what falls from that height goes. Where the grid holds more than 1.5 times its rest volume, J is at most what there is
- *  room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0); with the primal solver such liquid parts
- *  no faster than its sound.
+ *  Crushed liquid grows back no faster than the pressure of three times the matter's height, and of its motion, would let it. Where the grid
+ *  holds more than 1.5 times the rest volume, J is at most what there is room for. Particles there are moved apart by up to 1/40 cell per
+ *  substep, unless volume_feedback is 0. With the primal solver such liquid spreads no faster than its speed of sound.
  *
  *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
  *  takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
- *  Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
- *  from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
- *  hold the modulus: see pbmpm_material_effective().
+ *  Plastic flow happens once per substep; each iteration only bounds the stress. The primal solver takes the friction of sand
+ *  from the pressure at the start of the substep. The yield limit is a strain. So visco yields at a lower stress where the iterations do not
+ *  reach its modulus: see pbmpm_material_effective().
  *
- *  With the dual solver sand carries its stress on from substep to substep: its pressure keeps the volume ratio, with the bulk modulus, J follows the grid as a
- *  liquid's does (by volume_feedback), and what was compressed comes back by a tenth per 1/60 s. Where it lies deep it takes up to 16 more iterations.
+ *  With the dual solver sand keeps its stress from substep to substep. Its pressure resists compression with the bulk modulus. J follows the grid by
+ *  volume_feedback, as a liquid's does. Compressed sand recovers a tenth of what is missing per 1/60 s. Deep sand takes up to 16 more iterations.
  *
  *  Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
  *  artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
@@ -72,22 +71,9 @@ typedef struct pbmpm_material_def {
                                      iteration lone elastic particles tremble above 4/3. */
     float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
-    float volume_feedback;      /**< liquid, visco, with the dual solver sand: share per substep by which J follows the volume measured on the grid where
-                                     that shows compression, or J is below 0.8 of it (up to 0.9 if three times its weight and its motion cannot press it that far), in [0, 1];
-                                     default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
-                                     Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
-                                     share per 1/60 s (volume control, after Kim et al. 2007), and with any share above 0 particles shift from nodes that
-                                     hold more than their rest volume, by at most 0.02 cells per axis and substep; velocities stay (Fick's law,
-                                     after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess, at most 0.2).
-                                     Near obstacles other than planes, whose edges make nodes seem crowded, they do not if one holds more
-                                     than 1.2 times as much. Gravity is that of the settings: forces do not count.
-                                     Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
-                                     liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
-                                     by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it
-                                     stores in a world's liquids, by lowering J where the grid holds up to 1.5 times the rest volume, is never
-                                     more than what solutions lost. Visco gives up volume only where
-                                     the grid holds more than 1.5 times its rest volume, as clay does that creeps for long, and det F is above 0.67,
-                                     by this share per 1/60 s with every solver */
+    float volume_feedback;      /**< liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
+                                     default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,
+                                     which costs nothing. What it does, and where: docs/method.md, "Liquids keep their volume" */
     float elasticity_ratio;     /**< elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1 */
     pbmpm_strain_policy strain_policy; /**< elastic; default PBMPM_STRAIN_CLAMP */
     float strain_min;           /**< elastic: lower bound of the singular values of F, in [1e-3, 1]; default 0.1 */
@@ -111,8 +97,8 @@ typedef struct pbmpm_material_def {
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
                                      Bingham fluid with the viscosity mu / flow_rate [Pa s]. */
-    uint64_t key;       /**< what snapshots know it by: not 0, and no other material of the world has it; 0 (default): its place in the world, see
-                             snapshot.h */
+    uint64_t key;       /**< how snapshots find it again; no two materials of a world may share one. 0 (default): none; the index of its identifier counts,
+                             see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
     uint32_t groups;    /**< bit by bit, the groups that it belongs to, not 0; default 1. See pbmpm_collider_def.meets. Walls of the domain act on all. */
     uint32_t reserved;  /**< 0 */
@@ -122,12 +108,12 @@ typedef struct pbmpm_material_def {
 typedef struct pbmpm_effective {
     uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
     float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-                              of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
-                              stands for it at the depth of the last step. */
+                              of young_modulus. Other solvers: the material's own. The primal solves an incompressible liquid as a
+                              compressible one: then the modulus that it used in the last step. */
     float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
-                              solver of the island that the particles are in now, of several the softest; among liquid at most what makes
-                              its pressure wave travel 4 N cells per substep. */
+                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: as the
+                              solver of the island that the particles are in now; of several islands the softest. In liquid, a pressure wave
+                              travels at most 4 N cells per substep. */
     float kinematic_viscosity; /**< liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
                                     N dx^2 / (8 dt); without what the transfers add */
     float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */

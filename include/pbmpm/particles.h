@@ -69,16 +69,16 @@ typedef enum pbmpm_field {
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
-    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
-                                    over a few cells say something: what the pressures of neighbours differ by moves nothing. */
+    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Take the mean
+                                    over a few cells: differences between neighbouring particles cause no motion. */
     PBMPM_USER_VALUE = 9,      /**< 1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
                                     that is not 0 was given, or any was set: before, it takes no memory. */
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that it
- *  shows is one that the field had or has, of one particle or another, or 0; together they are no frame. Only views of AFFINE_VELOCITY and DEFORMATION may show
- *  anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that an
+ *  expired view shows is an old or a present one of some particle, or 0; together they are no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+ *  are arbitrary. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -98,9 +98,9 @@ PBMPM_API pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field fi
 typedef struct pbmpm_copy_def {
     uint32_t size;             /**< sizeof(pbmpm_copy_def), set by pbmpm_copy_def_init() */
     uint32_t stride;           /**< bytes from one particle to the next, a multiple of 4; 0 (default): what offset and fields take */
-    float alpha;               /**< when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
-                                    duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
-                                    are those of now. */
+    float alpha;               /**< time, from 0 (before the last step) to 1 (default: now). Positions are x - (1 - alpha) dt v with the
+                                    duration dt of the last step. They err by up to 0.02 cells, by up to 0.045 where liquid is crowded. Other
+                                    fields are those of now. */
     uint32_t field_count;      /**< of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL */
     const pbmpm_field *fields; /**< one behind the other, without gaps; 4 bytes for each component */
     int32_t pads_vectors;      /**< 1: POSITION and VELOCITY take 3 floats in 2D too, the third is 0; 0 (default): d floats */

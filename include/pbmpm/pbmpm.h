@@ -5,8 +5,8 @@
  * Squares Material Point Method", ACM TOG 37(4), 2018.
  *
  * Units are SI, angles radians. The library knows no axis names: gravity is a vector like any other. Every function that
- * can fail returns a pbmpm_result and changes nothing on failure unless it says otherwise. The library never aborts,
- * prints, exits or throws. */
+ * can fail returns a pbmpm_result and changes nothing on failure unless it says otherwise. Unless it is built with assertions
+ * (base.h), the library never aborts, prints, exits or throws. */
 #ifndef PBMPM_H
 #define PBMPM_H
 

@@ -5,22 +5,22 @@
  *     pbmpm_rigid_advance(world, collider, &def, &state, dt);
  *     pbmpm_world_step(world, dt);
  *
- * gives the body what matter gave in the last step, gravity and the host's forces, and sends the obstacle where it will be. Bodies know
- * matter, the walls of the domain and what holds them, not each other and not other obstacles: for that there are physics engines, which take
- * pbmpm_collider_impulse() and pbmpm_collider_submerged() instead.
+ * gives the body what matter gave in the last step, gravity and the host's forces, and sends the obstacle where it will be. Bodies feel
+ * matter, the walls of the domain and their own joint. They feel neither each other nor other obstacles. A physics engine does that: it takes
+ * pbmpm_collider_impulse() and pbmpm_collider_submerged() instead of these calls.
  *
  * Motion. Velocities change first, then poses, each with the new velocities: first order in dt. A fall from rest is at g dt^2 n (n + 1) / 2 after n
- * steps, its velocity is exact. Turning keeps the angular momentum whatever dt is, so that no spin grows by itself; its energy errs by the
- * fourth power of the angle of a part, and a step has as many parts as keep that below 1/8 rad, at most 64.
+ * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so no spin grows by itself. A step is turned in up to 64 parts
+ * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
  *
- * Light bodies. Matter feels the body's velocity one step later than the body feels matter. Where the matter that has to move along weighs more
- * than the body, that oscillates and grows at any dt. So all changes of velocity go through
+ * Light bodies. Matter feels the body's velocity one step later than the body feels matter. If the matter that moves along weighs more
+ * than the body, this delay makes it oscillate more and more, at any dt. So each change of velocity is smoothed:
  *
- *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume under * share under,
+ *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume * share,
  *
- * of the matter around it, see pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Matter
- * whose added mass is A needs V above (A - mass) / 2. What turns about its pivot has the same b. A free body turns without: what it turns in matter is
- * less than itself, and b would keep it rocking (a box of a quarter of water's density: 0.55 rad/s instead of 0.28, `tests/field/run.py rigid_box`). */
+ * with the density, volume and share of its pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Matter
+ * whose added mass is A needs V above (A - mass) / 2. A body that turns about its pivot turns with the same b. A free body turns without b: the matter that
+ * turns with it has less inertia than itself, and b would keep it rocking (`tests/field/run.py rigid_box`). */
 #ifndef PBMPM_RIGID_H
 #define PBMPM_RIGID_H
 
@@ -65,11 +65,11 @@ typedef struct pbmpm_submersion {
     double density;    /**< of the matter around, at rest volume [kg/m^3]; 0 without any */
 } pbmpm_submersion;
 
-/** How much of an obstacle is under matter. That is where the surface of the matter around it, continued through the obstacle as a plane, leaves it:
- *  no gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
+/** How much of an obstacle is under matter. The surface of the matter around it is continued through the obstacle as a plane; what lies on the
+ *  matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
  *
  *  Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
- *  filling of query.h over the share that obstacles and walls leave open there; where they leave nothing, it is what stands next to it.
+ *  filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.
  *  The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
  *  `submersion->size` must be set. The first call of a world takes memory, later ones that need no more take none.
  *  Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED. */
@@ -100,14 +100,14 @@ typedef struct pbmpm_rigid_def {
 typedef struct pbmpm_rigid_state {
     uint32_t size;                     /**< sizeof(pbmpm_rigid_state), set by the caller before pbmpm_rigid_begin() */
     uint32_t reserved;                 /**< 0 */
-    double position[3];                /**< of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() take `moved` from it. */
+    double position[3];                /**< of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() subtract `moved`. */
     double rotation[4];                /**< quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0 */
     double velocity[3];                /**< of the centre of mass [m/s]; within 1e9 */
     double angular_velocity[3];        /**< [rad/s], in the world; within 1e9 */
-    double velocity_change[3];         /**< what the last call changed `velocity` by [m/s]: what the virtual mass goes on with */
+    double velocity_change[3];         /**< by which the last call changed `velocity` [m/s]; the virtual mass needs it in the next one */
     double angular_velocity_change[3]; /**< the same of `angular_velocity` [rad/s] */
     double point[3];                   /**< as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
-    double virtual_mass;               /**< V of the last call [kg], to look at; never read */
+    double virtual_mass;               /**< V of the last call [kg]; for information: the library never reads it */
 } pbmpm_rigid_state;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

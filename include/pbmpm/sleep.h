@@ -6,18 +6,18 @@
  * their mass and stress, but are not moved. Beyond them matter that sleeps holds like a wall.
  *
  * A block wakes when
- *   - a particle faster than sleep_speed comes into it, or more slow ones than a sixteenth of its own; or particles are added to it;
- *   - it is drowsy, and the solution would give one of its particles a speed above sleep_speed, or would have given all of them
- *     together a velocity above sleep_speed in the last 0.03 s;
+ *   - a particle faster than sleep_speed enters it; or slower ones enter, more than a sixteenth of its own; or particles are added to it;
+ *   - it is drowsy, and the solution would give one of its particles a speed above sleep_speed;
+ *   - it is drowsy, and the solutions of the last 0.03 s would have given its matter as a whole a velocity above sleep_speed;
  *   - a collider that moves, turns, is teleported, created or destroyed is or was within two cells of it;
- *   - a force, a drain or the reach of one that is created, set or destroyed touches it; a call sets or removes particles in it;
- *   - all of them: a change of settings other than the sleep_*, target_error and time_budget_ms, of a material or of the kill bounds;
- *     substeps whose length differs by more than a tenth from those that matter came to rest in;
+ *   - a force or a drain that reaches it is created, set or destroyed; a call sets or removes particles in it;
  *   - pbmpm_world_wake() says so.
+ * All blocks wake when a material, the kill bounds, or a setting other than sleep_*, target_error and time_budget_ms changes. They also wake when
+ * the length of substeps comes to differ by more than a tenth from that in which matter came to rest.
  * Nothing else changes a block that sleeps, to the last bit. Blocks that touch a collider or a wall that measures impulses stay awake.
  *
- * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum, and matter that sleeps bears accelerations
- * up to sleep_speed per 0.03 s without moving. Results depend neither on the number of threads nor on when others look.
+ * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum, and matter that sleeps ignores accelerations
+ * up to sleep_speed / 0.03 s. Results depend neither on the number of threads nor on when others look.
  * A snapshot holds who sleeps; one of a world without sleeping wakes all. */
 #ifndef PBMPM_SLEEP_H
 #define PBMPM_SLEEP_H

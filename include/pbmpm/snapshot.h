@@ -19,9 +19,9 @@ typedef enum pbmpm_restore_flags {
     PBMPM_RESTORE_FLAGS_FORCE32 = 0x7fffffff
 } pbmpm_restore_flags;
 
-/* A snapshot holds what the next step depends on and nothing that follows from it: the particles with their identifiers, in
- * storage order and with all fields; the settings; the origin; walls of the domain; poses and targets of colliders, and what they were given; emitters, drains, forces and kill bounds with
- * their definitions and books; who sleeps; counters and totals. It does not hold what a world is made of: its definition, the
+/* A snapshot holds all that the next step depends on: the particles with their identifiers, in storage order and with all fields; the settings; the
+ * origin; walls of the domain; poses, targets and measured impulses of colliders; emitters, drains, forces and kill bounds with their definitions and
+ * counts; which blocks sleep; counters and totals. It does not hold what a world is made of: its definition, the
  * parameters of its materials, the shapes of its colliders. Of these it holds enough to refuse a world where they differ.
  * It holds no user_data.
  *
@@ -31,8 +31,8 @@ typedef enum pbmpm_restore_flags {
  * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
  * number of threads. It need not be the same world: one that was made by the same calls will do, in another process too.
  *
- * Bytes per particle: 60 in 2D and 92 in 3D; 16 and 36 more in a world that has (or had) a particle that is not liquid; 4 more once
- * the dual solver was used or PRESSURE was set; 52 and 100 more once the primal solver was used with BDF2. Beside them some hundred
+ * Bytes per particle, in 2D / in 3D: 60 / 92. 16 / 36 more in a world that has or had a particle that is not liquid; 4 / 4 more once
+ * the dual solver was used or PRESSURE was set; 52 / 100 more once the primal solver was used with BDF2. Beside them some hundred
  * bytes for the world and for each material, collider, emitter, drain and force, 4 per identifier that was used and is
  * free again, and with sleeping some bytes for each block. Little-endian; a snapshot may be stored and sent as it is. */
 
@@ -56,9 +56,9 @@ PBMPM_API pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, u
  *  identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
  *
  *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
- *  (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
- *  that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
- *  is awake.
+ *  (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, counts and which of them are enabled come
+ *  from the snapshot. Objects that only the world has stay as they are. Objects that only the snapshot has are left out; a material that particles
+ *  need must be there. All matter is awake.
  *
  *  Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
  *  of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);

@@ -39,7 +39,7 @@ typedef struct pbmpm_mesh_def {
 
 /** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
  *  the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). Let terrain reach some cells past the walls
- *  of a domain: matter at a wall that its side is flush with would slip down between them. */
+ *  of a domain. If its side is flush with a wall, matter slips down between the two. */
 typedef struct pbmpm_heights_def {
     uint32_t size;        /**< sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init() */
     int32_t dimension;    /**< 2 or 3; default 3 */
@@ -74,8 +74,8 @@ PBMPM_API pbmpm_result pbmpm_mesh_def_init(pbmpm_mesh_def *def, size_t size);
 /** Writes the defaults, as pbmpm_mesh_def_init() does. */
 PBMPM_API pbmpm_result pbmpm_heights_def_init(pbmpm_heights_def *def, size_t size);
 
-/** Bakes a closed mesh into the caller's `buffer` of `capacity` bytes. *bytes becomes the size that is needed. With a null buffer that is
- *  all, and done at once: ask first, then bake. The memory that baking takes is the C library's and is given back. Errors: INVALID_ARGUMENT (a value out of range; a mesh that is open, wound in two ways, or holds no volume: the message
+/** Bakes a closed mesh into the caller's `buffer` of `capacity` bytes. *bytes becomes the size that is needed. With a null buffer the call
+ *  only says the size, at once: ask first, then bake. The memory that baking takes is the C library's and is given back. Errors: INVALID_ARGUMENT (a value out of range; a mesh that is open, wound in two ways, or holds no volume: the message
  *  says where), OUT_OF_MEMORY, CAPACITY (the buffer is too small). Any thread. */
 PBMPM_API pbmpm_result pbmpm_bake_mesh(const pbmpm_mesh_def *def, void *buffer, uint64_t capacity, uint64_t *bytes);
 

@@ -45,15 +45,15 @@ typedef struct pbmpm_stats {
     float lane_occupancy;         /**< share of SIMD lanes that held a particle; 1 is perfect */
     uint64_t deleted_total;       /**< particles deleted by the library since creation (never by calls) */
     uint64_t clamped_total;       /**< times a particle was slowed to max_displacement since creation */
-    pbmpm_solver solver;          /**< that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: with several. Of several
-                                       islands iterations, residual and error are the largest, and checks that failed the sum */
+    pbmpm_solver solver;          /**< of the last substep; PBMPM_SOLVER_CONVERGENT: several. Then iterations, residual and error below are
+                                       the largest over the islands, and energy_checks_failed is the sum */
     pbmpm_stop stop;              /**< what ended its iterations */
     uint32_t iterations_used;     /**< by it; passes that a line search repeats and those that deep sand takes beyond the iterations set count too */
     float residual;               /**< its last change per iteration [cells], root mean square; 0 for the paper's and the explicit solver */
     float predicted_error;        /**< root mean square distance of its displacements from the converged ones [cells], as predicted
                                        from the residual; 0 where residual is */
-    uint32_t energy_checks_failed; /**< primal, alone or with the dual: bodies of the last substep whose unfinished solution would have gained energy
-                                        and was replaced */
+    uint32_t energy_checks_failed; /**< primal, alone or with the dual: bodies whose unfinished solution would have gained energy in the last substep;
+                                        they began again from their rigid motion */
     uint32_t particles_asleep;     /**< particles that the last substep did not move because they sleep */
     uint32_t blocks_asleep;        /**< blocks that took no part in it; particle_blocks counts those that did */
     uint32_t blocks_drowsy;        /**< of particle_blocks, those that took part without being moved: next to blocks that are awake */

@@ -48,26 +48,26 @@ typedef enum pbmpm_solver {
     PBMPM_SOLVER_PAPER = 0,      /**< the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt */
     PBMPM_SOLVER_DUAL = 1,       /**< backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
                                       liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
-                                      Crushed liquid is asked to grow by at most 0.3 in 1/60 s (per substep, if that is longer), faster below
-                                      denser liquid, and by at most 0.3 / N^2 per substep where that is more: N iterations hold less. */
+                                      Crushed liquid grows back by at most 0.3 of its volume per 1/60 s, or per substep if that is longer; faster below
+                                      denser liquid. */
     PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
                                       preconditioner and a check that no body gains energy. A liquid takes part as a
-                                      compressible one; what its unfinished solution gains is taken from its speed, so one that is far
-                                      stiffer than the iterations hold hardly moves: leave its bulk modulus at 0. */
+                                      compressible one. Energy that its unfinished solution gains is taken from its speed. So a liquid far
+                                      stiffer than the iterations can solve hardly moves: leave its bulk modulus at 0. */
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
-    PBMPM_SOLVER_CONVERGENT = 4, /**< default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
-                                      axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
-                                      finds the pressures, the primal moves solids under them, before and after, which takes half as long again as
-                                      one solver. Islands that hold the same kinds are solved together, as if nothing else were there. With
-                                      a single iteration the primal solves all but what sand is in. While matter sleeps (settings.sleeping) all of
-                                      the world is one island. */
+    PBMPM_SOLVER_CONVERGENT = 4, /**< default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
+                                      share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand in them.
+                                      Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
+                                      takes 1.5 times as long. Islands of the same kinds are solved together, as if nothing else were there. With a
+                                      single iteration the primal solves all islands without sand. While matter sleeps (settings.sleeping) all of the
+                                      world is one island. */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 
 /** Where the dual solver keeps the pressure of a liquid. */
 typedef enum pbmpm_pressure {
-    PBMPM_PRESSURE_PARTICLES = 0, /**< calm: each particle keeps its volume; damps fine motion the more, the better it is solved */
+    PBMPM_PRESSURE_PARTICLES = 0, /**< calm: each particle keeps its volume; the better it is solved, the more it damps fine motion */
     PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
                                        PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it. */
     PBMPM_PRESSURE_FORCE32 = 0x7fffffff
@@ -76,7 +76,7 @@ typedef enum pbmpm_pressure {
 /** How a substep follows from those before it. */
 typedef enum pbmpm_integrator {
     PBMPM_INTEGRATOR_EULER = 0, /**< backward Euler: first order in dt, damps rotation and oscillation */
-    PBMPM_INTEGRATOR_BDF2 = 1,  /**< second order: hardly damps them. Where the primal solver works alone */
+    PBMPM_INTEGRATOR_BDF2 = 1,  /**< second order: hardly damps them. Acts in islands that the primal solves alone; elsewhere EULER does */
     PBMPM_INTEGRATOR_FORCE32 = 0x7fffffff
 } pbmpm_integrator;
 
@@ -148,8 +148,8 @@ PBMPM_API pbmpm_result pbmpm_world_get_settings(pbmpm_world_id world, pbmpm_sett
 PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmpm_settings *settings);
 
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
- *  of occupied blocks has stopped growing. `dt` must be in (0, 10], and a
- *  substep at least 1e-25 s and 1e-25 s/m times the cell size.
+ *  of occupied blocks has stopped growing. `dt` must be in (0, 10]. A
+ *  substep lasts at least 1e-25 s, and at least 1e-25 s per metre of the cell size.
  *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
  *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
  *  was set from outside is brought into its material's range. With PBMPM_SOLVER_CONVERGENT islands that were solved before
@@ -159,8 +159,8 @@ PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 
 /** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
  *  is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
- *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
- *  meets obstacles, walls, emitters, drains, forces or bounds, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
+ *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, except where it
+ *  meets obstacles, walls, emitters, drains, forces or bounds: their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
  *  `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3]);

@@ -166,30 +166,30 @@ namespace Pbmpm
         Paper = 0,
         /// <summary>backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
         /// liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
-        /// Crushed liquid is asked to grow by at most 0.3 in 1/60 s (per substep, if that is longer), faster below
-        /// denser liquid, and by at most 0.3 / N^2 per substep where that is more: N iterations hold less.</summary>
+        /// Crushed liquid grows back by at most 0.3 of its volume per 1/60 s, or per substep if that is longer; faster below
+        /// denser liquid.</summary>
         Dual = 1,
         /// <summary>the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
         /// preconditioner and a check that no body gains energy. A liquid takes part as a
-        /// compressible one; what its unfinished solution gains is taken from its speed, so one that is far
-        /// stiffer than the iterations hold hardly moves: leave its bulk modulus at 0.</summary>
+        /// compressible one. Energy that its unfinished solution gains is taken from its speed. So a liquid far
+        /// stiffer than the iterations can solve hardly moves: leave its bulk modulus at 0.</summary>
         Primal = 2,
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>default: per island of touching matter (particles that share nodes, as those do whose cells are two apart at most along every
-        /// axis): solids alone by the primal; liquid alone, and what sand is in, by the dual; solids with liquid by both: the dual
-        /// finds the pressures, the primal moves solids under them, before and after, which takes half as long again as
-        /// one solver. Islands that hold the same kinds are solved together, as if nothing else were there. With
-        /// a single iteration the primal solves all but what sand is in. While matter sleeps (settings.sleeping) all of
-        /// the world is one island.</summary>
+        /// <summary>default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
+        /// share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand in them.
+        /// Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
+        /// takes 1.5 times as long. Islands of the same kinds are solved together, as if nothing else were there. With a
+        /// single iteration the primal solves all islands without sand. While matter sleeps (settings.sleeping) all of the
+        /// world is one island.</summary>
         Convergent = 4,
     }
 
     /// <summary>Where the dual solver keeps the pressure of a liquid.</summary>
     public enum Pressure : int
     {
-        /// <summary>calm: each particle keeps its volume; damps fine motion the more, the better it is solved</summary>
+        /// <summary>calm: each particle keeps its volume; the better it is solved, the more it damps fine motion</summary>
         Particles = 0,
         /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
         /// PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it.</summary>
@@ -201,7 +201,7 @@ namespace Pbmpm
     {
         /// <summary>backward Euler: first order in dt, damps rotation and oscillation</summary>
         Euler = 0,
-        /// <summary>second order: hardly damps them. Where the primal solver works alone</summary>
+        /// <summary>second order: hardly damps them. Acts in islands that the primal solves alone; elsewhere EULER does</summary>
         Bdf2 = 1,
     }
 
@@ -235,8 +235,8 @@ namespace Pbmpm
         Particle = 6,
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
-        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Only means
-        /// over a few cells say something: what the pressures of neighbours differ by moves nothing.</summary>
+        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Take the mean
+        /// over a few cells: differences between neighbouring particles cause no motion.</summary>
         Pressure = 8,
         /// <summary>1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
         /// that is not 0 was given, or any was set: before, it takes no memory.</summary>
@@ -275,30 +275,30 @@ namespace Pbmpm
         FallsForever = 2,
         /// <summary>a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default</summary>
         Ignored = 3,
-        /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2 of a substep; with the paper's solver
+        /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
-        /// <summary>dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2 of a substep</summary>
+        /// <summary>dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2, dt the substep's</summary>
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2 of a substep; else the mean
-        /// strain that bears it</summary>
+        /// <summary>sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2, dt the substep's; else the mean
+        /// strain under its own weight</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>dual solver: the time step damps what bounces. Figure: substeps that a contact lasts (Hertz), of a ball as thick as the body</summary>
+        /// <summary>dual solver: the time step damps what bounces. Figure: how many substeps the contact of a ball as thick as the body lasts (Hertz's theory)</summary>
         BounceDamped = 9,
-        /// <summary>a round body rolls too slowly. Figure: half the width of its contact (Hertz) [cells]</summary>
+        /// <summary>a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells]</summary>
         RollingBraked = 10,
-        /// <summary>an obstacle passes matter by. Figure: its way in the next substep [cells]</summary>
+        /// <summary>an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells]</summary>
         ColliderTooFast = 11,
         /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
         ColliderTooThin = 12,
         /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
         StepTooLong = 13,
-        /// <summary>before the first step: matter was put where there is other matter. Figure: share of it that lies where too much
-        /// is; of liquids, of all of them</summary>
+        /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
+        /// overfull places; for liquids, of all liquids together</summary>
         Overlaps = 17,
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
@@ -313,7 +313,7 @@ namespace Pbmpm
     /// <summary>What would help.</summary>
     public enum Change : int
     {
-        /// <summary>nothing that a number says; see the text</summary>
+        /// <summary>no setting would help; see the text</summary>
         None = 0,
         /// <summary>settings.substeps, or the rate in the same proportion</summary>
         Substeps = 1,
@@ -370,8 +370,8 @@ namespace Pbmpm
         Disc = 1,
     }
 
-    /// <summary>What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size, over which
-    /// what has no direction at the centre goes to 0.</summary>
+    /// <summary>What a force does. c: the shape's position; r = x - c; s: the share that is felt at x, see pbmpm_falloff; dx: the cell size. Nearer
+    /// than dx to the centre or the axis, RADIAL and VORTEX fall to 0.</summary>
     public enum ForceKind : int
     {
         /// <summary>acceleration strength * s along `direction`</summary>
@@ -588,19 +588,18 @@ namespace Pbmpm
     }
 
     /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
-    /// Liquid that was crushed grows back with at most the pressure of three times the height of the matter and of its motion, and parts by no
-    /// more per cell than what falls from that height goes. Where the grid holds more than 1.5 times its rest volume, J is at most what there is
-    /// room for, and particles are moved by up to 1/40 cell per substep so that they part (unless volume_feedback is 0); with the primal solver such liquid parts
-    /// no faster than its sound.
+    /// Crushed liquid grows back no faster than the pressure of three times the matter's height, and of its motion, would let it. Where the grid
+    /// holds more than 1.5 times the rest volume, J is at most what there is room for. Particles there are moved apart by up to 1/40 cell per
+    /// substep, unless volume_feedback is 0. With the primal solver such liquid spreads no faster than its speed of sound.
     ///
     /// Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
     /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
-    /// Strain is looked at, and flows, once per substep; stress is cut off in each iteration. The primal solver takes the friction of sand
-    /// from the pressure at the start of the substep. Since it is a strain that yields, visco yields at a lower stress where the iterations do not
-    /// hold the modulus: see pbmpm_material_effective().
+    /// Plastic flow happens once per substep; each iteration only bounds the stress. The primal solver takes the friction of sand
+    /// from the pressure at the start of the substep. The yield limit is a strain. So visco yields at a lower stress where the iterations do not
+    /// reach its modulus: see pbmpm_material_effective().
     ///
-    /// With the dual solver sand carries its stress on from substep to substep: its pressure keeps the volume ratio, with the bulk modulus, J follows the grid as a
-    /// liquid's does (by volume_feedback), and what was compressed comes back by a tenth per 1/60 s. Where it lies deep it takes up to 16 more iterations.
+    /// With the dual solver sand keeps its stress from substep to substep. Its pressure resists compression with the bulk modulus. J follows the grid by
+    /// volume_feedback, as a liquid's does. Compressed sand recovers a tenth of what is missing per 1/60 s. Deep sand takes up to 16 more iterations.
     ///
     /// Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
     /// artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
@@ -627,22 +626,9 @@ namespace Pbmpm
         /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
-        /// <summary>liquid, visco, with the dual solver sand: share per substep by which J follows the volume measured on the grid where
-        /// that shows compression, or J is below 0.8 of it (up to 0.9 if three times its weight and its motion cannot press it that far), in [0, 1];
-        /// default 0.1. 0 switches it off and costs nothing. With the paper's solver very stiff liquid's J follows the mean of its cell, too.
-        /// Where liquid is strained, in gravity, the mean J over blocks of 4^d cells follows the grid by a fifth of the
-        /// share per 1/60 s (volume control, after Kim et al. 2007), and with any share above 0 particles shift from nodes that
-        /// hold more than their rest volume, by at most 0.02 cells per axis and substep; velocities stay (Fick's law,
-        /// after Lind et al. 2012; 4 times the strain, at most 0.1, times the gradient of the excess, at most 0.2).
-        /// Near obstacles other than planes, whose edges make nodes seem crowded, they do not if one holds more
-        /// than 1.2 times as much. Gravity is that of the settings: forces do not count.
-        /// Other solvers than the paper's take it as a share per 1/60 s (per substep, if that is longer). Where
-        /// liquid is slower than 2.4 cells/s the dual solver's fades if J is off by less than 0.15, the primal's if
-        /// by less than 0.3: there the noise of particles' places would stir it. With the primal solver what it
-        /// stores in a world's liquids, by lowering J where the grid holds up to 1.5 times the rest volume, is never
-        /// more than what solutions lost. Visco gives up volume only where
-        /// the grid holds more than 1.5 times its rest volume, as clay does that creeps for long, and det F is above 0.67,
-        /// by this share per 1/60 s with every solver</summary>
+        /// <summary>liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
+        /// default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,
+        /// which costs nothing. What it does, and where: docs/method.md, "Liquids keep their volume"</summary>
         public float VolumeFeedback;
         /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
         public float ElasticityRatio;
@@ -683,8 +669,8 @@ namespace Pbmpm
         /// <summary>visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
         /// Bingham fluid with the viscosity mu / flow_rate [Pa s].</summary>
         public float FlowRate;
-        /// <summary>what snapshots know it by: not 0, and no other material of the world has it; 0 (default): its place in the world, see
-        /// snapshot.h</summary>
+        /// <summary>how snapshots find it again; no two materials of a world may share one. 0 (default): none; the index of its identifier counts,
+        /// see snapshot.h</summary>
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
@@ -713,13 +699,13 @@ namespace Pbmpm
         /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
         public uint Size;
         /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
-        /// of young_modulus. Other solvers: the material's own; of an incompressible liquid that the primal solves what
-        /// stands for it at the depth of the last step.</summary>
+        /// of young_modulus. Other solvers: the material's own. The primal solves an incompressible liquid as a
+        /// compressible one: then the modulus that it used in the last step.</summary>
         public float BulkModulus;
         /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: by the
-        /// solver of the island that the particles are in now, of several the softest; among liquid at most what makes
-        /// its pressure wave travel 4 N cells per substep.</summary>
+        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: as the
+        /// solver of the island that the particles are in now; of several islands the softest. In liquid, a pressure wave
+        /// travels at most 4 N cells per substep.</summary>
         public float YoungModulus;
         /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
         /// N dx^2 / (8 dt); without what the transfers add</summary>
@@ -946,12 +932,12 @@ namespace Pbmpm
         public int MeasuresImpulse;
         /// <summary>groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
         /// one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-        /// pbmpm_collider_submerged() go by it, too; queries do not. Nodes hold one velocity, though. So matter that
-        /// passes is braked within some 2.5 cells of matter that is held, and held along within 1.5.
+        /// pbmpm_collider_submerged() go by it, too; queries do not. But a node has one velocity. So matter that
+        /// passes is slowed within some 2.5 cells of matter that is held; within 1.5 cells it is held too.
         /// This parts bodies from liquid, but not one liquid from another.</summary>
         public uint Meets;
-        /// <summary>what snapshots know it by: not 0, and no other collider of the world has it; 0 (default): its place in the world, see
-        /// snapshot.h</summary>
+        /// <summary>how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
+        /// see snapshot.h</summary>
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
@@ -973,10 +959,9 @@ namespace Pbmpm
         }
     }
 
-    /// <summary>What matter gave to an obstacle in a step: the momentum that matter lost to it. A rigid body that the host moves adds it to its own; the
-    /// sum over all obstacles and walls is what matter lost beside gravity, forces, deleted and slowed particles. In 2D per metre of
-    /// depth.
-    /// pbmpm_rigid_advance() moves a rigid body by it, see rigid.h.</summary>
+    /// <summary>What matter gave to an obstacle in a step: the momentum that matter lost to it. A host that moves a rigid body
+    /// itself adds it to the body's momentum; pbmpm_rigid_advance() does that, see rigid.h. The sum over all obstacles and walls is what matter lost,
+    /// apart from gravity, forces, and deleted or slowed particles. In 2D per metre of depth.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct Impulse
     {
@@ -994,7 +979,7 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_domain_wall), set by the caller</summary>
         public uint Size;
-        /// <summary>0 (default): holds matter in. 1: there is no wall. The others are planes without end, so a
+        /// <summary>0 (default): holds matter in. 1: there is no wall. The other walls are planes without end: a
         /// floor goes on outside. What gets out falls for ever: set kill bounds (drain.h).</summary>
         public int Open;
         /// <summary>default PBMPM_FRICTION_COULOMB</summary>
@@ -1054,8 +1039,8 @@ namespace Pbmpm
         public int Enabled;
         /// <summary>what it takes; null (default): everything</summary>
         public MaterialId Material;
-        /// <summary>what snapshots know it by: not 0, and no other drain of the world has it; 0 (default): its place in the world, see
-        /// snapshot.h</summary>
+        /// <summary>how snapshots find it again; no two drains of a world may share one. 0 (default): none; the index of its identifier counts,
+        /// see snapshot.h</summary>
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
@@ -1152,14 +1137,13 @@ namespace Pbmpm
     ///
     /// With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
     /// (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
-    /// A particle appears at the end of the substep in which it is due, where a particle born at the very time would be by then, with the
-    /// velocity that it would have in gravity: a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
+    /// A particle appears at the end of the substep in which it is due. It is then where gravity has taken it since it was due, with the velocity of
+    /// that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
-    /// A particle that is due is refused, and never made up for, when the matter at its place already fills the share
-    /// `fill_limit` of the grid, when that would fill more than this share of a room that obstacles close around the emitter, up to about four cells
-    /// away, when the budget is spent, or when the world has no room. Refusals are counted in
-    /// pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
+    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, when it would
+    /// fill more than this share of a space that obstacles enclose around the emitter (up to about four cells away), when the budget is spent, or when
+    /// the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct EmitterDef
     {
@@ -1191,8 +1175,8 @@ namespace Pbmpm
         public float FillLimit;
         /// <summary>particles that it may emit in its life; 0 (default): no limit</summary>
         public ulong Budget;
-        /// <summary>what snapshots know it by: not 0, and no other emitter of the world has it; 0 (default): its place in the world, see
-        /// snapshot.h</summary>
+        /// <summary>how snapshots find it again; no two emitters of a world may share one. 0 (default): none; the index of its identifier counts,
+        /// see snapshot.h</summary>
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
@@ -1273,8 +1257,8 @@ namespace Pbmpm
         public Float3 Velocity;
         /// <summary>DRAG and GRAB: turns about the axis through the shape's position [rad/s], in [-1e6, 1e6]; default 0</summary>
         public float Spin;
-        /// <summary>what snapshots know it by: not 0, and no other force of the world has it; 0 (default): its place in the world, see
-        /// snapshot.h</summary>
+        /// <summary>how snapshots find it again; no two forces of a world may share one. 0 (default): none; the index of its identifier counts,
+        /// see snapshot.h</summary>
         public ulong Key;
         /// <summary>the host's own; the library only keeps it; default 0</summary>
         public ulong UserData;
@@ -1463,7 +1447,7 @@ namespace Pbmpm
         public uint Size;
         /// <summary>0</summary>
         public uint Reserved;
-        /// <summary>of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() take `moved` from it.</summary>
+        /// <summary>of the shape [m], at the end of the next step; within 1e9. After pbmpm_world_shift_origin() subtract `moved`.</summary>
         public Double3 Position;
         /// <summary>quaternion (x, y, z, w) of length 0.5 to 2; 2D: x and y are 0</summary>
         public Double4 Rotation;
@@ -1471,13 +1455,13 @@ namespace Pbmpm
         public Double3 Velocity;
         /// <summary>[rad/s], in the world; within 1e9</summary>
         public Double3 AngularVelocity;
-        /// <summary>what the last call changed `velocity` by [m/s]: what the virtual mass goes on with</summary>
+        /// <summary>by which the last call changed `velocity` [m/s]; the virtual mass needs it in the next one</summary>
         public Double3 VelocityChange;
         /// <summary>the same of `angular_velocity` [rad/s]</summary>
         public Double3 AngularVelocityChange;
         /// <summary>as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used</summary>
         public Double3 Point;
-        /// <summary>V of the last call [kg], to look at; never read</summary>
+        /// <summary>V of the last call [kg]; for information: the library never reads it</summary>
         public double VirtualMass;
     }
 
@@ -1546,8 +1530,8 @@ namespace Pbmpm
         public ulong DeletedTotal;
         /// <summary>times a particle was slowed to max_displacement since creation</summary>
         public ulong ClampedTotal;
-        /// <summary>that the last substep was solved with; PBMPM_SOLVER_CONVERGENT: with several. Of several
-        /// islands iterations, residual and error are the largest, and checks that failed the sum</summary>
+        /// <summary>of the last substep; PBMPM_SOLVER_CONVERGENT: several. Then iterations, residual and error below are
+        /// the largest over the islands, and energy_checks_failed is the sum</summary>
         public Solver Solver;
         /// <summary>what ended its iterations</summary>
         public Stop Stop;
@@ -1558,8 +1542,8 @@ namespace Pbmpm
         /// <summary>root mean square distance of its displacements from the converged ones [cells], as predicted
         /// from the residual; 0 where residual is</summary>
         public float PredictedError;
-        /// <summary>primal, alone or with the dual: bodies of the last substep whose unfinished solution would have gained energy
-        /// and was replaced</summary>
+        /// <summary>primal, alone or with the dual: bodies whose unfinished solution would have gained energy in the last substep;
+        /// they began again from their rigid motion</summary>
         public uint EnergyChecksFailed;
         /// <summary>particles that the last substep did not move because they sleep</summary>
         public uint ParticlesAsleep;
@@ -1614,14 +1598,14 @@ namespace Pbmpm.Native
     /// once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
     /// of them have returned. Read at the creation of a world.
     ///
-    /// Tasks of one handle may wait for each other, for some milliseconds at most. They do not block but give up their core. Nobody waits for a task that
-    /// has not begun, so tasks may as well run one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
+    /// Tasks of one handle may wait for each other, for some milliseconds at most. While they wait they yield their core. None waits for a task that
+    /// has not begun, so a host may also run them one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
     /// `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
     ///
     /// A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
     /// some 40 microseconds run on the caller.
     ///
-    /// For one world one call at a time enqueues and finishes; other calls that read the world meanwhile do their work alone. There is one exception: the
+    /// One call at a time uses the hooks of a world; other calls that read the world meanwhile work on their own thread alone. There is one exception: the
     /// step in the background goes on enqueuing while another thread is in `finish` for the step itself.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct TaskHooks
@@ -1688,7 +1672,7 @@ namespace Pbmpm.Native
 
     /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
     /// the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). Let terrain reach some cells past the walls
-    /// of a domain: matter at a wall that its side is flush with would slip down between them.</summary>
+    /// of a domain. If its side is flush with a wall, matter slips down between the two.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
     {
@@ -1756,9 +1740,9 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that it
-    /// shows is one that the field had or has, of one particle or another, or 0; together they are no frame. Only views of AFFINE_VELOCITY and DEFORMATION may show
-    /// anything. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that an
+    /// expired view shows is an old or a present one of some particle, or 0; together they are no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+    /// are arbitrary. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -1787,9 +1771,9 @@ namespace Pbmpm.Native
         public uint Size;
         /// <summary>bytes from one particle to the next, a multiple of 4; 0 (default): what offset and fields take</summary>
         public uint Stride;
-        /// <summary>when: 1 (default): now; 0: before the last step; in [0, 1]. Positions are x - (1 - alpha) dt v with the
-        /// duration dt of the last step, right to 0.02 cells, and to 0.045 where liquid is crowded; other fields
-        /// are those of now.</summary>
+        /// <summary>time, from 0 (before the last step) to 1 (default: now). Positions are x - (1 - alpha) dt v with the
+        /// duration dt of the last step. They err by up to 0.02 cells, by up to 0.045 where liquid is crowded. Other
+        /// fields are those of now.</summary>
         public float Alpha;
         /// <summary>of `fields`; 0 (default): POSITION, VELOCITY, MATERIAL</summary>
         public uint FieldCount;
@@ -1827,11 +1811,11 @@ namespace Pbmpm.Native
         public ColliderId Collider;
         /// <summary>what was found; the code says of what</summary>
         public float Figure;
-        /// <summary>what it would have to keep to</summary>
+        /// <summary>the limit that the figure should keep to</summary>
         public float Bound;
-        /// <summary>what would help</summary>
+        /// <summary>which setting would help</summary>
         public Change Change;
-        /// <summary>to what; where it is out of a setting's range it is the end of that range</summary>
+        /// <summary>what to set it to, within the setting's range</summary>
         public float Value;
         /// <summary>what that costs, in percent of a step; negative: not known</summary>
         public float Price;
@@ -1984,8 +1968,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_heights_def_init(HeightsDef* def, UIntPtr size);
 
-        /// <summary>Bakes a closed mesh into the caller's `buffer` of `capacity` bytes. *bytes becomes the size that is needed. With a null buffer that is
-        /// all, and done at once: ask first, then bake. The memory that baking takes is the C library's and is given back. Errors: INVALID_ARGUMENT (a value out of range; a mesh that is open, wound in two ways, or holds no volume: the message
+        /// <summary>Bakes a closed mesh into the caller's `buffer` of `capacity` bytes. *bytes becomes the size that is needed. With a null buffer the call
+        /// only says the size, at once: ask first, then bake. The memory that baking takes is the C library's and is given back. Errors: INVALID_ARGUMENT (a value out of range; a mesh that is open, wound in two ways, or holds no volume: the message
         /// says where), OUT_OF_MEMORY, CAPACITY (the buffer is too small). Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_bake_mesh(MeshDef* def, IntPtr buffer, ulong capacity, ulong* bytes);
@@ -2063,8 +2047,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_world_set_settings(WorldId world, Settings* settings);
 
         /// <summary>Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
-        /// of occupied blocks has stopped growing. `dt` must be in (0, 10], and a
-        /// substep at least 1e-25 s and 1e-25 s/m times the cell size.
+        /// of occupied blocks has stopped growing. `dt` must be in (0, 10]. A
+        /// substep lasts at least 1e-25 s, and at least 1e-25 s per metre of the cell size.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
         /// needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
         /// was set from outside is brought into its material's range. With PBMPM_SOLVER_CONVERGENT islands that were solved before
@@ -2075,8 +2059,8 @@ namespace Pbmpm.Native
 
         /// <summary>Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
         /// is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
-        /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, but where it
-        /// meets obstacles, walls, emitters, drains, forces or bounds, for their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
+        /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, except where it
+        /// meets obstacles, walls, emitters, drains, forces or bounds: their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
         /// `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2195,13 +2179,13 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
-        /// <summary>Changes an obstacle, which keeps its identifier. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks.
+        /// <summary>Changes an obstacle, which keeps its identifier. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks.
         /// A new shape is there at once, without velocity. It ends a way that pbmpm_collider_move() asked for; so does `kinematic` 0.
         /// Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED: nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_set(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
-        /// <summary>Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the way it has to go; what
+        /// <summary>Where a kinematic obstacle shall be at the end of the next step. Its velocity follows from the distance; what
         /// matter feels of it is clamped to settings.max_displacement cells per substep. The pose itself is reached exactly.
         /// `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT (also: not kinematic), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2233,9 +2217,9 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_domain_wall_set(WorldId world, int axis, int upper, DomainWall* wall);
 
         /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
-        /// that it is within half a cell of, and a sensor that it is in. To be called once per step: what begins and ends between two calls is not seen, nor what was left of
-        /// a destroyed collider.
-        /// *count is how many touches there are; the first `capacity` of them are written. With less room than *count the next call compares with the same.
+        /// that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
+        /// seen, nor the end of the touches of a destroyed collider.
+        /// *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
         /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2246,7 +2230,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
 
         /// <summary>What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
-        /// Foreseen is what formulas and experience say of the matter that is there and that emitters bring; an empty list is no promise.
+        /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
         /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
@@ -2271,8 +2255,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
 
-        /// <summary>Begins a step of `dt` seconds and returns. Expires all views. What was published by the begin before stays readable until the next
-        /// begin.
+        /// <summary>Begins a step of `dt` seconds and returns. Expires all views. What the previous begin published stays readable until the next
+        /// one.
         /// Errors: those of pbmpm_world_step() that its arguments give; BUSY (also: a step is under way); OUT_OF_MEMORY (room for the
         /// published fields), THREAD (no thread for the step): then no step was begun and nothing has changed.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2324,7 +2308,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
 
-        /// <summary>Changes a drain (its place, too). A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
+        /// <summary>Changes a drain (its place, too). With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_set(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
 
@@ -2377,13 +2361,13 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
-        /// <summary>Changes an emitter. A null `def` or `shape` stays as it is, and so does what the caller's version of one lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
+        /// <summary>Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
         /// Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
         /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
-        /// motion. A way that adds more than 2^22 nodes per substep (in the domain) is jumped. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        /// motion. A path that crosses more than 2^22 nodes per substep (in the domain) is not followed: the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_move(WorldId world, EmitterId emitter, Float3* position, Float4* rotation);
 
@@ -2468,11 +2452,11 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_shape_mass(WorldId world, Shape* shape, float density, MassProperties* mass);
 
-        /// <summary>How much of an obstacle is under matter. That is where the surface of the matter around it, continued through the obstacle as a plane, leaves it:
-        /// no gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
+        /// <summary>How much of an obstacle is under matter. The surface of the matter around it is continued through the obstacle as a plane; what lies on the
+        /// matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
         ///
         /// Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
-        /// filling of query.h over the share that obstacles and walls leave open there; where they leave nothing, it is what stands next to it.
+        /// filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.
         /// The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
         /// `submersion-&gt;size` must be set. The first call of a world takes memory, later ones that need no more take none.
         /// Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
@@ -2522,9 +2506,9 @@ namespace Pbmpm.Native
         /// identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
         ///
         /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
-        /// (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, books and who is enabled are the snapshot's. Things
-        /// that only the world has stay as they are, things that only the snapshot has are left out, but for materials that particles have. All matter
-        /// is awake.
+        /// (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, counts and which of them are enabled come
+        /// from the snapshot. Objects that only the world has stay as they are. Objects that only the snapshot has are left out; a material that particles
+        /// need must be there. All matter is awake.
         ///
         /// Errors: DAMAGED (truncated, a byte has changed, or no snapshot at all); FOREIGN (another kind of world, or another version
         /// of the format); CAPACITY (particles or identifiers); OUT_OF_MEMORY (fields that the world has not used yet);
