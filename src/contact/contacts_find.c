@@ -69,15 +69,15 @@ static bool way_passes(const ContactFrame *frame, const Obstacle *o, const float
 }
 
 /* Contacts of a node with an obstacle of any form; written if `out` is not null. */
-static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], int node,
-                                   double distance, const double normal[3], Contact *out)
+static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o, const float *u, const double point[3], int node, const Plane *nearest,
+                                   Contact *out)
 {
     float surface[3];
     double way[3];
     Plane plane[PLANES_MAX];
     obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
     for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
-    const int count = concave_planes(&o->start, frame->cell_size, point, distance, normal, way, WAY_MARGIN, plane);
+    const int count = concave_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
     for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, plane[i].gap, plane[i].normal);
     return (uint32_t)count;
 }
@@ -182,7 +182,8 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
     for (int i = 0; i < grid->block_cells; i++) {
         const float *u = node + i * K_NODE_WIDTH;
         const uint32_t first = count;
-        double point[3], normal[3];
+        double point[3];
+        Plane nearest;
         if (u[3] == 0.0f || walls_hold(frame->walls, (uint32_t)(block * grid->block_cells + i))) continue; /* no mass, nobody listens */
         if (node_stays(frame, block, i)) {
             count += contacts_that_stay(frame, block, i, out ? out + count : NULL);
@@ -197,8 +198,8 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         for (int k = 0; k < near->count; k++) {
             const Obstacle *o = near->obstacle[k];
             if (!o->start.grid) continue;
-            const double distance = solid_distance(&o->start, point, normal) / frame->cell_size;
-            if (distance <= around->reach[k]) count += contacts_in_hollow(frame, o, u, point, i, distance, normal, out ? out + count : NULL);
+            nearest.gap = solid_distance(&o->start, point, nearest.normal) / frame->cell_size;
+            if (nearest.gap <= around->reach[k]) count += contacts_in_hollow(frame, o, u, point, i, &nearest, out ? out + count : NULL);
         }
         const bool walled = walls_list(frame->walls, (uint32_t)(block * grid->block_cells + i));
         const bool rubs = reach_solid(frame, (uint32_t)(block * grid->block_cells + i));

@@ -301,7 +301,8 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
     static const double STAY[3] = {0};
     const Solid *s = field_solid(near, first->obstacle);
     Plane plane[PLANES_MAX];
-    const int planes = concave_planes(s, near->cell_size, point, first->distance, first->normal, STAY, reach, plane);
+    const Plane nearest = {.normal = {first->normal[0], first->normal[1], first->normal[2]}, .gap = first->distance};
+    const int planes = concave_planes(s, near->cell_size, point, &nearest, STAY, reach, plane);
     const bool between = planes > 2 && fabs(solid_gap(s, first->foot)) > rounding_of(near, first->obstacle) * near->cell_size;
     if (!between) count = add_face(face, count, first, most);
     for (int i = 1; i < planes; i++) {

@@ -33,15 +33,24 @@ static double place_in_view(const View *view, const Particles *p, uint32_t row, 
     return (double)(p->cell[axis][row] - view->cell[axis]) + (double)p->fraction[axis][row];
 }
 
+/* One particle of a block, in a substep. */
+typedef struct Pushed {
+    Particles *all;
+    int32_t block;
+    uint32_t row;
+    float dt; /* of the substep */
+} Pushed;
+
 /* Moves a particle by `way` [cells] and takes away its velocity into the surface with this normal. */
-static void put_back(const ContactFrame *frame, const View *view, Particles *p, uint32_t row, float dt, const double way[3], const double normal[3],
-                     ImpulseSum *sum)
+static void put_back(const ContactFrame *frame, const View *view, const Pushed *one, const double way[3], const double normal[3], ImpulseSum *sum)
 {
+    Particles *p = one->all;
+    const uint32_t row = one->row;
     float surface[3];
     double point[3] = {0}, gained[3] = {0}, inward = 0.0;
     for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
     obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
-    const double to_velocity = frame->cell_size / (double)dt;
+    const double to_velocity = frame->cell_size / (double)one->dt;
     for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
     particles_shift(p, row, way);
     particles_forget(p, row);
@@ -92,31 +101,31 @@ static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row
 
 /* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
  * not fling it. */
-static void push_through(const ContactFrame *frame, const Face *face, Particles *p, int32_t block, uint32_t row, float dt, ImpulseSum *sum)
+static void push_through(const ContactFrame *frame, const Face *face, const Pushed *one, ImpulseSum *sum)
 {
-    const View view = view_from(frame, face->obstacle, block);
+    const View view = view_from(frame, face->obstacle, one->block);
     const double depth = field_rounded(-face->distance + 0.5 * FIELD_ROUNDING); /* up: not outside by a rounding */
     double way[3], normal[3];
     for (int a = 0; a < 3; a++) {
         normal[a] = field_rounded(face->normal[a]);
         way[a] = (face->obstacle->wall ? depth : fmin(depth, 1.0)) * normal[a];
     }
-    put_back(frame, &view, p, row, dt, way, normal, sum);
+    put_back(frame, &view, one, way, normal, sum);
 }
 
 /* What is behind a wall of the domain comes back at once, whatever else is there. False: no room to book in. */
-static bool push_inside(const ContactFrame *frame, const Near *near, Particles *p, int32_t block, uint32_t row, float dt, const Book *book)
+static bool push_inside(const ContactFrame *frame, const Near *near, const Pushed *one, const Book *book)
 {
     for (int i = 0; i < near->count; i++) {
         double point[3];
         Face face = {.obstacle = near->obstacle[i]};
         ImpulseSum *sum;
         if (!near->obstacle[i]->wall) continue;
-        place_of(frame, p, row, point);
+        place_of(frame, one->all, one->row, point);
         face.distance = solid_distance(field_solid(near, near->obstacle[i]), point, face.normal) / near->cell_size;
         if (face.distance >= 0.0) continue;
         if (!find_sum(frame, book, near->obstacle[i], &sum)) return false;
-        push_through(frame, &face, p, block, row, dt, sum);
+        push_through(frame, &face, one, sum);
     }
     return true;
 }
@@ -151,16 +160,17 @@ static bool has_way_out(const Near *near, const double point[3], Face *face)
 }
 
 /* A particle that ended inside obstacles is put back to the surface of their union. Its velocity into the surface is taken away. False: no room to book in. */
-static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, Particles *p, int32_t block, uint32_t row, float dt,
-                          const Book *book)
+static bool push_particle(const ContactFrame *frame, const Near *close, const double centre[3], double reach, const Pushed *one, const Book *book)
 {
+    const Particles *p = one->all;
+    const uint32_t row = one->row;
     Near all, some;
     double point[3];
     Face face[FIELD_FACES];
     ImpulseSum *sum[FIELD_FACES] = {NULL};
     place_of(frame, p, row, point);
     if (field_distance(close, point) >= 0.0) return true;
-    if (!push_inside(frame, close, p, block, row, dt, book)) return false;
+    if (!push_inside(frame, close, one, book)) return false;
     place_of(frame, p, row, point);
     if (field_distance(close, point) >= 0.0) return true;
     field_near(&all, frame, centre, reach + 2.0 * NODE_REACH, true);
@@ -171,7 +181,7 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     for (int i = 0; i < count; i++)
         if (face[i].distance < 0.0 && !find_sum(frame, book, face[i].obstacle, &sum[i])) return false;
     for (int i = 0; i < count; i++)
-        if (face[i].distance < 0.0) push_through(frame, &face[i], p, block, row, dt, sum[i]);
+        if (face[i].distance < 0.0) push_through(frame, &face[i], one, sum[i]);
     return true;
 }
 
@@ -262,13 +272,15 @@ static bool slide(const ContactFrame *frame, const Obstacle *o, const double fro
     return true;
 }
 
-static void hold_back(const ContactFrame *frame, const View *view, Particles *p, int32_t block, uint32_t row, double unseen, float dt, ImpulseSum *sum)
+static void hold_back(const ContactFrame *frame, const View *view, const Pushed *one, double unseen, ImpulseSum *sum)
 {
+    const Particles *p = one->all;
+    const uint32_t row = one->row;
     const Obstacle *o = &view->local;
     double from[3] = {0}, way[3] = {0}, back[3], normal[3], length2 = 0.0;
     float surface[3], carried2 = 0.0f;
     for (int a = 0; a < p->dimension; a++) {
-        way[a] = (double)(place_in_block(frame, p, block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
+        way[a] = (double)(place_in_block(frame, p, one->block, row, a) - particles_spare(p, CLASS_VECTOR, a)[row]);
         from[a] = (place_in_view(view, p, row, a) - way[a]) * frame->cell_size;
         length2 += way[a] * way[a];
     }
@@ -283,7 +295,7 @@ static void hold_back(const ContactFrame *frame, const View *view, Particles *p,
         }
         if ((double)carried2 > CARRIED_MOST * CARRIED_MOST) return;
     }
-    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, view, p, row, dt, back, normal, sum);
+    if (length2 > unseen * unseen && slide(frame, o, from, way, back, normal)) put_back(frame, view, one, back, normal, sum);
 }
 
 /* ---- Both ---- */
@@ -300,8 +312,10 @@ static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *
     const double unseen = longest_unseen(frame, o);
     if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
     const View view = view_from(frame, o, block);
-    for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
-        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, particles, block, row, unseen, dt, sum);
+    for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
+        const Pushed one = {particles, block, row, dt};
+        if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, &one, unseen, sum);
+    }
 }
 
 /* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
@@ -328,7 +342,8 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     for (; row < begin[block + 1] && near.count > 0; row++) {
         if (particles->status[row] != K_ALIVE) continue;
         const Near *meeting = field_meeting(&near, contacts_row_groups(frame, particles, row), &some);
-        if (push_particle(frame, meeting, centre, reach, particles, block, row, dt, book)) continue;
+        const Pushed one = {particles, block, row, dt};
+        if (push_particle(frame, meeting, centre, reach, &one, book)) continue;
         book->notes->resume = colliders->obstacle_count;
         book->notes->row = row;
         return;

@@ -327,17 +327,22 @@ static WallEntry *new_entry(Builder *b)
     return entry;
 }
 
-/* The nodes around a place `way` [cells] from the node, by multilinear weights times `weight`; with `clear` only those that no face of `profile` binds. `distance`:
- * their mean distances from the faces. False: there are none. */
-static bool find_parents(Builder *b, const Bound *bound, const double way[3], double weight, const Profile *profile, int count, bool clear, double distance[NORMALS_MAX],
-                         WallEntry *entry)
+/* A place whose nodes stand for a node at a wall. */
+typedef struct Image {
+    double way[3]; /* from the node [cells] */
+    double weight;
+    bool before; /* only nodes before all faces count */
+} Image;
+
+/* The nodes around an image, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are none. */
+static bool find_parents(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX], WallEntry *entry)
 {
     const int dimension = b->frame->grid->dimension, corners = 1 << dimension;
     int64_t node[CORNERS_MAX];
     double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
     for (int a = 0; a < dimension; a++) {
-        low[a] = floor(way[a] + 1e-6);
-        part[a] = fmax(way[a] - low[a], 0.0);
+        low[a] = floor(image->way[a] + 1e-6);
+        part[a] = fmax(image->way[a] - low[a], 0.0);
     }
     for (int k = 0; k < corners; k++) {
         int offset[3] = {0};
@@ -358,7 +363,7 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
         if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
         bool free = !(other && other->face[0].distance < CLEAR);
         for (int j = 0; j < count; j++) free = free && off[k][j] >= CLEAR;
-        if (clear && !free) continue;
+        if (image->before && !free) continue;
         share[k] = of_corner;
         sum += of_corner;
     }
@@ -369,7 +374,7 @@ static bool find_parents(Builder *b, const Bound *bound, const double way[3], do
         if (share[k] == 0.0) continue;
         for (int j = 0; j < count; j++) distance[j] += share[k] / sum * off[k][j];
         entry->parent[used] = listed(b, node[k]);
-        entry->weight[used++] = (float)(weight * share[k] / sum);
+        entry->weight[used++] = (float)(image->weight * share[k] / sum);
     }
     entry->corners = (uint32_t)used;
     return true;
@@ -438,11 +443,12 @@ static void way_out(const Profile *profile, int count, double way[3])
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
-    double way[3] = {0}, distance[NORMALS_MAX], scale[NORMALS_MAX];
-    way_out(profile, count, way);
+    Image image = {.weight = 1.0, .before = true};
+    double distance[NORMALS_MAX], scale[NORMALS_MAX];
+    way_out(profile, count, image.way);
     WallEntry *entry = new_entry(b);
     if (!entry) return;
-    const bool found = find_parents(b, bound, way, 1.0, profile, count, true, distance, entry);
+    const bool found = find_parents(b, bound, &image, profile, count, distance, entry);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
     float matrix[6];
     memcpy(matrix, rest, sizeof matrix);
@@ -476,14 +482,13 @@ static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Pr
 {
     double unused[NORMALS_MAX];
     for (int set = 0; set < 1 << count; set++) {
-        const double weight = share_of_set(profile, count, set);
-        double way[3] = {0};
-        if (weight < LITTLE) continue;
-        mirror(profile, count, set, way);
+        Image image = {.weight = share_of_set(profile, count, set)};
+        if (image.weight < LITTLE) continue;
+        mirror(profile, count, set, image.way);
         WallEntry *entry = set > 0 ? new_entry(b) : NULL;
         if (set > 0 && !entry) return;
-        if (!entry || !find_parents(b, bound, way, weight, profile, count, false, unused, entry)) {
-            ((WallNode *)b->walls->node.data)[index].own_mirror += (float)weight;
+        if (!entry || !find_parents(b, bound, &image, profile, count, unused, entry)) {
+            ((WallNode *)b->walls->node.data)[index].own_mirror += (float)image.weight;
             continue;
         }
         entry->mirrored = true;

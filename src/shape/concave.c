@@ -104,11 +104,11 @@ static void look_ahead(Lookout *l, const double way[3])
     if (best.distance <= l->margin && dot3(best.normal, way) < 0.0) add_plane(l, &best);
 }
 
-int concave_planes(const Solid *solid, double cell_size, const double point[3], double distance, const double normal[3], const double way[3],
-                   double margin, Plane planes[PLANES_MAX])
+int concave_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
+                   Plane planes[PLANES_MAX])
 {
-    Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = distance, .margin = margin, .plane = planes};
-    if (distance <= margin) look_around(&l, normal);
+    Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = nearest->gap, .margin = margin, .plane = planes};
+    if (nearest->gap <= margin) look_around(&l, nearest->normal);
     look_ahead(&l, way);
     return l.count;
 }

@@ -13,8 +13,8 @@ typedef struct Plane {
 } Plane;
 
 /* The planes for a node at `point` [m] that wants to go `way` [cells] and may go `margin` cells aside; returns their number, 0 if it
- * does not come within the margin. `distance` and `normal`: the solid's at the point [cells]. */
-int concave_planes(const Solid *solid, double cell_size, const double point[3], double distance, const double normal[3], const double way[3],
-                   double margin, Plane planes[PLANES_MAX]);
+ * does not come within the margin. `nearest`: the solid's normal and, as the gap, its distance at the point [cells]. */
+int concave_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
+                   Plane planes[PLANES_MAX]);
 
 #endif

@@ -1,4 +1,5 @@
-"""Holds the order of the rooms of src: an include points to the same room or a lower one, and no circle leads back to a file.
+"""Holds the order of the rooms of src: an include points to the same room or a lower one, no circle leads back to a file, and no function of C has
+more than seven parameters.
 
 A file is what one name stands for: NAME.h and NAME.c include as one. `rooms.py SRC` prints what breaks the order, and the exit status is then 1;
 `rooms.py --planted SRC` plants such includes into a copy, one at a time, and asks whether each is found.
@@ -75,9 +76,24 @@ def _way_back(edges: dict[str, set[str]], start: str) -> list[str]:
     return []
 
 
+PARAMETERS_MOST = 7
+_FUNCTION = re.compile(r"^[a-z][\w \*]*?\b(\w+)\(([^;{}()]*)\)\s*\{", re.MULTILINE)
+
+
+def long_lists(source: Path) -> list[str]:
+    """Functions with more parameters than a reader keeps apart."""
+    found = []
+    for path in sorted(source.rglob("*.c")):
+        for name, parameters in _FUNCTION.findall(path.read_text(encoding="utf-8")):
+            count = parameters.count(",") + 1
+            if count > PARAMETERS_MOST:
+                found.append(f"{path.relative_to(source)}: {name}() has {count} parameters")
+    return found
+
+
 def problems_of(source: Path) -> list[str]:
     includes = included(source)
-    return order_problems(source, includes) + [f"a circle: {it}" for it in circles(includes)]
+    return order_problems(source, includes) + [f"a circle: {it}" for it in circles(includes)] + long_lists(source)
 
 
 #: A file, what is written at its end, and a part of what has to be said of it.
@@ -88,6 +104,7 @@ PLANTED = (
     ("solvers/dual/dual.c", '#include "solvers/joint.h"', "a circle: solvers/dual/dual -> solvers/joint -> solvers/dual/dual"),
     ("world/depth.c", '#include "depth.h"', "world/depth.c includes depth.h, which is no file in a room"),
     ("attic/things.h", "", "attic/things.h is in no room"),
+    ("base/memory.c", "void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "base/memory.c: f() has 8 parameters"),
 )
 
 

@@ -603,21 +603,22 @@ static void check_ways(int d, double most)
     int through = 0;
     solid.grid = &baked.grid;
     for (int i = 0; i < WAYS; i++) {
-        double point[3] = {0}, way[3] = {0}, normal[3], deepest = 0.0, size2 = 0.0;
-        Plane plane[PLANES_MAX];
+        double point[3] = {0}, way[3] = {0}, deepest = 0.0, size2 = 0.0;
+        Plane nearest, plane[PLANES_MAX];
         for (int a = 0; a < d; a++) {
             point[a] = random_in(&random, -2.0, 2.0);
             way[a] = random_in(&random, -most, most);
             size2 += way[a] * way[a];
         }
-        const double distance = solid_distance(&solid, point, normal) / cell;
+        const double distance = solid_distance(&solid, point, nearest.normal) / cell;
         if (distance < 0.0 || size2 > most * most) continue;
+        nearest.gap = distance;
         for (int k = 1; k <= PLACES; k++) {
             double there[3] = {0}, unused[3];
             for (int a = 0; a < d; a++) there[a] = point[a] + way[a] * cell * k / PLACES;
             deepest = fmin(deepest, solid_distance(&solid, there, unused) / cell);
         }
-        const int planes = concave_planes(&solid, cell, point, distance, normal, way, margin, plane);
+        const int planes = concave_planes(&solid, cell, point, &nearest, way, margin, plane);
         bool forbidden = false;
         for (int k = 0; k < planes; k++) {
             const double along = plane[k].normal[0] * way[0] + plane[k].normal[1] * way[1] + plane[k].normal[2] * way[2];
