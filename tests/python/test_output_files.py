@@ -19,6 +19,7 @@ from pbmpm.lab.pictures.drawing import draw_picture
 from pbmpm.lab.pictures.look import annotate, look_of, particle_colours
 from pbmpm.lab.pictures.flat import draw_2d
 from pbmpm.lab.pictures.traced import draw_3d
+from pbmpm.lab.pictures.video import Video
 from pbmpm.lab.parsing import parse_scene
 from pbmpm.lab.scenes.scene import Scene
 
@@ -217,3 +218,33 @@ def test_faster_is_brighter() -> None:
     frame.velocities[:] = [[0, 0], [0, look.top_speed]]
     slow, fast = particle_colours(frame, look).sum(axis=1)
     assert fast > slow + 100
+
+
+def test_a_video_has_a_picture_each_80_ms(tmp_path: Path) -> None:
+    video = Video(tmp_path / "run.gif")
+    times = [step / 60 for step in range(61)]
+    for time in times:
+        if video.due(time):
+            picture = Image.new("RGB", (960, 480))
+            picture.paste((250, 200, 0), (int(900 * time), 0, int(900 * time) + 60, 480))
+            video.add(picture)
+    video.save()
+    with Image.open(tmp_path / "run.gif") as saved:
+        assert (saved.size, saved.n_frames, saved.info["duration"]) == ((480, 240), 13, 80)
+        saved.seek(12)
+        assert [saved.convert("RGB").getpixel((x, 5))[0] > 200 for x in (10, 440)] == [False, True]
+    assert [path.name for path in tmp_path.iterdir()] == ["run.gif"]
+
+
+def test_a_video_without_a_picture_is_no_file(tmp_path: Path) -> None:
+    Video(tmp_path / "run.gif").save()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_picture_before_any_particle_shows_what_brings_them() -> None:
+    """An emitter alone, in a world without a domain."""
+    emitter = {"shape": {"kind": "sphere", "position": [0.5, 0.8], "radius": 0.1}, "material": "water", "rate": 0.05}
+    scene = make_scene(2, fills=[], emitters=[emitter], domain=None)
+    frame = make_frame(2, positions=np.zeros((0, 2)))
+    picture = draw_picture(frame, look_of(scene, "60 Hz"))
+    assert picture.width == 320 and picture.height > 100

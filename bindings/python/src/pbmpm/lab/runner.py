@@ -20,6 +20,7 @@ from .meter import Meter
 from .output import Sequence
 from .pictures.drawing import draw_picture
 from .pictures.look import Look, look_of, save_png
+from .pictures.video import Video
 from .progress import progress_bar
 from .scenes.scene import Scene
 from .simulation import RunSettings, Simulation, solved_with, versions
@@ -38,6 +39,8 @@ class OutputOptions:
     every: int = 1
     """Steps between particle files."""
     picture_times: list[float] = field(default_factory=list)
+    video: Path | None = None
+    """File for an animation."""
 
 
 @dataclass(frozen=True)
@@ -133,6 +136,7 @@ class _Recorder:
         self._output = output
         self._pictures = sorted(output.picture_times)
         self._look: Look = look_of(scene, settings.text())
+        self._video = Video(output.video) if output.video is not None else None
         self._sequence: Sequence | None = None
         if output.folder is not None:
             facts = _sidecar_facts(scene, settings, simulation)
@@ -140,11 +144,14 @@ class _Recorder:
 
     def after_step(self, simulation: Simulation) -> None:
         """To be called before the first step and after each."""
+        frame: Frame | None = None
+        if self._video is not None and self._video.due(simulation.time):
+            frame = simulation.frame()
+            self._video.add(draw_picture(frame, self._look))
         if self._sequence is None:
             return
-        frame: Frame | None = None
         if (self._output.ply or self._output.vtk) and simulation.steps % self._output.every == 0:
-            frame = simulation.frame()
+            frame = frame or simulation.frame()
             self._sequence.add_frame(frame)
         while self._pictures and self._pictures[0] <= simulation.time + _TIME_TOLERANCE:
             frame = frame or simulation.frame()
@@ -157,6 +164,8 @@ class _Recorder:
         self._sequence.add_picture(frame.time, name)
 
     def finish(self, status: str, report: dict[str, Any]) -> None:
+        if self._video is not None:
+            self._video.save()
         if self._sequence is not None:
             self._sequence.finish(status, report)
 

@@ -37,6 +37,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 @click.option(
     "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
 )
+@click.option("--video", type=OutputFile(), metavar="FILE", help="Write an animated GIF, 480 pixels wide, at the pace of the scene.")
 @click.option(
     "--warmup-steps",
     type=click.IntRange(0),
@@ -48,7 +49,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options: Any) -> None:
     """Simulate a scene file, ours or one of the EA demo.
 
-    Files are written only with --output, --ply, --vtk or --pictures. Ctrl-C ends the run after the current step and
+    Files are written only with --output, --ply, --vtk, --pictures or --video. Ctrl-C ends the run after the current step and
     leaves complete files.
     """
     from ..effects.catalogue import remarks
@@ -69,6 +70,8 @@ def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options:
         click.echo(_summary(result.report))
         if output.folder is not None:
             click.echo(f"files: {output.folder}")
+        if output.video is not None:
+            click.echo(f"video: {output.video}")
     for problem in result.problems:
         click.echo(f"check failed: {problem}", err=True)
     if result.interrupted:
@@ -89,14 +92,14 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
 
     wanted = options["pictures"]
     if options["output"] is None and not (options["ply"] or options["vtk"] or wanted):
-        return OutputOptions()
+        return OutputOptions(video=options["video"])
     folder = options["output"] or Path(f"{scene.name}-output")
     times = scene.picture_times(seconds) if wanted is None else wanted
     late = [time for time in times if time > seconds]
     if late:
         raise InputError(f"--pictures: {late[0]:g} s is after the end of the run at {seconds:g} s")
     every = options["every"] or max(1, round(settings.rate_hz / 30))
-    return OutputOptions(folder, options["ply"], options["vtk"], every, times)
+    return OutputOptions(folder, options["ply"], options["vtk"], every, times, options["video"])
 
 
 def _summary(report: dict[str, Any]) -> str:

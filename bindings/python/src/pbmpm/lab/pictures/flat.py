@@ -78,8 +78,10 @@ def _bounds(frame: Frame, look: Look) -> tuple[np.ndarray, np.ndarray]:
         return np.array(domain.min), np.array(domain.max)
     corners = [_reach_of(fill.shape) for fill in look.scene.sources]
     corners += [_reach_of(c.shape) for c in look.scene.colliders if c.shape.kind != "plane"]
-    low = np.min([low for low, _ in corners] + [frame.positions.min(axis=0)] * bool(len(frame.positions)), axis=0)
-    high = np.max([high for _, high in corners] + [frame.positions.max(axis=0)] * bool(len(frame.positions)), axis=0)
+    if len(frame.positions):
+        corners.append((frame.positions.min(axis=0), frame.positions.max(axis=0)))
+    low = np.min([low for low, _ in corners], axis=0)
+    high = np.max([high for _, high in corners], axis=0)
     return low, high
 
 
