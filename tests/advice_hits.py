@@ -39,7 +39,7 @@ SUBJECTS = (
     (r"^rolling", "rolling"),
     (r"restitution|contact time", "bounce"),
     (r"\btip\b|modulus|stretch|strain", "modulus"),
-    (r"share of the jelly|share below the level|^sinks|^rigid_box|lift over", "afloat"),
+    (r"share of the jelly|share below the level|^sinks|^in_a_narrow_glass|^rigid_box|lift over", "afloat"),
     (r"below (a|the) floor|has left|behind the wall|pool's share", "leak"),
     (r"speed over true|way over|creep|spin|collision|^stack|^lies_on|^disc_on|^tall_block|^clay", "contact"),
     (r"rms speed|kinetic energy", "calm"),

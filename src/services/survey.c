@@ -4,6 +4,7 @@
 #include <stdlib.h>
 
 #include "base/result.h"
+#include "contact/domain.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
 typedef struct Share {
@@ -16,7 +17,7 @@ typedef struct Share {
     double thickness; /* least so far */
 } Share;
 
-enum { AXIS_BITS = 18, GROUP_BITS = 9, FEW = 8 };
+enum { AXIS_BITS = 18, GROUP_BITS = 9, FEW = 8, HALF = 1 << (AXIS_BITS - 1) };
 
 typedef struct Cells {
     Share *share;
@@ -49,14 +50,13 @@ static void sort_along(Cells *cells, int axis, bool grouped)
 static void find_cells(const World *world, Cells *cells)
 {
     const Particles *p = &world->particles;
-    const int32_t half = 1 << (AXIS_BITS - 1);
     for (uint32_t row = 0; row < p->count; row++) {
         const uint32_t slot = p->material[row];
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
         bool near = true;
         for (int a = 0; a < p->dimension; a++) {
-            share.cell[a] = p->cell[a][row] - p->cell[a][0] + half;
-            near = near && share.cell[a] > 0 && share.cell[a] < 2 * half - 1;
+            share.cell[a] = p->cell[a][row] - p->cell[a][0] + HALF;
+            near = near && share.cell[a] > 0 && share.cell[a] < 2 * HALF - 1;
         }
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
         if (near) cells->share[cells->count++] = share;
@@ -109,6 +109,58 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
     }
     for (int group = 0; depth && group <= PBMPM_MAX_MATERIALS; group++)
         if (weight[group] > 0.0) depth[group] /= weight[group];
+}
+
+/* ---- Room ---- */
+
+/* Cells beside a run in which an obstacle counts as near, and runs that are looked at, along an axis. */
+enum { ROOM = 5, LOOKED_AT = 64 };
+
+static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+{
+    double point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) {
+        point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
+        for (int upper = 0; upper < 2 && world->def.domain_enabled; upper++)
+            if (!world->domain.wall[domain_place(a, upper)].open && (upper ? point[a] > (double)world->def.domain_max[a] : point[a] < (double)world->def.domain_min[a])) return false;
+    }
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[slot].groups)) continue;
+        const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
+        if (solid_gap(&solid, point) < 0.0) return false;
+    }
+    return true;
+}
+
+/* Whether an obstacle stands within ROOM cells of an end of a run. */
+static bool is_shut(const World *world, const Share *end, int axis, int way)
+{
+    int32_t cell[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) cell[a] = end->cell[a] + world->particles.cell[a][0] - HALF;
+    for (int step = 0; step < ROOM; step++) {
+        cell[axis] += way;
+        if (!is_open(world, end->slot, cell)) return true;
+    }
+    return false;
+}
+
+/* Which share of each solid stands between obstacles along an axis. */
+static void measure_room(const World *world, Cells *cells, int axis, double narrow[PBMPM_MAX_MATERIALS + 1])
+{
+    double all[PBMPM_MAX_MATERIALS + 1] = {0}, shut[PBMPM_MAX_MATERIALS + 1] = {0};
+    uint32_t runs = 0, number = 0;
+    sort_along(cells, axis, true);
+    for (uint32_t first = 0; first < cells->count; first += run_from(cells, first)) runs += cells->share[first].group > 0;
+    const uint32_t stride = 1 + runs / LOOKED_AT;
+    for (uint32_t first = 0, count; first < cells->count; first += count) {
+        const Share *run = &cells->share[first];
+        count = run_from(cells, first);
+        if (run->group == 0 || number++ % stride != 0) continue;
+        all[run->group] += count;
+        if (is_shut(world, run, axis, -1) && is_shut(world, run + count - 1, axis, 1)) shut[run->group] += count;
+    }
+    for (int group = 1; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = all[group] > 0.0 ? fmin(narrow[group], shut[group] / all[group]) : 0.0;
 }
 
 /* ---- Crowding ---- */
@@ -250,8 +302,11 @@ static const double THICKEST = 4.0;
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
-    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0};
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
     const int down = axis_of_gravity(world);
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = 1.0;
+    for (int a = 0; a < cells->dimension; a++)
+        if (a != down) measure_room(world, cells, a, narrow);
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
     measure_filling(cells, filling);
     measure_overlaps(cells, overlapping);
@@ -268,6 +323,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         survey->heap[slot].depth = depth[group];
         survey->heap[slot].filling = filling[group];
         survey->heap[slot].overlapping = overlapping[group];
+        survey->heap[slot].narrow = group > 0 ? narrow[group] : 0.0;
         if (!(weight[group] > 0.0)) continue;
         survey->heap[slot].thickness = thickness[group] / weight[group];
         survey->heap[slot].evenness = mean[group] / mass[group] / survey->heap[slot].thickness;

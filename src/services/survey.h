@@ -13,6 +13,7 @@ typedef struct Heap {
     double evenness;   /* the mean thickness over that; 1: a box along the axes */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
+    double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;
 

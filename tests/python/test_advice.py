@@ -115,3 +115,28 @@ def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None
         ("collider_too_fast", "colliders[1]"),
     }
     assert report["advice_after"] and all(row["text"] and row["price_percent_of_step"] is not None for row in report["advice_after"])
+
+
+def hangs(world: pbmpm.World) -> bool:
+    return any("hangs in a liquid" in item.text for item in world.advice(1 / 60))
+
+
+@pytest.mark.parametrize(("low", "high", "wanted"), [(3, 3, True), (4, 4, True), (5, 5, False), (1, 8, False), (9, 9, False)])
+@pytest.mark.parametrize("colliders", [False, True], ids=["domain", "colliders"])
+def test_a_body_between_walls_that_are_near_on_both_sides_hangs(dimension: int, colliders: bool, low: int, high: int, wanted: bool) -> None:
+    """A box of eight cells with so many cells to its sides, in water and dry. Walls of colliders stand where those of the domain did."""
+    cell, width = 0.05, 8 + low + high
+    size = [width * cell, 1.2, width * cell][:dimension]
+    with pbmpm.World(dimension, cell, gravity=[0, -9.81, 0][:dimension], domain=None if colliders else ([0.0] * dimension, size)) as world:
+        if colliders:
+            for axis in (0, 2)[: dimension - 1]:
+                for end, side in ((0.0, -1.0), (size[axis], 1.0)):
+                    centre, half = [width * cell / 2] * dimension, [2.0] * dimension
+                    centre[axis], half[axis] = end + 0.1 * side, 0.1
+                    world.add_collider(pbmpm.Box(centre, half))
+        middle = [cell * (low + 4), 0.8, cell * (low + 4)][:dimension]
+        body = world.add_material(pbmpm.Elastic(density=500))
+        world.fill(pbmpm.Box(middle, [4 * cell] * dimension), body)
+        assert not hangs(world)
+        world.fill(pbmpm.Box([0.5 * size[0], 0.2, 0.5 * size[0]][:dimension], [0.5 * size[0], 0.1, 0.5 * size[0]][:dimension]), world.add_material(pbmpm.Liquid()))
+        assert hangs(world) is wanted
