@@ -115,7 +115,7 @@ def to_c(shape: Shape, dimension: int) -> Any:
         assign(out, "radius", shape.radius)
     elif isinstance(shape, Baked):
         out.baked = shape.solid._id
-    else:
+    elif isinstance(shape, Sphere):
         assign(out, "radius", shape.radius)
     return out
 
@@ -130,4 +130,6 @@ def from_c(shape: Any, dimension: int) -> Shape:
         return Box(position, plain(shape.half_extents)[:dimension], rotation)
     if shape.kind == _KINDS[Sphere]:
         return Sphere(position, shortest(shape.radius))
-    return Capsule(position, shortest(shape.half_extents[0]), shortest(shape.radius), rotation)
+    if shape.kind == _KINDS[Capsule]:
+        return Capsule(position, shortest(shape.half_extents[0]), shortest(shape.radius), rotation)
+    raise ValueError(f"there is no shape of kind {shape.kind} here")

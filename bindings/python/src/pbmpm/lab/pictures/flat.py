@@ -119,15 +119,19 @@ def _outline(collider: ColliderPart, pose: Pose, view: _View) -> np.ndarray:
 def _local_outline(shape, far: float) -> np.ndarray:
     turn = np.linspace(0.0, 2 * math.pi, 96, endpoint=False)
     circle = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    if shape.kind == "box":
-        return np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.array(shape.half_extents)
-    if shape.kind == "sphere":
-        return circle * shape.radius
-    if shape.kind == "capsule":
-        return circle * shape.radius + np.where(circle[:, :1] >= 0, 1.0, -1.0) * np.array([shape.half_length, 0.0])
-    normal = np.array(shape.normal) / math.hypot(*shape.normal)
-    along = np.array([-normal[1], normal[0]])
-    return far * np.array([along, along - normal, -along - normal, -along])
+    match shape.kind:
+        case "box":
+            return np.array([[-1, -1], [1, -1], [1, 1], [-1, 1]]) * np.array(shape.half_extents)
+        case "sphere":
+            return circle * shape.radius
+        case "capsule":
+            return circle * shape.radius + np.where(circle[:, :1] >= 0, 1.0, -1.0) * np.array([shape.half_length, 0.0])
+        case "plane":
+            normal = np.array(shape.normal) / math.hypot(*shape.normal)
+            along = np.array([-normal[1], normal[0]])
+            return far * np.array([along, along - normal, -along - normal, -along])
+        case _:
+            raise ValueError(f"a {shape.kind} has no outline")
 
 
 def _inside(view: _View, look: Look) -> tuple[float, float, float, float]:

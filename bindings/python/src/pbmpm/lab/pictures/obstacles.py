@@ -83,15 +83,17 @@ def _march(shape, eye, rays, size: float) -> tuple[np.ndarray, np.ndarray, np.nd
 
 def _distance_function(shape) -> Callable[[np.ndarray], np.ndarray]:
     """Signed distance to the surface in the shape's own frame."""
-    if shape.kind == "sphere":
-        return lambda p: np.linalg.norm(p, axis=1) - shape.radius
-    if shape.kind == "capsule":
-        return lambda p: (
-            np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
-        )
-    if shape.kind in ("mesh", "heights"):
-        return distance_function(baked_solid(shape, 3))
-    raise ValueError(f"there is no distance function of a {shape.kind}")
+    match shape.kind:
+        case "sphere":
+            return lambda p: np.linalg.norm(p, axis=1) - shape.radius
+        case "capsule":
+            return lambda p: (
+                np.linalg.norm(p - np.stack([_along(p, shape), 0 * p[:, 0], 0 * p[:, 0]], axis=1), axis=1) - shape.radius
+            )
+        case "mesh" | "heights":
+            return distance_function(baked_solid(shape, 3))
+        case _:
+            raise ValueError(f"there is no distance function of a {shape.kind}")
 
 
 def _along(points: np.ndarray, shape) -> np.ndarray:
@@ -105,12 +107,18 @@ def _gradient(distance, points: np.ndarray, step: float) -> np.ndarray:
 
 
 def _outer_radius(shape) -> float:
-    if shape.kind == "box":
-        return float(np.linalg.norm(shape.half_extents))
-    if shape.kind in ("mesh", "heights"):
-        info = baked_solid(shape, 3).info
-        return float(np.linalg.norm(np.maximum(np.abs(info.minimum), np.abs(info.maximum))))
-    return shape.radius + getattr(shape, "half_length", 0.0)
+    match shape.kind:
+        case "box":
+            return float(np.linalg.norm(shape.half_extents))
+        case "sphere":
+            return shape.radius
+        case "capsule":
+            return shape.radius + shape.half_length
+        case "mesh" | "heights":
+            info = baked_solid(shape, 3).info
+            return float(np.linalg.norm(np.maximum(np.abs(info.minimum), np.abs(info.maximum))))
+        case _:
+            raise ValueError(f"a {shape.kind} has no radius")
 
 
 def _rows_and_columns(camera: Camera, centre: np.ndarray, radius: float) -> tuple[slice, slice]:
