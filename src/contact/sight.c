@@ -148,6 +148,7 @@ pbmpm_result sight_keep(const ContactFrame *frame, Walls *walls, int opened, Mem
     const size_t blocks = (size_t)grid->node_blocks;
     if (!sight) return PBMPM_OK;
     sight_forget(sight);
+    if (blocks == 0) return PBMPM_OK; /* spray alone: there is no grid */
     if (!array_reserve(memory, &sight->stood, (size_t)colliders->obstacle_count, sizeof(Stood)) ||
         !array_reserve(memory, &sight->coordinate, 3 * blocks, sizeof(int32_t)) ||
         !array_reserve(memory, &sight->marked, blocks, sizeof(uint64_t)))

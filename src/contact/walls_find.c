@@ -680,8 +680,9 @@ static const Bound *bound_before(const ContactFrame *frame, int32_t block, int n
     const int32_t from = sight_from(frame, block);
     if (from == GRID_NOWHERE || !sight->walled) return NULL;
     const uint64_t marks = ((const uint64_t *)sight->marked.data)[from], bit = (uint64_t)1 << node;
+    if (!(marks & bit)) return NULL;
     const Bound *bound = (const Bound *)sight->bound.data + ((const uint32_t *)sight->begin.data)[from] + count_bits(marks & (bit - 1));
-    return marks & bit && !bound->thin ? bound : NULL;
+    return bound->thin ? NULL : bound;
 }
 
 static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
@@ -702,6 +703,7 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
     const ContactFrame *frame = job->frame;
     Near near;
     for (int32_t block = first; block < end; block++) {
+        if (job->marks[block] == 0) continue;
         Bound *bound = job->bound + job->begin[block];
         bool looked = false;
         for (int i = 0; i < frame->grid->block_cells; i++) {
