@@ -223,7 +223,6 @@ void joint_solve(World *world, const ContactFrame *contacts)
     dual_solve_with(world, contacts, sketch);
     const StepRecord dual = world->record;
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
-    memcpy(world->joint.node.data, world->grid.node.data, bytes);
     world->record.iterations_used = 0;
     begin_primal(world);
     walls_clear(&world->walls); /* contacts book what they give */

@@ -520,7 +520,7 @@ static float shorter(const Primal *p)
 
 /* Follows the direction, with at most `most` evaluations. False if nothing was found. A single iteration of a liquid has no other after it that mends what
  * it did too much of: with one more evaluation it is shortened. */
-static bool descend(Primal *p, uint32_t *passes, uint32_t most)
+bool primal_descend(Primal *p, uint32_t *passes, uint32_t most)
 {
     bool last = *passes == 0 && most == 1 && solver_holds_liquid(p->world);
     Loops loops;
@@ -555,7 +555,7 @@ static void minimise(Primal *p)
         if (decrement <= 0.0 && p->pairs > 0) decrement = primal_find_plain_direction(p);
         record->residual = sqrt(fmax(decrement, 0.0) / p->mass);
         if (!solver_may_go_on(p->world, PRIMAL_ERROR_PER_RESIDUAL * record->residual)) return;
-        if (!(decrement > 0.0) || !descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations)) return;
+        if (!(decrement > 0.0) || !primal_descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations)) return;
     }
 }
 
@@ -566,7 +566,7 @@ static void lead(Primal *p)
     enum { STEPS = 3 };
     uint32_t passes = 0;
     while (p->mixed && passes < STEPS && !solver_time_is_up(p->world) && primal_find_direction(p) > 0.0)
-        if (!descend(p, &passes, STEPS)) return;
+        if (!primal_descend(p, &passes, STEPS)) return;
 }
 
 /* Goes on along p->direction, without stop rules, for what the energy check asks for. */
@@ -574,7 +574,7 @@ void primal_descend_further(Primal *p)
 {
     uint32_t *passes = &p->world->record.iterations_used;
     const uint32_t most = *passes + (uint32_t)p->world->settings.iterations + 1;
-    while (descend(p, passes, most) && *passes < most && primal_find_direction(p) > 0.0) {}
+    while (primal_descend(p, passes, most) && *passes < most && primal_find_direction(p) > 0.0) {}
 }
 
 /* ---- The substep ---- */
@@ -666,7 +666,7 @@ void primal_sketch(World *world, const ContactFrame *contacts)
     Primal p = begin_solve(world, contacts, true);
     const uint32_t most = ((uint32_t)world->settings.iterations + 1) / 2;
     uint32_t passes = 0;
-    while (passes < most && !solver_time_is_up(world) && primal_find_direction(&p) > 0.0 && descend(&p, &passes, most)) {}
+    while (passes < most && !solver_time_is_up(world) && primal_find_direction(&p) > 0.0 && primal_descend(&p, &passes, most)) {}
     primal_over_blocks(&p, write_motion);
 }
 
@@ -675,7 +675,10 @@ void primal_solve(World *world, const ContactFrame *contacts)
     Primal p = begin_solve(world, contacts, false);
     lead(&p);
     minimise(&p);
-    if (!p.joint) primal_let_fly(&p);
+    if (p.joint)
+        primal_balance_momentum(&p);
+    else
+        primal_let_fly(&p);
     primal_keep_momentum(&p);
     primal_keep_energy(&p);
     primal_find_kept(&p);

@@ -122,7 +122,8 @@ uint32_t primal_check_bodies(Primal *p)
     return failed;
 }
 
-/* A mean motion may lead through a floor; a liquid that touches something starts from standing still, or where the dual has ended. */
+/* A mean motion may lead through a floor; a liquid that touches something starts from standing still. In the joint solver nothing has less energy than where the
+ * descent is: there pressures and solids are balanced as far as they are, so it goes on from there. */
 static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
@@ -133,11 +134,12 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
         holds_project(p->contacts, p->node, block, block + 1);
         return;
     }
+    const bool goes_on = p->joint && body->with_liquid;
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = p->joint && body->with_liquid ? ((const float *)p->world->joint.node.data)[i] : body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
-        p->node[i] = body->failed ? start + p->share * (p->best[i] - start) : p->best[i];
+        const float start = body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
+        p->node[i] = body->failed && !goes_on ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     holds_project(p->contacts, p->node, block, block + 1);
 }

@@ -1,8 +1,13 @@
 /* What an unfinished solution keeps of a body's momentum, and what contacts allow to give back.
  *
  * The energy of a body does not change under a translation t of all nodes but for sum m/2 |u + t - u*|^2 and friction, as long as t leads along the
- * surfaces that it leans on: a body in mid-air gets all of its momentum back, one on a slope that along it. */
+ * surfaces that it leans on: a body in mid-air gets all of its momentum back, one on a slope that along it.
+ *
+ * Liquid at a wall keeps the dual's motion in the joint solver, and its nodes pull at the others. So the energy changes with t, and its lowest point is
+ * looked for by a step of the descent along t: there the forces on what may move are zero in sum, M t = - sum of the gradient. Without it a light solid in
+ * a heavy liquid drove itself along the wall: random scene 21704 gained 45 % of its energy. */
 #include <math.h>
+#include <string.h>
 
 #include "contact/holds.h"
 #include "solvers/primal/primal_solve.h"
@@ -81,6 +86,42 @@ static void move_body(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3 && p->base[i + 3] > 0.0f; c++) p->best[i + c] += (float)move->way[c];
 }
+
+/* ---- Bodies with liquid ---- */
+
+static bool is_pulled(const BodySum *body) { return body->leans && body->with_liquid; }
+
+static void sum_pull(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    if (!is_pulled(primal_body_of(p, block))) return;
+    memcpy(p->right + begin, p->gradient + begin, (end - begin) * sizeof *p->right);
+    holds_remove(p->contacts, p->right, block, block + 1);
+    for (size_t i = begin; i < end; i += W) {
+        sum[0] += (double)p->base[i + 3];
+        for (size_t c = 0; c < 3; c++) sum[1 + c] += (double)p->right[i + c];
+    }
+}
+
+static void lead_translation(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const double *body = primal_rigid_of(p, block)->sum; /* mass and pull */
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = 0; c < W; c++) p->direction[i + c] = c < 3 && p->base[i + 3] > 0.0f && body[0] > 0.0 ? (float)(body[1 + c] / body[0]) : 0.0f;
+    holds_remove(p->contacts, p->direction, block, block + 1);
+    for (size_t i = begin; i < end; i++) sum[0] += (double)p->gradient[i] * (double)p->direction[i];
+}
+
+void primal_balance_momentum(Primal *p)
+{
+    enum { EVALUATIONS = 3 }; /* one was enough in 1,406 of 1,408 substeps of quiet scenes; the others go to where the slope vanishes */
+    uint32_t passes = 0;
+    primal_over_blocks(p, sum_pull);
+    primal_gather_rigid(p, 4);
+    primal_over_blocks(p, lead_translation);
+    if (p->total[0] > 0.0) primal_descend(p, &passes, EVALUATIONS);
+}
+
+/* ---- All others ---- */
 
 void primal_keep_momentum(Primal *p)
 {

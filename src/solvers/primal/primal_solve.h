@@ -103,6 +103,9 @@ double primal_find_direction(Primal *p);
 /* The same without the pairs, from the gradient. */
 double primal_find_plain_direction(Primal *p);
 
+/* Follows p->direction, with at most `most` evaluations. False if nothing was found. */
+bool primal_descend(Primal *p, uint32_t *passes, uint32_t most);
+
 /* Goes on along p->direction, without stop rules. */
 void primal_descend_further(Primal *p);
 
@@ -213,6 +216,9 @@ const float *primal_kept_motion(Primal *p);
 void primal_widen_gaps(Primal *p);
 
 /* ---- primal_momentum.c ---- */
+
+/* Moves bodies with liquid that lean on something as a whole, as far as their forces ask for it. Uses p->right and p->direction. */
+void primal_balance_momentum(Primal *p);
 
 /* Gives bodies the momentum that an unfinished solution kept from them, as far as they may move. */
 void primal_keep_momentum(Primal *p);
