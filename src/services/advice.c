@@ -720,7 +720,7 @@ static void known_limits(Adviser *adviser)
         if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND)) tell_limit(adviser, slot, "bodies sink into sand that they lie on, by one to three cells");
         if (def->kind != PBMPM_SAND && any_present(world, PBMPM_LIQUID) && adviser->survey.heap[slot].narrow > 0.5)
             tell_limit(adviser, slot, "a body with less than five cells between it and walls on both sides hangs in a liquid: leave it more room");
-        if (def->kind != PBMPM_SAND && sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above what it sinks onto: the liquid between does not leave");
+        if (def->kind != PBMPM_SAND && sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above what it sinks onto, and slides there: the liquid between does not leave");
     }
 }
 
