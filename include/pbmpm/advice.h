@@ -31,6 +31,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
+    PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction. Figure: its Coulomb coefficient */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */

@@ -147,14 +147,15 @@ static bool lands(const World *world, uint32_t material, const double from[3])
     return way < far; /* it comes close to something for long: along a wall, which leads to what holds it or does not */
 }
 
-/* Whether a wall of the domain is where gravity leads. */
-static bool wall_below(const World *world)
+/* A wall of the domain where gravity leads, or NULL. */
+static const pbmpm_domain_wall *wall_below(const World *world)
 {
     for (int a = 0; a < world->def.dimension; a++) {
         const float pull = world->settings.gravity[a];
-        if (pull != 0.0f && !world->domain.wall[domain_place(a, pull > 0.0f)].open) return true;
+        const pbmpm_domain_wall *wall = &world->domain.wall[domain_place(a, pull > 0.0f)];
+        if (pull != 0.0f && !wall->open) return wall;
     }
-    return false;
+    return NULL;
 }
 
 static bool any_sticks(const World *world)
@@ -697,6 +698,20 @@ static void overlaps(Adviser *adviser)
     }
 }
 
+/* The friction that holds a heap together acts on its base, too. */
+static void no_friction(Adviser *adviser)
+{
+    static const double LITTLE = 0.05;
+    const World *world = adviser->world;
+    const pbmpm_domain_wall *floor = wall_below(world);
+    for (uint32_t slot = 0; floor && slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (!present(world, slot) || world->materials.def[slot].kind != PBMPM_SAND || floor->friction != PBMPM_FRICTION_COULOMB) continue;
+        if ((double)floor->friction_coefficient >= LITTLE) continue;
+        give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = id_of(world, slot), .figure = floor->friction_coefficient, .bound = (float)LITTLE,
+                                     .text = "sand makes no heap on a floor without friction, it runs apart: give the domain's walls friction, domain_friction"});
+    }
+}
+
 static void tell_limit(Adviser *adviser, uint32_t slot, const char *text)
 {
     give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = id_of(adviser->world, slot), .text = text});
@@ -747,6 +762,7 @@ static const struct {
     {PBMPM_ADVICE_NOT_SOLVED, "PBMPM_ADVICE_NOT_SOLVED", "cells", not_solved},
     {PBMPM_ADVICE_OVERLAPS, "PBMPM_ADVICE_OVERLAPS", "", overlaps},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", known_limits},
+    {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", no_friction},
 };
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)

@@ -97,7 +97,7 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_KNOWN_LIMIT; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_NO_FRICTION; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
@@ -292,6 +292,25 @@ static void test_known_limits(void)
     }
 }
 
+static void test_sand_on_a_floor_without_friction(void)
+{
+    static const struct {
+        pbmpm_material_kind kind;
+        float friction;
+        bool told;
+    } cases[] = {{PBMPM_SAND, 0.0f, true}, {PBMPM_SAND, 0.5f, false}, {PBMPM_LIQUID, 0.0f, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 8192);
+        def.domain_enabled = 1;
+        def.domain_friction = cases[i].friction;
+        const pbmpm_world_id world = create_world(&def);
+        set_gravity(world, 0, -9.81f, 0);
+        fill_shape(world, create_material(world, cases[i].kind), box_shape(0.5f, 0.15f, 0, 0.2f, 0.15f, 0.5f), at_rest);
+        if (cases[i].told) TEST_ASSERT_EQUAL_FLOAT(0.0f, expect(world, PBMPM_ADVICE_NO_FRICTION)->figure);
+        else expect_none(world, PBMPM_ADVICE_NO_FRICTION);
+    }
+}
+
 /* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
 static void test_matter_in_other_matter(void)
 {
@@ -409,6 +428,7 @@ int main(void)
     RUN_TEST(test_a_pool_too_deep_for_the_rate);
     RUN_TEST(test_a_pool_that_stirs);
     RUN_TEST(test_known_limits);
+    RUN_TEST(test_sand_on_a_floor_without_friction);
     RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);
     RUN_TEST(test_obstacles);

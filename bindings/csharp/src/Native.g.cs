@@ -302,6 +302,8 @@ namespace Pbmpm
         Overlaps = 17,
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
+        /// <summary>sand above a floor of the domain that has no friction. Figure: its Coulomb coefficient</summary>
+        NoFriction = 19,
         /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>

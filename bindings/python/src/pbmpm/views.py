@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -64,6 +64,9 @@ class View(Bound):
     it has expired: after the next change it shows values of one particle or another, so take it anew or work on `copy()`. It
     never dangles: the memory lives until the last array is gone, even when the world has been closed.
     Indexing a view gives a copy.
+
+    Row i of all views taken between two changes is one particle. A step sorts the particles: then row i is another one. `World.ids` says which,
+    and `World.find()` where a particle is now.
     """
 
     __slots__ = ("_world", "_field", "_generation", "_array")
@@ -76,6 +79,11 @@ class View(Bound):
         self._field = field
         self._generation = int(view.generation)
         self._array = _wrap(handle, field, world.dimension, view)
+
+    def __getattr__(self, name: str) -> NoReturn:
+        """Says where an array's methods are."""
+        there = not name.startswith("_") and hasattr(np.ndarray, name)
+        raise AttributeError(f"'View' object has no attribute '{name}'" + (f"; array().{name} and copy().{name} are there" if there else ""))
 
     @property
     def field(self) -> Field:

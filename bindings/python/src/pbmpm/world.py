@@ -64,7 +64,7 @@ class World(
         capacity: hard limit of the number of particles; memory for them is taken at once.
         gravity: acceleration [m/s^2].
         domain: lower and upper corner [m] of a closed box that holds matter in; None: unbounded.
-        domain_friction: Coulomb coefficient of the box's walls.
+        domain_friction: Coulomb coefficient of the box's walls; default 0, on which sand makes no heap.
         domain_measures_impulse: whether `wall_impulse()` tells what matter does to them.
         origin: what positions are relative to [m]; for the caller's own conversion.
         memory_budget: bytes that the world may hold at once; 0: no limit.
@@ -400,7 +400,7 @@ class World(
 
     @property
     def positions(self) -> View:
-        """Positions, shape (n, d) [m], relative to the origin. Assigning writes those of all particles."""
+        """Positions, shape (n, d) [m], relative to the origin. Assigning writes those of all particles. A step changes the order of particles, see `View`."""
         return self.view(Field.POSITION)
 
     @positions.setter
@@ -458,7 +458,7 @@ class World(
 
     @property
     def material_indices(self) -> View:
-        """`Material.index` of each particle, shape (n,)."""
+        """`Material.index` of each particle, shape (n,), in the order of now: a step changes it, see `View`."""
         return self.view(Field.MATERIAL)
 
     @property

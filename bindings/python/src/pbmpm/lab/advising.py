@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from typing import Any
 
 import pbmpm
@@ -11,27 +10,52 @@ from .scenes.scene import Scene
 from .simulation import RunSettings, Simulation
 
 
-def advice_lines(simulation: Simulation, came_true: bool | None = None) -> list[str]:
-    """What the present state calls for, one line each; only what came true, or only what is foreseen."""
-    return [_line(simulation, item) for item in _chosen(simulation.advice(), came_true)]
+def advice_lines(simulation: Simulation) -> list[str]:
+    """What the present state calls for, one line each."""
+    return [_line(simulation, item) for item in simulation.advice()]
 
 
 def advice_rows(simulation: Simulation) -> list[dict[str, Any]]:
     """The same for reports."""
-    return [
-        {
-            "code": item.code.name.lower(),
-            "of": _owner(simulation, item),
-            "text": item.text,
-            "figure": item.figure,
-            "bound": item.bound,
-            "change": item.change.name.lower(),
-            "value": item.value,
-            "price_percent_of_step": item.price,
-            "came_true": item.came_true,
-        }
-        for item in simulation.advice()
-    ]
+    return [_row(simulation, item) for item in simulation.advice()]
+
+
+class AdviceWatch:
+    """Looks at a run's advice again and again: matter that was crushed on the way may have its volume back in the end."""
+
+    LOOKS = 32  #: in a run
+    FEW = 0.1  #: of the looks: what came true in fewer, and not in the last, passed by
+
+    def __init__(self, simulation: Simulation) -> None:
+        self._simulation = simulation
+        self._first = {_key(item) for item in simulation.advice()}
+        self._looks = 0
+        self._last: set[tuple[Any, ...]] = set()
+        self._seen: dict[tuple[Any, ...], int] = {}
+        self._worst: dict[tuple[Any, ...], tuple[pbmpm.Advice, float]] = {}
+
+    def look(self) -> None:
+        """Notes what is advised now."""
+        found = {_key(item): item for item in self._simulation.advice()}
+        self._looks += 1
+        self._last = set(found)
+        for key, item in found.items():
+            self._seen[key] = self._seen.get(key, 0) + 1
+            if key not in self._worst or item.figure > self._worst[key][0].figure:
+                self._worst[key] = (item, self._simulation.time)
+
+    def _told(self) -> list[tuple[pbmpm.Advice, float]]:
+        """What was not said before the first step: the worst of each, and when that was [s]."""
+        lasting = {key for key, count in self._seen.items() if count > self.FEW * self._looks} | self._last
+        return [found for key, found in self._worst.items() if key in lasting and key not in self._first]
+
+    def lines(self) -> list[str]:
+        """One line each."""
+        return [f"{f'came true at {time:.3g} s' if item.came_true else 'advice'}: {_line(self._simulation, item)}" for item, time in self._told()]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """The same for reports."""
+        return [{**_row(self._simulation, item), "time_s": time} for item, time in self._told()]
 
 
 def scene_advice(scene: Scene, settings: RunSettings) -> list[str]:
@@ -40,8 +64,22 @@ def scene_advice(scene: Scene, settings: RunSettings) -> list[str]:
         return advice_lines(simulation)
 
 
-def _chosen(advice: Iterable[pbmpm.Advice], came_true: bool | None) -> list[pbmpm.Advice]:
-    return [item for item in advice if came_true is None or item.came_true == came_true]
+def _key(item: pbmpm.Advice) -> tuple[Any, ...]:
+    return item.code, item.material, item.collider, item.text
+
+
+def _row(simulation: Simulation, item: pbmpm.Advice) -> dict[str, Any]:
+    return {
+        "code": item.code.name.lower(),
+        "of": _owner(simulation, item),
+        "text": item.text,
+        "figure": item.figure,
+        "bound": item.bound,
+        "change": item.change.name.lower(),
+        "value": item.value,
+        "price_percent_of_step": item.price,
+        "came_true": item.came_true,
+    }
 
 
 def _owner(simulation: Simulation, item: pbmpm.Advice) -> str:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from .advising import advice_lines, advice_rows
+from .advising import AdviceWatch, advice_lines, advice_rows
 from .effects.catalogue import effects_on, remarks
 from .frame import Frame
 from .machine import machine_facts
@@ -89,32 +89,32 @@ def run_scene(
     tell: Callable[[str], None] | None = None,
 ) -> RunResult:
     """Simulates ``seconds`` of a scene. Timing leaves out the first ``warmup_steps`` steps. ``tell`` gets a line for each advice, before the
-    first step and of what came true after the last."""
+    first step, and after the last for what the run added: the worst of each, and when it came true."""
     steps = max(1, math.ceil(seconds * settings.rate_hz - _TIME_TOLERANCE))
     with Simulation(scene, settings) as simulation, Interrupt().watching() as interrupt:
         foreseen = advice_rows(simulation)
         for line in advice_lines(simulation) if tell else []:
             tell(f"advice: {line}")
         recorder = _Recorder(scene, settings, output, simulation)
-        meter = Meter(warmup_steps)
+        meter, watch = Meter(warmup_steps), AdviceWatch(simulation)
         try:
-            _loop(simulation, steps, recorder, meter, interrupt)
+            _loop(simulation, steps, recorder, meter, watch, interrupt)
         except BaseException:
             recorder.finish("failed", {})
             raise
         problems = simulation.problems()
-        report = {**_report(scene, settings, simulation, meter, bool(interrupt), problems), "advice": foreseen, "advice_after": advice_rows(simulation)}
-        for line in advice_lines(simulation, came_true=True) if tell else []:
-            tell(f"came true: {line}")
+        report = {**_report(scene, settings, simulation, meter, bool(interrupt), problems), "advice": foreseen, "advice_after": watch.rows()}
+        for line in watch.lines() if tell else []:
+            tell(line)
         recorder.finish("interrupted" if interrupt else "failed" if problems else "complete", report)
     return RunResult(report, bool(interrupt), problems)
 
 
-def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter, interrupt: Interrupt) -> None:
-    shown = 0.0
+def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter, watch: AdviceWatch, interrupt: Interrupt) -> None:
+    shown, every = 0.0, max(1, steps // AdviceWatch.LOOKS)
     with progress_bar(steps, "step", simulation.scene.name) as bar:
         recorder.after_step(simulation)
-        for _ in range(steps):
+        for step in range(steps):
             if interrupt:
                 return
             start, cpu_start = time.perf_counter(), time.process_time()
@@ -123,6 +123,8 @@ def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter,
             stats = simulation.stats()
             meter.add(stats, now - start, cpu_now - cpu_start)
             recorder.after_step(simulation)
+            if (steps - 1 - step) % every == 0:
+                watch.look()
             bar.update()
             if now - shown > _POSTFIX_EVERY_SECONDS and not bar.disable:
                 bar.set_postfix_str(f"volume error {100 * stats.volume_error_rms:.1f} %", refresh=False)

@@ -46,26 +46,37 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
     for item in error.errors():
         message = item["msg"].removeprefix("Value error, ")
         if item["type"] == "extra_forbidden":
-            message = f"unknown field{did_you_mean(item['loc'][-1], _all_fields())}"
+            message = f"unknown field{_meant(item['loc'][-1])}"
         elif item["type"] == "literal_error":
             message += did_you_mean(item["input"], re.findall(r"'(\w+)'", item["ctx"]["expected"]))
         elif item["type"] == "union_tag_invalid":
             message = f"'{item['ctx']['tag']}' is not one of {item['ctx']['expected_tags']}"
             message += did_you_mean(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
+        elif item["type"] == "union_tag_not_found":
+            message = f"the field {item['ctx']['discriminator']} is missing: it says what this is"
         elif item["type"] == "missing":
             message = "this field is required"
         lines.append(f"{source}: {_field_path(item['loc'], data)}: {message}")
     return "\n".join(dict.fromkeys(lines))
 
 
-def _all_fields() -> list[str]:
-    """The names of the fields of all parts of a scene."""
-    parts, names = [Part], dict[str, None]()
+def _meant(name: int | str) -> str:
+    """What an unknown field may have been meant for: one that belongs elsewhere, or one of a like name."""
+    owners = _all_fields()
+    if name in owners:
+        return f" here; it belongs to {owners[str(name)]}"
+    return did_you_mean(name, owners)
+
+
+def _all_fields() -> dict[str, str]:
+    """The names of the fields of all parts of a scene, and what they belong to."""
+    parts, names = [Part], dict[str, str]()
     while parts:
         part = parts.pop()
         parts += part.__subclasses__()
-        names.update(dict.fromkeys(part.model_fields))
-    return list(names)
+        for name in part.model_fields:
+            names.setdefault(name, f"the scene's {part.__name__.strip('_').removesuffix('Part').lower()}" if part.__name__ != "Scene" else "the scene itself")
+    return names
 
 
 def _field_path(location: tuple[int | str, ...], data: Any) -> str:

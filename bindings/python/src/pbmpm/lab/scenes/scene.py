@@ -441,6 +441,13 @@ class Scene(Part):
     pictures: PicturesPart = PicturesPart()
     notes: list[str] = []
 
+    @model_validator(mode="after")
+    def _pictures_are_taken(self) -> Scene:
+        late = [time for time in self.pictures.times or [] if time > self.seconds]
+        if late:
+            raise ValueError(f"pictures.times: {late[0]:g} s is after the end of the scene at {self.seconds:g} s")
+        return self
+
     @property
     def sources(self) -> list[FillPart | EmitterPart]:
         """All that brings particles."""
