@@ -199,12 +199,18 @@ static double corner_distance(const Near *near, const double point[3], const Fac
     return is_open(near, before) ? sqrt(dot3(way, way)) : INFINITY;
 }
 
-static int faces_inside(const Near *near, const double point[3], Face face[FIELD_FACES])
+/* `passed` are left out. */
+static int faces_inside(const Near *near, const double point[3], const Face *passed, int passes, Face face[FIELD_FACES])
 {
     Face all[CANDIDATES];
-    const int candidates = faces_around(near, point, NODE_REACH, all);
+    const int around = faces_around(near, point, NODE_REACH, all);
     double best = INFINITY;
-    int count = 0;
+    int count = 0, candidates = 0;
+    for (int i = 0; i < around; i++) {
+        bool left_out = false;
+        for (int k = 0; k < passes; k++) left_out = left_out || (field_same_way(&all[i], &passed[k]) && fabs(all[i].distance - passed[k].distance) < BEFORE);
+        if (!left_out) all[candidates++] = all[i];
+    }
     for (int i = 0; i < candidates; i++) {
         if (all[i].distance > ON_SURFACE || -all[i].distance >= best || !bounds_space(near, &all[i])) continue;
         best = -all[i].distance;
@@ -394,9 +400,15 @@ static int add_beside(const Near *near, const double point[3], double reach, Fac
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
 {
     const bool outside = field_distance(near, point) > ON_SURFACE;
-    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, face);
+    const int count = outside ? faces_seen(near, point, reach, face) : faces_inside(near, point, NULL, 0, face);
     if (outside) sort_by_distance(face, 0, count);
     return outside || count == 0 ? count : add_beside(near, point, reach, face, count);
+}
+
+int field_other_faces(const Near *near, const double point[3], double reach, const Face *passed, int passes, Face face[FIELD_FACES])
+{
+    const int count = faces_inside(near, point, passed, passes, face);
+    return count == 0 ? 0 : add_beside(near, point, reach, face, count);
 }
 
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES])
@@ -470,18 +482,24 @@ double field_spline_below(double x)
     return 0.5 + x * (0.75 - x * x / 3.0);
 }
 
-/* The share of a node's weight that a box takes: along each of its axes what lies between its two faces. The spline is nearly the same along turned axes. */
-static double box_share(const Near *near, const Solid *s, const double point[3])
+/* The share of a node's weight that a box takes: along each of its axes what lies between its two faces, or all that is behind `before`. The spline is nearly the same
+ * along turned axes. */
+static double box_share(const Near *near, const Solid *s, const double point[3], const Face *before)
 {
-    double local[3], share = 1.0;
+    static const double ALONG = 0.9; /* cosine */
+    double local[3], normal[3], share = 1.0;
     along_axes(s, point, local);
-    for (int a = 0; a < s->dimension; a++)
-        share *= field_spline_below((s->half_extents[a] - local[a]) / near->cell_size) - field_spline_below((-s->half_extents[a] - local[a]) / near->cell_size);
+    for (int a = 0; a < s->dimension; a++) {
+        box_normal(s, a, 1.0, normal);
+        const double along = before ? dot3(normal, before->normal) : 0.0;
+        const double high = along < -ALONG ? INFINITY : s->half_extents[a], low = along > ALONG ? -INFINITY : -s->half_extents[a];
+        share *= field_spline_below((high - local[a]) / near->cell_size) - field_spline_below((low - local[a]) / near->cell_size);
+    }
     return share;
 }
 
 /* A box by itself takes its own share. Of several obstacles the planes around the point tell: those in a hollow leave the product of what each leaves. */
-double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count)
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count, bool one_sided)
 {
     Face face[FIELD_FACES];
     const Obstacle *only = NULL;
@@ -495,7 +513,7 @@ double field_open_share(const Near *near, const double point[3], double deepest,
         close++;
     }
     if (least >= NODE_REACH) return 1.0;
-    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point), field_spline_below(-deepest));
+    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point, one_sided ? known : NULL), field_spline_below(-deepest));
     if (!known) count = field_faces(near, point, NODE_REACH, face);
     for (int i = 0; i < count; i++) share *= field_spline_below(fmax((known ? known : face)[i].distance, -deepest));
     return count > 0 || least > 0.0 ? share : field_spline_below(-deepest);

@@ -50,6 +50,9 @@ double field_distance(const Near *near, const double point[3]);
  * spline of a node reaches. */
 int field_faces(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
+/* The same of a point in obstacles without the faces that were passed over. */
+int field_other_faces(const Near *near, const double point[3], double reach, const Face *passed, int passes, Face face[FIELD_FACES]);
+
 /* The same where face[0] is given. */
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
@@ -71,7 +74,7 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
 double field_spline_below(double x);
 
 /* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. `known`: the planes around it, if the
- * caller has them, `count` of them; else null. */
-double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count);
+ * caller has them, `count` of them; else null. `one_sided`: what is open behind the first of them, across a thin wall, does not count. */
+double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count, bool one_sided);
 
 #endif

@@ -16,7 +16,7 @@ double open_share_at(const ContactFrame *frame, const double node[3], uint32_t g
 {
     Near near, some;
     field_near(&near, frame, node, 2.0 * NODE_REACH, true);
-    return field_open_share(field_meeting(&near, groups, &some), node, DEEPEST, NULL, 0);
+    return field_open_share(field_meeting(&near, groups, &some), node, DEEPEST, NULL, 0, false);
 }
 
 /* What find_open() takes per node in a box with two obstacles, measured. */
@@ -88,7 +88,7 @@ static void find_open(void *context, int32_t begin, int32_t end)
             }
             contacts_node_position(job->frame, block, node, point);
             const Near *meeting = field_meeting(&near, contacts_node_groups(job->frame, (size_t)(block * cells + node)), &some);
-            open[node] = (float)field_open_share(meeting, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0);
+            open[node] = (float)field_open_share(meeting, point, job->frame->walls ? NODE_REACH : DEEPEST, NULL, 0, false);
         }
     }
 }

@@ -108,6 +108,35 @@ typedef struct Bound {
     float open; /* share */
 } Bound;
 
+/* Whether the matter that reaches a node in a wall is elsewhere than before this face. */
+static bool is_dry(const Site *site, const Bound *bound)
+{
+    const float mass = mass_of(site->frame->grid, bound->node);
+    return bound->face[0].distance < CLEAR && mass > 0.0f && wetness(site, &bound->face[0]) <= DRY * mass;
+}
+
+/* Where thin walls meet, the nearest way out of a node in them leads past the corner to the dry side: taken for that, it would let matter into the corner. The next
+ * ways out are tried until there is matter before one. False: none. */
+static bool find_wet_faces(const Site *site, Bound *bound, double reach)
+{
+    enum { MOST = 6 }; /* faces of a corner of three walls */
+    Face passed[MOST], face[FIELD_FACES];
+    int passes = 0;
+    for (passed[passes++] = bound->face[0]; passes <= MOST; passed[passes++] = face[0]) {
+        const int faces = field_other_faces(site->near, site->point, reach, passed, passes, face);
+        if (faces == 0) return false;
+        Bound other = {.node = bound->node, .faces = faces};
+        memcpy(other.face, face, sizeof face);
+        if (!is_dry(site, &other)) {
+            memcpy(bound->face, face, sizeof face);
+            bound->faces = faces;
+            return true;
+        }
+        if (passes == MOST) return false;
+    }
+    return false;
+}
+
 /* The faces that a node is bound to. In a thin wall, thinner than two reaches of a node's spline, that is the one before which matter is; `both`: matter is on both
  * sides, and the node serves neither but goes with the wall. */
 static void find_faces(const Site *site, Bound *bound)
@@ -120,7 +149,10 @@ static void find_faces(const Site *site, Bound *bound)
     if (bound->faces == 0 || face[0].distance >= CLEAR) return;
     for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
     bound->thin = field_distance(site->near, behind) > 0.0 && field_opposite(site->near, site->point, &face[0], &other);
-    if (!bound->thin) return;
+    if (!bound->thin) {
+        bound->thin = is_dry(site, bound) && find_wet_faces(site, bound, reach);
+        return;
+    }
     const float here = wetness(site, &face[0]), there = wetness(site, &other);
     if (there <= DRY * here) return;
     bound->both = here > DRY * there;
@@ -685,6 +717,14 @@ static const Bound *bound_before(const ContactFrame *frame, int32_t block, int n
     return bound->thin ? NULL : bound;
 }
 
+/* Else another way out may lead to matter, see find_wet_faces(). */
+static bool stays_wet(const ContactFrame *frame, const Bound *bound)
+{
+    Site site = {.frame = frame, .block = bound->block};
+    memcpy(site.local, bound->local, sizeof site.local);
+    return bound->faces == 0 || !is_dry(&site, bound);
+}
+
 static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
 {
     Near some;
@@ -694,7 +734,7 @@ static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound,
     contacts_node_position(frame, bound->block, node, site.point);
     find_faces(&site, bound);
     if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
-    if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces);
+    if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces, bound->thin);
 }
 
 static void bind_blocks(void *context, int32_t first, int32_t end)
@@ -709,15 +749,17 @@ static void bind_blocks(void *context, int32_t first, int32_t end)
         for (int i = 0; i < frame->grid->block_cells; i++) {
             if (!(job->marks[block] >> i & 1)) continue;
             const Bound *before = bound_before(frame, block, i);
-            if (before)
-                *bound = *before;
-            else
-                *bound = (Bound){.local = {i & 3, i >> 2 & 3, i >> 4}, .open = -1.0f};
-            bound->node = (uint32_t)(block * frame->grid->block_cells + i);
+            const uint32_t node = (uint32_t)(block * frame->grid->block_cells + i);
+            const Bound fresh = {.node = node, .block = block, .local = {i & 3, i >> 2 & 3, i >> 4}, .open = -1.0f};
+            *bound = before ? *before : fresh;
+            bound->node = node;
             bound->block = block;
-            if (!before && !looked) look_near_block(frame, block, &near);
-            looked = looked || !before;
-            if (!before) bind_node(frame, &near, bound, i);
+            if (!before || !stays_wet(frame, bound)) {
+                if (!looked) look_near_block(frame, block, &near);
+                looked = true;
+                *bound = fresh;
+                bind_node(frame, &near, bound, i);
+            }
             bound++;
         }
     }

@@ -124,6 +124,27 @@ def in_a_narrow_glass(run: Run, gap: int, density: float) -> None:
         run.near("height of its centre", world.positions.array()[rows_of(world, block), 1].mean(), true, 1.0, cell, why="at the bottom, or afloat; a cell")
 
 
+@case(thin=dict(thick=2), thick=dict(thick=4))
+def jelly_in_a_glass(run: Run, thick: int) -> None:
+    """A glass of 24 x 20 cells, its walls so many cells thick: a heavy jelly falls in and sinks, and the water rests over it."""
+    cell, width, depth, side, time = 0.025, 0.6, 0.5, 0.2, 10.0
+    frame = Frame(2)
+    with run.world(2, cell) as world:
+        tank(world, frame, width, 0.9, "boxes", thick=thick * cell)
+        water = pool(world, frame, (0, 0), (width, depth), Liquid())
+        jelly = world.add_material(Elastic(density=1500))
+        world.fill(Box((width / 2, depth + side), (side / 2, side / 2)), jelly)
+        run.steps(world, time)
+        wet = rows_of(world, water)
+        height = 2 * world.positions.array()[wet, 1].mean()
+        # The water's mean height: that of the full glass less the jelly's, which lies on the floor and has the share J of its volume.
+        volume = side**2 * float(world.volume_ratios.array()[~wet].mean())
+        full = depth + volume / width
+        true = 2 * (width * full**2 / 2 - volume * side / 2) / (width * full - volume)
+        run.near("mean level", height, true, 0.5, cell, why="the glass is full, its water keeps its volume")
+        run.check("rms speed", float(np.sqrt((world.velocities.array() ** 2).sum(1).mean())), 0, 0.02, "m/s", why="at rest in the end; 24 cells deep")
+
+
 @case(from_half_a_metre=dict())
 def dropped_jelly(run: Run) -> None:
     """A jelly of 5e4 Pa that falls half a metre into water is pressed by the fall as elasticity lets it, and keeps its form afterwards."""

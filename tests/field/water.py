@@ -19,6 +19,25 @@ def _places(kind: str) -> dict[str, dict[str, Any]]:
     return {**offsets, **{f"turned_{angle}_{kind}": dict(kind=kind, angle=angle) for angle in (10, 20, 45)}}
 
 
+@case(
+    one=dict(thick=1),
+    two=dict(thick=2),
+    two_off=dict(thick=2, shift=0.3),
+    two_3d=dict(thick=2, dimension=3),
+)
+def thin_glass(run: Run, thick: int, shift: float = 0.0, dimension: int = 2) -> None:
+    """A glass of boxes whose walls are so few cells thick: water rests in it, and none is pressed into its corners."""
+    cell, width, depth = 0.05, 1.2 if dimension == 2 else 0.6, 0.6 if dimension == 2 else 0.4
+    frame = Frame(dimension, 0, shift * cell)
+    with run.world(dimension, cell) as world:
+        tank(world, frame, width, depth + 0.2, "boxes", thick=thick * cell)
+        pool(world, frame, [0.0] * dimension, [width, depth] + [width] * (dimension - 2), Liquid())
+        run.steps(world, 5)
+        run.near("mean level", 2 * frame.positions(world)[:, 1].mean(), depth, 0.25, cell, why="the water keeps its volume; a quarter of a cell")
+        run.check("rms speed", rms(world), 0, 0.01, "m/s", why="water at rest stays at rest; 10 mm/s is a fifth of a cell per second")
+        run.check("least volume ratio", float(world.volume_ratios.array().min()), 0.8, 2, why="no particle is crushed")
+
+
 @case(**_places("planes"), **_places("boxes"))
 def still_pool(run: Run, kind: str, cells: float = 0.0, angle: float = 0.0) -> None:
     """A pool of 32 x 12 cells in a tank that stands off the grid, or turned together with gravity."""

@@ -114,7 +114,22 @@ def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None
         ("collider_too_thin", "colliders[0]"),
         ("collider_too_fast", "colliders[1]"),
     }
-    assert report["advice_after"] and all(row["text"] and row["price_percent_of_step"] is not None for row in report["advice_after"])
+    assert not {(row["code"], row["text"]) for row in report["advice_after"]} & {(row["code"], row["text"]) for row in report["advice"]}
+
+
+def test_the_command_tells_of_what_has_passed(tmp_path: Path) -> None:
+    """Sand that falls far is crushed where it lands, and has most of its volume back in the end."""
+    sand = {"shape": {"kind": "box", "position": [0.3, 0.7], "half_extents": [0.2, 0.1]}, "material": "sand"}
+    scene = {**SCENE, "cell_size": 0.0125, "domain": {"min": [0, 0], "max": [0.6, 1], "friction": 0.5}, "materials": {"sand": {"kind": "sand"}}}
+    path = tmp_path / "falls.json"
+    path.write_text(json.dumps({**scene, "colliders": [], "fills": [sand], "seconds": 3}), encoding="utf-8")
+    done = pbmpm_command("run", path, "--json", "-")
+    assert done.returncode == 0, done.stderr
+    assert not any("sand: matter takes less room" in line for line in done.stderr.splitlines() if line.startswith("advice: "))
+    [said] = [line for line in done.stderr.splitlines() if "sand: matter takes less room" in line]
+    assert said.startswith("came true at 0.")
+    [row] = [row for row in json.loads(done.stdout)["advice_after"] if row["code"] == "volume_lost"]
+    assert row["of"] == "sand" and 0.3 < row["time_s"] < 2.0 and row["figure"] > 0.1
 
 
 def hangs(world: pbmpm.World) -> bool:

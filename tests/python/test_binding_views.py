@@ -165,6 +165,13 @@ def test_numpy_protocol(filled: pbmpm.World) -> None:
         view.__array__(np.float64, copy=False)
 
 
+def test_a_view_says_where_the_methods_of_an_array_are(filled: pbmpm.World) -> None:
+    with pytest.raises(AttributeError, match=r"no attribute 'mean'; array\(\).mean and copy\(\).mean are there"):
+        _ = filled.positions.mean
+    with pytest.raises(AttributeError, match="no attribute 'means'$"):
+        _ = filled.positions.means
+
+
 def test_views_of_an_empty_world(world: pbmpm.World) -> None:
     assert world.positions.array().shape == (0, world.dimension)
     assert world.ids.array().shape == (0, 2)

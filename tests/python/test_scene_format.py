@@ -142,6 +142,9 @@ def test_files_that_are_no_json(tmp_path: Path, text: bytes, said: str) -> None:
     [
         ("fils", [], "fils: unknown field; did you mean 'fills'?"),
         ("solver", {"integratr": "bdf2"}, "solver.integratr: unknown field; did you mean 'integrator'?"),
+        ("colour", "speed", "colour: unknown field here; it belongs to the scene's pictures"),
+        ("materials.water", {"density": 1}, "materials.water: the field 'kind' is missing"),
+        ("pictures", {"times": [0.5, 1.5]}, "pictures.times: 1.5 s is after the end of the scene at 1 s"),
         ("solver", "primel", "did you mean 'primal'?"),
         ("solver", {"solver": "Dual"}, "did you mean 'dual'?"),
         ("materials.water.kind", "fluid", "'fluid' is not one of"),
