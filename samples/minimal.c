@@ -17,7 +17,7 @@ int main(void)
     pbmpm_fill_def_init(&fill, sizeof fill);
     pbmpm_shape_init(&box, sizeof box); /* of 1 m around the origin */
     tank.domain_enabled = 1;            /* closed, from 0 to 1 m */
-    box.position[0] = box.position[2] = 0.5f; /* its lower half is full: what is outside is left out */
+    box.position[0] = box.position[2] = 0.5f; /* fills the lower half; the rest of the box is outside */
     settings.gravity[1] = -9.81f;
     int failed = pbmpm_world_create(&tank, &world) || pbmpm_world_set_settings(world, &settings) ||
                  pbmpm_material_create(world, &water, &fill.material) || pbmpm_particles_fill(world, &fill, &box, NULL);
