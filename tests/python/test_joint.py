@@ -90,23 +90,31 @@ def test_liquid_with_a_body_slips_at_any_friction() -> None:
     assert (states[0] == states[1]).all()
 
 
-@pytest.mark.parametrize(("density", "young_modulus", "most"), [(1000, 2e4, 0.04), (1100, 1e5, 0.04), (1500, 2e4, 0.06), (500, 1e5, 0.04)])
-def test_a_jelly_in_a_glass_comes_to_rest(density: float, young_modulus: float, most: float) -> None:
-    """After the fall nothing drives it, but water of 18 cells is deep for 60 Hz: alone it goes on at 0.01 to 0.025 m/s. The heaviest jelly lies on the floor, crushed to two
-    thirds of its volume. Where liquid pushed without turning along, all spun at 1 m/s for ever."""
+def late_speed_in_a_glass(density: float, young_modulus: float, place: float) -> float:
+    """A jelly falls into a glass: the rms speed of the fifteenth second."""
     with pbmpm.World(2, 0.025, gravity=(0, -G), threads=1, iterations=5, capacity=4000, domain=((-0.25, 0), (0.25, 1))) as world:
         water, jelly = world.add_material(pbmpm.Liquid()), world.add_material(pbmpm.Elastic(density=density, young_modulus=young_modulus))
         world.fill(pbmpm.Box((0, 0.225), (0.25, 0.225)), water)
-        world.fill(pbmpm.Box((0.02, 0.65), (0.1, 0.1)), jelly)
+        world.fill(pbmpm.Box((place, 0.65), (0.1, 0.1)), jelly)
         for _ in range(840):
             world.step(DT)
         squares = []
         for _ in range(60):
             world.step(DT)
             squares.append(rms(world) ** 2)
-        assert np.sqrt(np.mean(squares)) < most
         room = 2 * np.array(world.positions)[:, 1].mean() * 0.5
         assert 0.9 < room / (0.5 * 0.45 + 0.04) < 1.05
+        return float(np.sqrt(np.mean(squares)))
+
+
+def test_a_jelly_in_a_glass_comes_to_rest() -> None:
+    """After the fall nothing drives it, but water of 18 cells is deep for 60 Hz: alone it goes on at 0.01 to 0.025 m/s. The heaviest jelly lies on the floor, crushed to two
+    thirds of its volume. How a start goes on depends on the last bit: single ones have 0.004 to 0.052 m/s, 24 of them 0.020 on average with a deviation of 0.012, so 16
+    stay below 0.03 by three deviations of their mean. Where liquid pushed without turning along, all spun at 1 m/s for ever."""
+    matter = ((1000, 2e4), (1100, 1e5), (1500, 2e4), (500, 1e5))
+    speeds = [late_speed_in_a_glass(*jelly, 0.02 + 1e-4 * start) for jelly in matter for start in range(4)]
+    assert np.mean(speeds) < 0.03
+    assert max(speeds) < 0.1
 
 
 @pytest.mark.parametrize(("rate", "iterations"), [(30, 10), (30, 20), (30, 40), (60, 20), (120, 20)])
