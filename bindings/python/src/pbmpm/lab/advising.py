@@ -41,7 +41,7 @@ class AdviceWatch:
         self._last = set(found)
         for key, item in found.items():
             self._seen[key] = self._seen.get(key, 0) + 1
-            if key not in self._worst or item.figure > self._worst[key][0].figure:
+            if key not in self._worst or _excess(item) > _excess(self._worst[key][0]):
                 self._worst[key] = (item, self._simulation.time)
 
     def _told(self) -> list[tuple[pbmpm.Advice, float]]:
@@ -66,6 +66,11 @@ def scene_advice(scene: Scene, settings: RunSettings) -> list[str]:
 
 def _key(item: pbmpm.Advice) -> tuple[Any, ...]:
     return item.code, item.material, item.collider, item.text
+
+
+def _excess(item: pbmpm.Advice) -> float:
+    """How far it is from its bound; some figures have to be above theirs."""
+    return abs(item.figure - item.bound)
 
 
 def _row(simulation: Simulation, item: pbmpm.Advice) -> dict[str, Any]:
