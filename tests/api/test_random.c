@@ -145,10 +145,19 @@ static void test_any_legal_world_stays_finite(void)
             live_through(&ways[w], seed);
 }
 
+/* In world 1251 a body with BDF2 gained energy at an obstacle and paid with its velocities: it has no torque, and was given a rotation of 0/0. */
+static void test_worlds_that_once_were_lost(void)
+{
+    static const uint32_t seeds[] = {1251};
+    for (int w = 0; w < way_count; w++)
+        for (size_t s = 0; s < sizeof seeds / sizeof *seeds; s++) live_through(&ways[w], seeds[s]);
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     support_skip_without_isa();
     RUN_TEST(test_any_legal_world_stays_finite);
+    RUN_TEST(test_worlds_that_once_were_lost);
     return UNITY_END();
 }

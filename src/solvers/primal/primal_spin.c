@@ -120,7 +120,7 @@ void primal_find_spin(Primal *p)
     primal_gather_rigid(p, 16);
     for (int32_t i = 0; i < state->bodies.count; i++) {
         memset(body[i].spin, 0, sizeof body[i].spin);
-        if (body[i].turns && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
+        if (body[i].turns && !body[i].multistep && body[i].mass[0][0] > 0.0) find_spin(&body[i], &of[i]);
         body[i].turns = body[i].turns && (body[i].kept < 1.0 || fabs(body[i].spin[0]) + fabs(body[i].spin[1]) + fabs(body[i].spin[2]) > ROUNDING);
     }
 }
