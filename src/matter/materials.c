@@ -147,7 +147,7 @@ pbmpm_result materials_add(Materials *materials, const pbmpm_material_def *def, 
 bool materials_want_volume(const Materials *materials, const Particles *particles)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (particles->of_material[slot] > 0 && materials->kernel[slot].volume_feedback > 0.0f) return true;
+        if (particles->of_material[slot] > 0 && material_flows(&materials->def[slot]) && materials->kernel[slot].volume_feedback > 0.0f) return true;
     return false;
 }
 

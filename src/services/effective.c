@@ -67,7 +67,7 @@ static pbmpm_effective where_it_is(World *world, uint32_t slot, double substep)
     const uint32_t particles = *count;
     if (particles == 0) *count = 1;
     const uint32_t kinds = particles ? islands_kinds(world) : islands_kind(&world->materials, slot);
-    const pbmpm_solver solver = world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(kinds, world->settings.iterations) : world->settings.solver;
+    const pbmpm_solver solver = world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(world, kinds) : world->settings.solver;
     const pbmpm_solver last = world->record.solver; /* the solvers' own rules ask for it */
     world->record.solver = solver;
     const pbmpm_effective effective = of_material(world, solver, &world->materials.def[slot], substep);

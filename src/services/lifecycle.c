@@ -8,6 +8,7 @@
 #include "services/background.h"
 #include "solvers/dual/dual.h"
 #include "solvers/dual/guess.h"
+#include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/primal/primal.h"
 
@@ -69,6 +70,7 @@ void world_destroy(World *world)
     walls_free(&world->walls, &world->memory);
     for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_free(&world->sight[kinds], &world->memory);
     joint_free(world);
+    granular_free(world);
     primal_free(world);
     sleep_free(&world->sleep, &world->memory);
     islands_free(&world->islands, &world->memory);

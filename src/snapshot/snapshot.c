@@ -199,14 +199,16 @@ typedef struct Counters {
     uint64_t strain_unchecked;
     double credit;
     EddyAccount eddy_account[ISLAND_GROUPS + 1];
+    GranularState granular[ISLAND_GROUPS + 1];
 } Counters;
 
 static void save_counters(const World *world, SnapshotOut *out)
 {
     Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                          world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}};
+                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0, 0}}};
     memcpy(counters.eddy_account, world->dual.eddy_damping.account, sizeof counters.eddy_account);
+    memcpy(counters.granular, world->granular.of, sizeof counters.granular);
     snapshot_put_part(out, &counters, sizeof counters);
 }
 
@@ -217,7 +219,8 @@ static pbmpm_result check_counters(World *world, SnapshotIn in)
     if (!snapshot_take_part(&in, &counters, sizeof counters) || snapshot_goes_on(&in)) return snapshot_malformed();
     bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
                       isfinite(counters.simulated_seconds + counters.slow_dt + counters.slow_iterations) && isfinite(counters.credit);
-    for (int i = 0; i <= ISLAND_GROUPS; i++) fits = fits && isfinite(counters.eddy_account[i].debt + counters.eddy_account[i].left);
+    for (int i = 0; i <= ISLAND_GROUPS; i++) 
+        fits = fits && isfinite(counters.eddy_account[i].debt + counters.eddy_account[i].left) && isfinite(counters.granular[i].seconds);
     return fits ? PBMPM_OK : snapshot_malformed();
 }
 
@@ -234,6 +237,7 @@ static void load_counters(World *world, SnapshotIn in)
     world->strain_unchecked = counters.strain_unchecked != 0;
     world->primal.credit = counters.credit;
     memcpy(world->dual.eddy_damping.account, counters.eddy_account, sizeof counters.eddy_account);
+    memcpy(world->granular.of, counters.granular, sizeof counters.granular);
 }
 
 /* ---- Colliders: poses and targets are loaded ---- */

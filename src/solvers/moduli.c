@@ -33,11 +33,11 @@ void moduli_set_solid(World *world, uint32_t slot, float dt, double share)
     KernelMaterial *material = &world->materials.kernel[slot];
     const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
     const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
-    const double c = moduli_unit(world, def, (double)dt) * share;
+    const double unit = moduli_unit(world, def, (double)dt), c = unit * share;
     material->relaxation = def->relaxation;
     material->shear = (float)fmin(c * shear, 1e30);
     material->dilation = (float)fmin(c * lambda, 1e30);
-    if (material->yields == K_SAND) material->pascal = (float)fmin(1.0 / c, 1e30);
+    if (material->yields == K_SAND) material->pascal = (float)fmin(1.0 / unit, 1e30);
     plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
 }
 

@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "solvers/dual/dual.h"
 #include "solvers/explicit.h"
+#include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/paper.h"
 #include "solvers/passes.h"
@@ -121,6 +122,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     memcpy(a->affine, p->affine, sizeof a->affine);
     memcpy(a->deformation, p->deformation, sizeof a->deformation);
     multistep_bind(world);
+    granular_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
         const double pull = (double)world->settings.gravity[k] * dt * dt * cells_per_metre;
         a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
@@ -141,20 +143,19 @@ bool solver_follows_walls(const World *world)
     return solver_holds_liquid(world) || (solver_uses_dual(world) && world->settings.iterations == 1);
 }
 
-/* The dual solver knows the friction of sand in each iteration, the primal solver only that of the last substep; and it reaches through any depth of liquid, which
- * stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch liquid the two work together, see joint.h. A single
- * iteration of the dual finds no pressure that bears water or solids: of 12 cells of it 4 were lost at 60 Hz, of 24 ten. The primal's loses 0.2 and 0.3. So there it takes
- * all but sand; and what the dual crushed, which costs it nothing, is never let go by the primal, to which it is energy. */
-pbmpm_solver solver_for(uint32_t matter, int iterations)
+/* The dual solver reaches through any depth of liquid, which stays incompressible. But solids get no more of their stiffness than its iterations hold. Where they touch
+ * liquid the two work together, see joint.h. A single iteration of the dual finds no pressure that bears water or solids: of 12 cells of it 4 were lost at 60 Hz, of
+ * 24 ten. The primal's loses 0.2 and 0.3. So there it takes all but sand that flows. For sand see granular.h. */
+pbmpm_solver solver_for(const World *world, uint32_t matter)
 {
-    if (matter & KIND_SAND) return PBMPM_SOLVER_DUAL;
-    if (!(matter & KIND_LIQUID) || iterations == 1) return PBMPM_SOLVER_PRIMAL;
+    if (matter & KIND_SAND) return granular_flows(world, matter) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
+    if (!(matter & KIND_LIQUID) || world->settings.iterations == 1) return PBMPM_SOLVER_PRIMAL;
     return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_CONVERGENT;
 }
 
 static pbmpm_solver chosen(const World *world)
 {
-    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(islands_kinds(world), world->settings.iterations) : world->settings.solver;
+    return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(world, islands_kinds(world)) : world->settings.solver;
 }
 
 bool solver_wants_volume(const World *world)
@@ -172,7 +173,8 @@ pbmpm_result solver_prepare(World *world)
     if (!array_reserve(&world->memory, &world->grid.node_base, nodes * K_NODE_WIDTH, sizeof(float)) ||
         (weighs_liquids(world) && !array_reserve(&world->memory, &world->grid.node_density, nodes, sizeof(float))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the predictor of %d blocks", world->grid.node_blocks);
-    const pbmpm_result result = viscosity_prepare(world);
+    pbmpm_result result = viscosity_prepare(world);
+    if (result == PBMPM_OK) result = granular_prepare(world);
     return result == PBMPM_OK ? kinds[solver].prepare(world) : result;
 }
 

@@ -7,8 +7,8 @@
 /* Chooses the solver of this substep and takes the memory that it needs. The grid is built. */
 pbmpm_result solver_prepare(World *world);
 
-/* What PBMPM_SOLVER_CONVERGENT stands for where matter of these kinds, see islands.h, touches; itself for the joint solver. */
-pbmpm_solver solver_for(uint32_t matter, int iterations);
+/* What PBMPM_SOLVER_CONVERGENT stands for in the next substep where matter of these kinds, see islands.h, touches; itself for the joint solver. */
+pbmpm_solver solver_for(const World *world, uint32_t matter);
 
 /* Whether the substep needs the volume on the grid; asked before the grid is built. */
 bool solver_wants_volume(const World *world);

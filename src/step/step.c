@@ -10,6 +10,7 @@
 #include "contact/open_volume.h"
 #include "contact/push_out.h"
 #include "contact/reach.h"
+#include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/passes.h"
 #include "solvers/solver.h"
@@ -270,6 +271,7 @@ static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *mar
     lap(&record->ms_iterate, &clock);
 
     *marked += go(world, dt, part, &contacts);
+    granular_judge(world);
     lap(&record->ms_integrate, &clock);
     return PBMPM_OK;
 }

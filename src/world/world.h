@@ -64,6 +64,19 @@ typedef struct EddyDamping {
     Array kept;            /* see KernelArgs.affine_kept */
 } EddyDamping;
 
+/* Sand of the islands with one set of kinds, see granular.h. */
+typedef struct GranularState {
+    double seconds;  /* for which it has done what ends its state */
+    uint64_t judged; /* the step after that in which it was; 0: never */
+    uint64_t flows;  /* or rests */
+} GranularState;
+
+/* Of all of them. */
+typedef struct Granular {
+    GranularState of[ISLAND_GROUPS + 1]; /* each set of kinds */
+    Array blocks;                        /* see granular.c */
+} Granular;
+
 /* What the dual solver keeps. */
 typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_strain, cell_change2, cell_uphill; /* see KernelArgs */
@@ -154,6 +167,7 @@ typedef struct World {
     Sight sight[ISLAND_GROUPS + 1]; /* of each set of kinds */
     PrimalState primal;
     JointState joint;
+    Granular granular;
     Sleep sleep;
     double slow_dt;        /* [s] follows dt up at once and down slowly, see paper.c */
     double slow_iterations; /* follows the iterations down at once and up slowly, see solver.c; 0 before the first substep */

@@ -10,6 +10,7 @@
 #include "solvers/dual/guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
+#include "solvers/granular.h"
 #include "solvers/moduli.h"
 #include "solvers/passes.h"
 #include "world/depth.h"
@@ -384,10 +385,6 @@ void dual_solve_with(World *world, const ContactFrame *contacts, DualSketch *ske
     if (!joint_is_chosen(world)) eddy_damping_find(world);
 }
 
-/* F holds the deviator that sand bears as c mu times a strain, to 2^-23 c mu: with this modulus to 1e-3, a hundredth of the pressure below one cell at 60 Hz. What
- * iterations hold is far less. */
-static const float STIFFEST_SHEAR = 1e4f;
-
 void dual_set_solids(World *world, float dt)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -396,7 +393,6 @@ void dual_set_solids(World *world, float dt)
         if (world->materials.generation[slot] == 0 || material->kind == K_LIQUID) continue;
         moduli_set_solid(world, slot, dt, dual_stiffness_cap(world, def, (double)dt));
         material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
-        if (material->yields == K_SAND) material->shear = fminf(material->shear, STIFFEST_SHEAR);
     }
 }
 
@@ -426,7 +422,7 @@ double dual_stiffness_of(const World *world, const pbmpm_material_def *def, doub
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
-    if (def->kind == PBMPM_SAND) return 1.0;
+    if (def->kind == PBMPM_SAND) return granular_stiffness_share(world, def, substep);
     const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
@@ -478,7 +474,7 @@ double dual_stiffened(const World *world, double substep, double iterations)
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
-    if (def->kind == PBMPM_SAND) return 1.0; /* it remembers what it bears, not strain: see ispc/granular.isph */
+    if (def->kind == PBMPM_SAND) return granular_stiffness_share(world, def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
     if (shares_world(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;

@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "contact/holds.h"
+#include "solvers/granular.h"
 #include "solvers/moduli.h"
 #include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
@@ -55,7 +56,9 @@ void primal_set_materials(World *world, float dt)
     moduli_set(world, dt, primal_liquid_dilation(world, dt));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
-        if (world->materials.generation[slot] != 0 && material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
+        if (world->materials.generation[slot] == 0) continue;
+        if (material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
+        if (material->yields == K_SAND) moduli_set_solid(world, slot, dt, granular_stiffness_share(world, &world->materials.def[slot], (double)dt));
     }
 }
 

@@ -1,0 +1,125 @@
+#include "solvers/granular.h"
+
+#include <math.h>
+
+#include "base/result.h"
+#include "solvers/moduli.h"
+#include "solvers/passes.h"
+#include "world/depth.h"
+#include "world/island_groups.h"
+#include "world/sleep_rows.h"
+
+enum { BLOCK_GRAIN = 8 };
+
+static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07; /* of v */
+static const double SLOW = 0.3;                                  /* [s] */
+static const double CRUSHED = 0.03;                              /* of the volume */
+static const double FEW = 0.25;                                  /* of the grains of the fullest block */
+
+/* The grains of a block. */
+typedef struct GranularBlock {
+    uint32_t grains;
+    float speed;   /* of their mean motion [m/s] */
+    float missing; /* sum of 1 - J where that is positive */
+} GranularBlock;
+
+/* ---- The state ---- */
+
+/* Whether it was judged in the substep before; else it is not known. */
+static bool goes_on(const World *world, const GranularState *state) { return state->judged > 0 && state->judged >= world->step_count; }
+
+bool granular_flows(const World *world, uint32_t kinds)
+{
+    const GranularState *state = &world->granular.of[kinds];
+    return (kinds & KIND_LIQUID) || (goes_on(world, state) && state->flows);
+}
+
+/* ---- What the blocks do ---- */
+
+static bool is_judged(const World *world)
+{
+    return world->settings.solver == PBMPM_SOLVER_CONVERGENT && solver_holds_sand(world) && !solver_holds_liquid(world);
+}
+
+static GranularBlock measure(const World *world, int32_t block)
+{
+    const Grid *grid = &world->grid;
+    const Particles *p = &world->particles;
+    const uint32_t *block_run = grid->block_run.data;
+    GranularBlock of = {0, 0.0f, 0.0f};
+    double sum[3] = {0.0}, speed2 = 0.0;
+    for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++) {
+        if (world->materials.kernel[grid->run_key[run] >> K_RUN_CELL_BITS].yields != K_SAND) continue;
+        for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++) {
+            of.grains++;
+            of.missing += fmaxf(0.0f, 1.0f - p->volume_ratio[row]);
+            for (int a = 0; a < p->dimension; a++) sum[a] += (double)p->velocity[a][row];
+        }
+    }
+    for (int a = 0; a < 3 && of.grains > 0; a++) speed2 += sum[a] * sum[a] / ((double)of.grains * (double)of.grains);
+    of.speed = sleep_is_still(world, block) ? 0.0f : (float)sqrt(speed2);
+    return of;
+}
+
+static void measure_blocks(void *context, int32_t begin, int32_t end)
+{
+    World *world = context;
+    GranularBlock *blocks = world->granular.blocks.data;
+    for (int32_t block = begin; block < end; block++) blocks[block] = measure(world, block);
+}
+
+/* ---- A substep ---- */
+
+pbmpm_result granular_prepare(World *world)
+{
+    if (!is_judged(world)) return PBMPM_OK;
+    if (!array_reserve(&world->memory, &world->granular.blocks, (size_t)world->grid.particle_blocks, sizeof(GranularBlock)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for what sand does in %d blocks", world->grid.particle_blocks);
+    return particles_enable_pressure(&world->particles, &world->memory);
+}
+
+void granular_free(World *world) { array_free(&world->memory, &world->granular.blocks); }
+
+void granular_bind(World *world)
+{
+    if (is_judged(world)) world->args.pressure = world->particles.pressure;
+}
+
+/* Counts for how long a state has been left, and leaves it. */
+static void turn(GranularState *state, bool leaves, bool at_once, double dt)
+{
+    state->seconds = leaves ? state->seconds + dt : 0.0;
+    if (!at_once && state->seconds < SLOW) return;
+    state->flows = !state->flows;
+    state->seconds = 0.0;
+}
+
+void granular_judge(World *world)
+{
+    GranularState *state = &world->granular.of[islands_kinds(world)];
+    const GranularBlock *blocks = world->granular.blocks.data;
+    const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size);
+    double fullest = 0.0, fastest = 0.0, grains = 0.0, missing = 0.0;
+    if (!is_judged(world)) return;
+    pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, measure_blocks, world);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
+        fullest = fmax(fullest, (double)blocks[block].grains);
+        grains += (double)blocks[block].grains;
+        missing += (double)blocks[block].missing;
+    }
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
+        if ((double)blocks[block].grains > FEW * fullest) fastest = fmax(fastest, (double)blocks[block].speed);
+    if (!goes_on(world, state)) *state = (GranularState){0.0, 0, 0};
+    state->judged = world->step_count + 1;
+    if (state->flows)
+        turn(state, fastest < SETTLES * fall && missing < CRUSHED * grains, false, dt);
+    else
+        turn(state, fastest > CREEPS * fall, fastest > FALLS * fall, dt);
+}
+
+double granular_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+{
+    static const double STIFFEST_SHEAR = 1e4;
+    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
+    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(world, def, substep) * shear));
+}

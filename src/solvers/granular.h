@@ -1,0 +1,36 @@
+/* Sand of the convergent solver: which of two solvers it is solved with.
+ *
+ * Sand that rests: the primal solver. Its grains store strain, so what bears the heap is known exactly, whatever a few iterations leave: a pile stays. But
+ * the friction of a substep is that of the pressure at its start: sand that flows through an outlet jams.
+ * Sand that flows: the dual solver, see ispc/granular.isph. Each iteration knows its friction. But what falls is crushed, and heaps creep.
+ * (tests/field/run.py sand jelly_on_sand, 60 Hz and 240 Hz x 5: 125 of 142 checks with the dual alone, 109 of 136 with the primal alone.)
+ *
+ * Both keep the same state, so that either goes on from the other. F holds what grains bear: its shape the deviator, its determinant the pressure,
+ * p = -K ln det F. J stands beside it and says the volume. `pressure` is p in pascals.
+ *
+ * The state is that of all sand of the islands with the same set of kinds. What sand does is measured against the speed v of a fall through one cell, v^2 = 2 g dx.
+ * It begins at rest. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds. It rests when no
+ * block has moved at SETTLES v for SLOW seconds while no more of its volume was missing than CRUSHED, which the dual alone gives back. Without gravity sand that moves flows. */
+#ifndef PBMPM_SRC_SOLVERS_GRANULAR_H
+#define PBMPM_SRC_SOLVERS_GRANULAR_H
+
+#include "world/world.h"
+
+/* Whether sand of the islands with these kinds flows in the next substep. Sand that touches liquid always does: the primal does not bear the depth of that. */
+bool granular_flows(const World *world, uint32_t kinds);
+
+/* Takes memory for the blocks of this substep and the pressures. */
+pbmpm_result granular_prepare(World *world);
+void granular_free(World *world);
+
+/* Points the kernel arguments at the pressures where the primal solves sand that may come to flow. */
+void granular_bind(World *world);
+
+/* After the particles have moved: what their sand does. */
+void granular_judge(World *world);
+
+/* The share of its stiffness that sand gets. F holds the deviator that it bears as c mu times a strain, to 2^-23 c mu: with the most to 1e-3, a hundredth of the pressure
+ * below one cell at 60 Hz. What iterations hold is far less. */
+double granular_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+
+#endif
