@@ -129,6 +129,39 @@ def layer(run: Run, angle: float, phi: float, box: bool = False) -> None:
         run.check("creep", _creep(run, world, frame, 2), 0, 1, "mm/s", why=CREEP)
 
 
+@case(phi_30=dict(phi=30), phi_40=dict(phi=40))
+def tilted_tray(run: Run, phi: float) -> None:
+    """A tray that is tilted by five degrees a second: its sand stays up to its angle of friction, then runs."""
+    w, h, rate = 0.8, 0.16, 5.0
+    with run.world(2, CELL) as world:
+        tank(world, Frame(), w, h, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=1.0)
+        pool(world, Frame(), (0, 0), (w, h), _sand(phi))
+        run.steps(world, 0.5)
+        start = world.positions.array()[:, 0].mean()
+        log = []
+
+        def tilt(t: float) -> None:
+            angle = math.radians(rate * t)
+            world.gravity = (G * math.sin(angle), -G * math.cos(angle))
+
+        def watch(t: float) -> None:
+            log.append((rate * t, world.positions.array()[:, 0].mean() - start))
+
+        run.steps(world, (phi + 12) / rate, before=tilt, after=watch)
+        angle, moved = np.array(log).T
+        run.check("way of its centre up to 3 degrees below", 1e3 * moved[angle < phi - 3][-1], -5, 5, "mm", why="friction holds it; a quarter of a cell")
+        gone = moved > CELL / 4
+        begins = float(angle[gone][0]) if gone.any() else math.nan
+        run.check(
+            "angle at which it has moved by a quarter of a cell",
+            begins,
+            phi - 3,
+            phi + 6,
+            "degrees",
+            why="the angle of friction, as well as it is known from heaps; layers start up to 5 degrees above the angle at which they stop (Daerr 1999)",
+        )
+
+
 @case(low=dict(aspect=1.0), flat=dict(aspect=0.5))
 def column(run: Run, aspect: float) -> None:
     """A column on a rough floor slumps: run-out 1.2 a (Lube 2005) to 1.8 a (Lajeunesse 2005) of its width."""
