@@ -3,7 +3,7 @@
 #include <math.h>
 
 #include "base/result.h"
-#include "solvers/moduli.h"
+#include "solvers/dual/dual.h"
 #include "solvers/passes.h"
 #include "world/depth.h"
 #include "world/island_groups.h"
@@ -94,32 +94,39 @@ static void turn(GranularState *state, bool leaves, bool at_once, double dt)
     state->seconds = 0.0;
 }
 
-void granular_judge(World *world)
+/* The fastest block that counts, and what is missing of a grain on average. */
+static GranularBlock measure_all(World *world)
 {
-    GranularState *state = &world->granular.of[islands_kinds(world)];
     const GranularBlock *blocks = world->granular.blocks.data;
-    const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size);
-    double fullest = 0.0, fastest = 0.0, grains = 0.0, missing = 0.0;
-    if (!is_judged(world)) return;
-    pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, measure_blocks, world);
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
-        fullest = fmax(fullest, (double)blocks[block].grains);
-        grains += (double)blocks[block].grains;
+    const int32_t count = world->grid.particle_blocks;
+    GranularBlock all = {0, 0.0f, 0.0f};
+    uint32_t fullest = 0;
+    double missing = 0.0;
+    pool_for(world->pool, count, BLOCK_GRAIN, measure_blocks, world);
+    for (int32_t block = 0; block < count; block++) {
+        if (blocks[block].grains > fullest) fullest = blocks[block].grains;
+        all.grains += blocks[block].grains;
         missing += (double)blocks[block].missing;
     }
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++)
-        if ((double)blocks[block].grains > FEW * fullest) fastest = fmax(fastest, (double)blocks[block].speed);
-    if (!goes_on(world, state)) *state = (GranularState){0.0, 0, 0};
-    state->judged = world->step_count + 1;
-    if (state->flows)
-        turn(state, fastest < SETTLES * fall && missing < CRUSHED * grains, false, dt);
-    else
-        turn(state, fastest > CREEPS * fall, fastest > FALLS * fall, dt);
+    for (int32_t block = 0; block < count; block++)
+        if ((double)blocks[block].grains > FEW * (double)fullest) all.speed = fmaxf(all.speed, blocks[block].speed);
+    all.missing = (float)(missing / fmax(1.0, (double)all.grains));
+    return all;
 }
 
-double granular_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+void granular_judge(World *world)
 {
-    static const double STIFFEST_SHEAR = 1e4;
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
-    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(world, def, substep) * shear));
+    if (!is_judged(world)) return;
+    const uint32_t kinds = islands_kinds(world);
+    GranularState *state = &world->granular.of[kinds];
+    const GranularBlock all = measure_all(world);
+    const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
+    const bool whole = kinds != KIND_SAND || (double)all.missing < CRUSHED;
+    if (!goes_on(world, state) || !dual_holds_solids(world, dt)) *state = (GranularState){0.0, 0, 0};
+    state->judged = world->step_count + 1;
+    if (!dual_holds_solids(world, dt)) return;
+    if (state->flows)
+        turn(state, speed < SETTLES * fall && whole, false, dt);
+    else
+        turn(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
 }

@@ -10,7 +10,11 @@
  *
  * The state is that of all sand of the islands with the same set of kinds. What sand does is measured against the speed v of a fall through one cell, v^2 = 2 g dx.
  * It begins at rest. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds. It rests when no
- * block has moved at SETTLES v for SLOW seconds while no more of its volume was missing than CRUSHED, which the dual alone gives back. Without gravity sand that moves flows. */
+ * block has moved at SETTLES v for SLOW seconds. Sand by itself must have its volume back, too, to CRUSHED: the dual alone gives it back. Without gravity sand that
+ * moves flows.
+ *
+ * With the dual bodies sink into sand. So sand that they touch rests as soon as it is slow. Solids that the dual would hold softer than they are would spring up
+ * when the primal takes over: the sand that touches them always rests. */
 #ifndef PBMPM_SRC_SOLVERS_GRANULAR_H
 #define PBMPM_SRC_SOLVERS_GRANULAR_H
 
@@ -28,9 +32,5 @@ void granular_bind(World *world);
 
 /* After the particles have moved: what their sand does. */
 void granular_judge(World *world);
-
-/* The share of its stiffness that sand gets. F holds the deviator that it bears as c mu times a strain, to 2^-23 c mu: with the most to 1e-3, a hundredth of the pressure
- * below one cell at 60 Hz. What iterations hold is far less. */
-double granular_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 
 #endif

@@ -27,6 +27,13 @@ static void set_liquid(World *world, uint32_t slot, float dt, float stiffest)
     material->viscous_share = (float)viscosity_share(world, def, (double)dt);
 }
 
+double moduli_sand_share(const World *world, const pbmpm_material_def *def, double dt)
+{
+    static const double STIFFEST_SHEAR = 1e4;
+    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
+    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(world, def, dt) * shear));
+}
+
 void moduli_set_solid(World *world, uint32_t slot, float dt, double share)
 {
     const pbmpm_material_def *def = &world->materials.def[slot];

@@ -331,20 +331,32 @@ def sand_in_water(run: Run) -> None:
         run.check("rms speed of the sand", 1e3 * rms(world, rows_of(world, grains)), 0, 10, "mm/s", why="it has come to rest")
 
 
-@case(cube=dict())
-def jelly_on_sand(run: Run) -> None:
+@case(cube=dict(), heavy=dict(density=2500.0, young_modulus=1e6), dropped=dict(fall=0.2), dropped_heavy=dict(fall=0.2, density=2500.0), off_grid=dict(shift=0.4), three_d=dict(dimension=3))
+def jelly_on_sand(run: Run, density: float = 800.0, young_modulus: float = 1e5, fall: float = 0.0, shift: float = 0.0, dimension: int = 2) -> None:
     """A jelly cube on a bed of sand stays on top and rests."""
-    cell = 0.025
-    with run.world(2, cell) as world:
-        frame = Frame()
-        tank(world, frame, 0.8, 0.5, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=0.5)
-        pool(world, frame, (0, 0), (0.8, 0.2), Sand(density=1600, young_modulus=1e6))
-        jelly = pool(world, frame, (0.3, 0.2), (0.5, 0.4), Elastic(density=800, young_modulus=1e5))
+    cell, width = (0.025, 0.8) if dimension == 2 else (0.04, 0.64)
+    middle, half = width / 2, 4 * cell if dimension == 2 else 3 * cell
+    frame, bed = Frame(dimension, 0, shift * cell), 8 * cell
+    with run.world(dimension, cell) as world:
+        tank(world, frame, width, 0.8, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=0.5)
+        pool(world, frame, [0.0] * dimension, [width, bed] + [width] * (dimension - 2), Sand(density=1600, young_modulus=1e6))
+        low, high = np.full(dimension, middle - half), np.full(dimension, middle + half)
+        low[1], high[1] = bed + fall, bed + fall + 2 * half
+        jelly = pool(world, frame, low, high, Elastic(density=density, young_modulus=young_modulus))
         run.steps(world, 3)
         rows = rows_of(world, jelly)
-        p = world.positions.array()
-        run.near("height of the cube", p[rows, 1].mean(), 0.3, SURFACE, cell, why="the bed bears many times its weight (Prandtl)")
-        run.near("mean height of the bed", p[~rows, 1].mean(), 0.1, 0.25, cell, why="grains keep their volume")
+        p = frame.positions(world)
+        # A crater of 0.14 / tan(phi) sqrt(density over that of sand) D^(2/3) H^(1/3) (Uehara 2003).
+        crater = 0.14 / math.tan(math.pi / 6) * math.sqrt(density / 1600) * (2 * half) ** (2 / 3) * fall ** (1 / 3)
+        run.check(
+            "height of the cube, off by",
+            (p[rows, 1].mean() - bed - half) / cell,
+            -crater / cell - SURFACE,
+            SURFACE,
+            "cells",
+            why="the bed bears many times its weight (Prandtl); what falls on sand makes a crater of that depth at most (Uehara 2003)",
+        )
+        run.near("mean height of the bed", p[~rows, 1].mean(), bed / 2, 0.25, cell, why="grains keep their volume")
         run.check("rms speed", 1e3 * rms(world), 0, 10, "mm/s", why="all rests")
 
 

@@ -10,7 +10,6 @@
 #include "solvers/dual/guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
-#include "solvers/granular.h"
 #include "solvers/moduli.h"
 #include "solvers/passes.h"
 #include "world/depth.h"
@@ -422,7 +421,7 @@ double dual_stiffness_of(const World *world, const pbmpm_material_def *def, doub
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
 {
-    if (def->kind == PBMPM_SAND) return granular_stiffness_share(world, def, substep);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(world, def, substep);
     const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
@@ -471,11 +470,25 @@ double dual_stiffened(const World *world, double substep, double iterations)
     return fmin(DUAL_ITERATIONS_PER_ROOT * sqrt(risen), for_weight < 2.0 ? 0.5 + sqrt(0.25 + for_weight) : for_weight);
 }
 
+/* Of solids among liquids or sand, by so many iterations. */
+static double shared_stiffness_cap(double iterations, double stiffness) { return fmin(1.0, 16.0 * iterations * iterations / stiffness); }
+
+bool dual_holds_solids(const World *world, double substep)
+{
+    bool held = true;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        if (world->particles.of_material[slot] == 0 || !material_is_solid(&world->materials, slot) || def->kind == PBMPM_SAND) continue;
+        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(world, def, substep)) == 1.0;
+    }
+    return held;
+}
+
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
 {
     const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
-    if (def->kind == PBMPM_SAND) return granular_stiffness_share(world, def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
-    if (shares_world(world)) return fmin(1.0, 16.0 * iterations * iterations / stiffness);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(world, def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
+    if (shares_world(world)) return shared_stiffness_cap(iterations, stiffness);
     const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;
     const double asked = most_asked(asked_per_iteration(world, substep), iterations);

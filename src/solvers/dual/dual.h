@@ -27,6 +27,9 @@ double dual_stiffness_of(const World *world, const pbmpm_material_def *def, doub
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
 double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep);
 
+/* Whether they hold all of the stiffness of the solids that share the world with sand or liquid. */
+bool dual_holds_solids(const World *world, double substep);
+
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
 double dual_stiffened(const World *world, double substep, double iterations);
 

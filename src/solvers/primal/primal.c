@@ -5,7 +5,6 @@
 
 #include "base/result.h"
 #include "contact/holds.h"
-#include "solvers/granular.h"
 #include "solvers/moduli.h"
 #include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
@@ -58,7 +57,7 @@ void primal_set_materials(World *world, float dt)
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         if (material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
-        if (material->yields == K_SAND) moduli_set_solid(world, slot, dt, granular_stiffness_share(world, &world->materials.def[slot], (double)dt));
+        if (material->yields == K_SAND) moduli_set_solid(world, slot, dt, moduli_sand_share(world, &world->materials.def[slot], (double)dt));
     }
 }
 
