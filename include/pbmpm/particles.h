@@ -64,12 +64,15 @@ typedef enum pbmpm_field {
     PBMPM_POSITION = 0,        /**< d floats [m], relative to the origin */
     PBMPM_VELOCITY = 1,        /**< d floats [m/s] */
     PBMPM_AFFINE_VELOCITY = 2, /**< d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood */
-    PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step */
-    PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid */
+    PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step. Sand with the dual or
+                                    the convergent solver: its volume, J, which F does not tell */
+    PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid. Sand with the
+                                    dual or the convergent solver: the strain that bears its stress; det F its pressure p, as exp(-p / K) */
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
-    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Take the mean
+    PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle, or of sand with the dual or the convergent solver, as last solved for; 0 for elastic
+                                    ones. Take the mean
                                     over a few cells: differences between neighbouring particles cause no motion. */
     PBMPM_USER_VALUE = 9,      /**< 1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
                                     that is not 0 was given, or any was set: before, it takes no memory. */

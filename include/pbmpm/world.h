@@ -57,11 +57,12 @@ typedef enum pbmpm_solver {
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
     PBMPM_SOLVER_CONVERGENT = 4, /**< default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
-                                      share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand in them.
+                                      share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand and liquid.
                                       Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
-                                      takes 1.5 times as long. Islands of the same kinds are solved together, as if nothing else were there. With a
-                                      single iteration the primal solves all islands without sand. While matter sleeps (settings.sleeping) all of the
-                                      world is one island. */
+                                      takes 1.5 times as long. Sand without liquid: the primal while it rests, the dual while it flows. Solids that touch it and
+                                      are stiffer than the dual holds keep it with the primal. Islands of the same kinds are solved together, as if nothing
+                                      else were there. With a single iteration the primal solves liquids, too. While matter sleeps (settings.sleeping) all of
+                                      the world is one island. */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 

@@ -6,6 +6,7 @@
 #include "base/sized.h"
 #include "services/effective.h"
 #include "services/survey.h"
+#include "solvers/dual/dual.h"
 #include "solvers/passes.h"
 #include "world/depth.h"
 
@@ -88,8 +89,8 @@ static bool any_present(const World *world, pbmpm_material_kind kind)
     return false;
 }
 
-/* Which solver matter of this material is solved with. The convergent one is chosen where matter touches: a solid in sand or a liquid that solids touch may
- * have the other one, and what that holds says held_of(). */
+/* Which solver matter of this material is solved with. The convergent one is chosen where matter touches: a liquid that solids touch may have the other one, and what that
+ * holds says held_of(). Sand counts as flowing: what that cannot hold is seen first. */
 static pbmpm_solver solver_of(const World *world, uint32_t slot)
 {
     if (world->settings.solver != PBMPM_SOLVER_CONVERGENT) return world->settings.solver;
@@ -724,6 +725,16 @@ static bool sinks(const World *world, const pbmpm_material_def *body)
     return false;
 }
 
+/* Whether a body moves as matter pushes it, see pbmpm_rigid_advance(). */
+static bool any_rigid(const World *world)
+{
+    for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
+        const Collider *collider = &world->colliders.slot[slot];
+        if (collider->generation != 0 && collider->def.kinematic && collider->def.measures_impulse) return true;
+    }
+    return false;
+}
+
 /* Motion is one per node: what lies between two of them moves with both. */
 static void known_limits(Adviser *adviser)
 {
@@ -732,7 +743,10 @@ static void known_limits(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!present(world, slot) || flows(def) || world->settings.solver == PBMPM_SOLVER_PAPER) continue;
         if (def->kind == PBMPM_SAND && any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
-        if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND)) tell_limit(adviser, slot, "bodies sink into sand that they lie on, by one to three cells");
+        if (def->kind == PBMPM_SAND && any_rigid(world) && world->settings.substeps < 4)
+            tell_limit(adviser, slot, "a rigid body on sand rocks and sinks in: four substeps hold it better");
+        if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND) && !dual_holds_solids(world, adviser->substep))
+            tell_limit(adviser, slot, "a body as stiff as this springs back where it falls on sand, and may stop a cell or two above it");
         if (def->kind != PBMPM_SAND && any_present(world, PBMPM_LIQUID) && adviser->survey.heap[slot].narrow > 0.5)
             tell_limit(adviser, slot, "a body with less than five cells between it and walls on both sides hangs in a liquid: leave it more room");
         if (def->kind != PBMPM_SAND && sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above what it sinks onto, and slides there: the liquid between does not leave");

@@ -270,19 +270,21 @@ static void test_a_pool_that_stirs(void)
     }
 }
 
-/* A body heavier than the liquid, one on sand, and sand in liquid; light bodies, and each kind by itself, have none. */
+/* A body heavier than the liquid, a stiff one on sand, and sand in liquid; light bodies, soft ones on sand, and each kind by itself, have none. */
 static void test_known_limits(void)
 {
     static const struct {
         pbmpm_material_kind kind[2];
-        float density;
+        float density, young_modulus;
         int limits;
-    } cases[] = {{{PBMPM_LIQUID, PBMPM_ELASTIC}, 900, 0}, {{PBMPM_LIQUID, PBMPM_ELASTIC}, 1500, 1}, {{PBMPM_SAND, PBMPM_ELASTIC}, 900, 1}, {{PBMPM_LIQUID, PBMPM_SAND}, 0, 1}, {{PBMPM_SAND, PBMPM_SAND}, 0, 0}};
+    } cases[] = {{{PBMPM_LIQUID, PBMPM_ELASTIC}, 900, 1e5f, 0}, {{PBMPM_LIQUID, PBMPM_ELASTIC}, 1500, 1e5f, 1}, {{PBMPM_SAND, PBMPM_ELASTIC}, 900, 1e5f, 0},
+                 {{PBMPM_SAND, PBMPM_ELASTIC}, 900, 1e8f, 1},   {{PBMPM_LIQUID, PBMPM_SAND}, 0, 1e5f, 1},     {{PBMPM_SAND, PBMPM_SAND}, 0, 1e5f, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.05f);
         for (int k = 0; k < 2; k++) {
             pbmpm_material_def def = default_material(cases[i].kind[k]);
             if (k == 1 && cases[i].density > 0.0f) def.density = cases[i].density;
+            def.young_modulus = cases[i].young_modulus;
             fill_shape(world, add_material(world, &def), box_shape(0.5f, 0.3f + (float)k, 0, 0.5f, 0.3f, 0.5f), at_rest);
         }
         ask(world);

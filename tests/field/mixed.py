@@ -360,6 +360,21 @@ def jelly_on_sand(run: Run, density: float = 800.0, young_modulus: float = 1e5, 
         run.check("rms speed", 1e3 * rms(world), 0, 10, "mm/s", why="all rests")
 
 
+@case(crate=dict(), four_substeps=dict(substeps=4))
+def rigid_on_sand(run: Run, substeps: int = 1) -> None:
+    """A rigid crate that is put on a bed of sand stands there."""
+    cell, bed, half = 0.025, 0.2, 0.125
+    with run.world(2, cell, domain=((0, 0), (3, 1.5)), domain_friction=0.6, substeps=substeps) as world:
+        pool(world, Frame(), (0, 0), (3, bed), Sand(density=1600))
+        run.steps(world, 1)
+        box = world.add_collider(Box((1.5, bed + half), (half, half)), kinematic=True, measures_impulse=True, friction_coefficient=0.5)
+        crate = RigidBody(box, density=600)
+        run.steps(world, 10, before=lambda t: crate.advance(run.dt))
+        tilt = math.degrees(2 * math.asin(crate.rotation[2]))
+        run.check("tilt", abs(tilt), 0, 3, "degrees", why="the bed is level; half a cell at one edge of ten is 3 degrees")
+        run.check("height, off by", (crate.position[1] - bed - half) / cell, -1, 0.5, "cells", why="the bed bears many times its weight (Prandtl)")
+
+
 @case(domain=dict(walls="domain"), boxes_off=dict(walls="boxes"))
 def all_in_a_tank(run: Run, walls: str) -> None:
     """Water, jelly, sand and clay in one tank: all is still there, fills its volume and comes to rest."""

@@ -240,6 +240,21 @@ def poured(run: Run, half: float, boxes: bool = False) -> None:
         run.check("rms speed", 1e3 * rms(world), 0, 5, "mm/s", why="it has come to rest")
 
 
+@case(two_thirds=dict(), smooth=dict(friction_coefficient=0.0))
+def falls(run: Run, friction_coefficient: float = 0.2) -> None:
+    """A block of sand that falls two thirds of a metre into a bin keeps its volume and comes to rest."""
+    cell, w, h, fall = 0.0125, 0.5, 0.2, 2 / 3
+    with run.world(2, cell) as world:
+        tank(world, Frame(), w, 1.2, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=friction_coefficient)
+        pool(world, Frame(), (0, fall), (w, fall + h), _sand())
+        run.steps(world, math.sqrt(2 * fall / G) + 1)
+        why = "grains keep their volume; poured sand takes up to a tenth more"
+        run.check("volume a second after it landed", 2 * world.positions.array()[:, 1].mean() / h, 0.95, 1.1, why=why)
+        run.steps(world, 2.5)
+        run.check("volume in the end", 2 * world.positions.array()[:, 1].mean() / h, 0.95, 1.1, why=why)
+        run.check("rms speed", 1e3 * rms(world), 0, 5, "mm/s", why="it has come to rest")
+
+
 @case(neck_8=dict(neck=8), neck_4=dict(neck=4), soft=dict(neck=8, cell=0.0125, young_modulus=1e5))
 def hourglass(run: Run, neck: int, cell: float = CELL, young_modulus: float = 1e6) -> None:
     """Sand runs through the neck between two boards and heaps up two thirds of a metre below, with its volume."""

@@ -178,11 +178,12 @@ namespace Pbmpm
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
         /// <summary>default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
-        /// share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand in them.
+        /// share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand and liquid.
         /// Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
-        /// takes 1.5 times as long. Islands of the same kinds are solved together, as if nothing else were there. With a
-        /// single iteration the primal solves all islands without sand. While matter sleeps (settings.sleeping) all of the
-        /// world is one island.</summary>
+        /// takes 1.5 times as long. Sand without liquid: the primal while it rests, the dual while it flows. Solids that touch it and
+        /// are stiffer than the dual holds keep it with the primal. Islands of the same kinds are solved together, as if nothing
+        /// else were there. With a single iteration the primal solves liquids, too. While matter sleeps (settings.sleeping) all of
+        /// the world is one island.</summary>
         Convergent = 4,
     }
 
@@ -225,9 +226,11 @@ namespace Pbmpm
         Velocity = 1,
         /// <summary>d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood</summary>
         AffineVelocity = 2,
-        /// <summary>1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step</summary>
+        /// <summary>1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step. Sand with the dual or
+        /// the convergent solver: its volume, J, which F does not tell</summary>
         VolumeRatio = 3,
-        /// <summary>d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid</summary>
+        /// <summary>d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid. Sand with the
+        /// dual or the convergent solver: the strain that bears its stress; det F its pressure p, as exp(-p / K)</summary>
         Deformation = 4,
         /// <summary>1 uint32: index of the material's identifier</summary>
         Material = 5,
@@ -235,7 +238,8 @@ namespace Pbmpm
         Particle = 6,
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
-        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle as the dual solver last solved for it; 0 for elastic ones. Take the mean
+        /// <summary>1 float [Pa] (2D: N/m): of a liquid particle, or of sand with the dual or the convergent solver, as last solved for; 0 for elastic
+        /// ones. Take the mean
         /// over a few cells: differences between neighbouring particles cause no motion.</summary>
         Pressure = 8,
         /// <summary>1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
@@ -602,6 +606,8 @@ namespace Pbmpm
     ///
     /// With the dual solver sand keeps its stress from substep to substep. Its pressure resists compression with the bulk modulus. J follows the grid by
     /// volume_feedback, as a liquid's does. Compressed sand recovers a tenth of what is missing per 1/60 s. Deep sand takes up to 16 more iterations.
+    /// With the convergent solver sand begins at rest, with the primal. It flows, with the dual, once some of it moves at half the speed of a fall through a
+    /// cell, or for 0.3 s at 0.3 % of it. It rests once all of it was slower than 7 % of that speed for 0.3 s, and no more than 3 % of its volume is missing.
     ///
     /// Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
     /// artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.

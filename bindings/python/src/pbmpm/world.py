@@ -448,12 +448,12 @@ class World(
 
     @property
     def volume_ratios(self) -> View:
-        """Volume relative to the rest volume, shape (n,): J, or det F of elastic matter as of its last step."""
+        """Volume relative to the rest volume, shape (n,): J, or det F of elastic matter as of its last step; J of sand with the dual or the convergent solver."""
         return self.view(Field.VOLUME_RATIO)
 
     @property
     def deformations(self) -> View:
-        """Deformation gradients F, shape (n, d, d); only once the world had a particle that is not liquid."""
+        """Deformation gradients F, shape (n, d, d); only once the world had a particle that is not liquid. Of sand see `PBMPM_DEFORMATION` in the header."""
         return self.view(Field.DEFORMATION)
 
     @property
@@ -473,7 +473,7 @@ class World(
 
     @property
     def pressures(self) -> View:
-        """Pressures of liquid particles as the dual solver last solved for them, shape (n,) [Pa] (2D: N/m)."""
+        """Pressures of liquid particles, and of sand with the dual or the convergent solver, as last solved for, shape (n,) [Pa] (2D: N/m)."""
         return self.view(Field.PRESSURE)
 
     @property
