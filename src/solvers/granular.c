@@ -13,7 +13,7 @@ enum { BLOCK_GRAIN = 8 };
 
 static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07; /* of v */
 static const double SLOW = 0.3;                                  /* [s] */
-static const double CRUSHED = 0.03;                              /* of the volume */
+static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests */
 static const double FEW = 0.25;                                  /* of the grains of the fullest block */
 
 /* The grains of a block. */
@@ -86,7 +86,7 @@ void granular_bind(World *world)
 }
 
 /* Counts for how long a state has been left, and leaves it. */
-static void turn(GranularState *state, bool leaves, bool at_once, double dt)
+static void change_state(GranularState *state, bool leaves, bool at_once, double dt)
 {
     state->seconds = leaves ? state->seconds + dt : 0.0;
     if (!at_once && state->seconds < SLOW) return;
@@ -121,12 +121,12 @@ void granular_judge(World *world)
     GranularState *state = &world->granular.of[kinds];
     const GranularBlock all = measure_all(world);
     const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
-    const bool whole = kinds != KIND_SAND || (double)all.missing < CRUSHED;
-    if (!goes_on(world, state) || !dual_holds_solids(world, dt)) *state = (GranularState){0.0, 0, 0};
+    const bool may_flow = dual_holds_solids(world, dt), whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
+    if (!goes_on(world, state) || !may_flow) *state = (GranularState){0.0, 0, 0};
     state->judged = world->step_count + 1;
-    if (!dual_holds_solids(world, dt)) return;
+    if (!may_flow) return;
     if (state->flows)
-        turn(state, speed < SETTLES * fall && whole, false, dt);
+        change_state(state, speed < SETTLES * fall && whole, false, dt);
     else
-        turn(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
 }
