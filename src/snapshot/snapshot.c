@@ -206,7 +206,7 @@ static void save_counters(const World *world, SnapshotOut *out)
 {
     Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                          world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0, 0}}};
+                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0.0, 0, 0}}};
     memcpy(counters.eddy_account, world->dual.eddy_damping.account, sizeof counters.eddy_account);
     memcpy(counters.granular, world->granular.of, sizeof counters.granular);
     snapshot_put_part(out, &counters, sizeof counters);

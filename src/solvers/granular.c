@@ -13,6 +13,7 @@ enum { BLOCK_GRAIN = 8 };
 
 static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07; /* of v */
 static const double SLOW = 0.3;                                  /* [s] */
+static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells */
 static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests */
 static const double FEW = 0.25;                                  /* of the grains of the fullest block */
 
@@ -38,7 +39,8 @@ bool granular_flows(const World *world, uint32_t kinds)
 
 static bool is_judged(const World *world)
 {
-    return world->settings.solver == PBMPM_SOLVER_CONVERGENT && solver_holds_sand(world) && !solver_holds_liquid(world);
+    const pbmpm_solver solver = world->settings.solver;
+    return (solver == PBMPM_SOLVER_CONVERGENT || solver == PBMPM_SOLVER_DUAL) && solver_holds_sand(world) && !solver_holds_liquid(world);
 }
 
 static GranularBlock measure(const World *world, int32_t block)
@@ -80,15 +82,23 @@ pbmpm_result granular_prepare(World *world)
 
 void granular_free(World *world) { array_free(&world->memory, &world->granular.blocks); }
 
+/* What the dual starts from beside means, see granular.h. */
+static float carried(const World *world)
+{
+    const GranularState *state = &world->granular.of[islands_kinds(world)];
+    return goes_on(world, state) ? (float)fmax(0.0, 1.0 - state->flowed / FORGETS) : 0.0f;
+}
+
 void granular_bind(World *world)
 {
     if (is_judged(world)) world->args.pressure = world->particles.pressure;
+    world->args.grains_carried = carried(world);
 }
 
-/* Counts for how long a state has been left, and leaves it. */
+/* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */
 static void change_state(GranularState *state, bool leaves, bool at_once, double dt)
 {
-    state->seconds = leaves ? state->seconds + dt : 0.0;
+    state->seconds = fmax(0.0, state->seconds + (leaves ? dt : -dt));
     if (!at_once && state->seconds < SLOW) return;
     state->flows = !state->flows;
     state->seconds = 0.0;
@@ -114,19 +124,26 @@ static GranularBlock measure_all(World *world)
     return all;
 }
 
+static void follow(World *world, GranularState *state, uint32_t kinds, double dt)
+{
+    const GranularBlock all = measure_all(world);
+    const double fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
+    const bool whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
+    if (state->flows)
+        change_state(state, speed < SETTLES * fall && whole, false, dt);
+    else
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
+}
+
 void granular_judge(World *world)
 {
     if (!is_judged(world)) return;
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
-    const GranularBlock all = measure_all(world);
-    const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
-    const bool may_flow = dual_holds_solids(world, dt), whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
-    if (!goes_on(world, state) || !may_flow) *state = (GranularState){0.0, 0, 0};
+    const double dt = (double)world->args.dt;
+    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, dt);
+    if (!goes_on(world, state) || !may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
-    if (!may_flow) return;
-    if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, dt);
-    else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
+    state->flowed = dual || state->flows ? state->flowed + dt : 0.0;
+    if (may_flow && !dual) follow(world, state, kinds, dt);
 }

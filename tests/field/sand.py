@@ -314,6 +314,8 @@ def silo(run: Run, w: float, slot: float, sloped: bool = False) -> None:
 
         run.steps(world, 1.6, after=watch)
         t, share = np.array(log).T
+        begun = t[share < 0.98] - t[0]
+        run.check("seconds until a fiftieth has run out", begun[0] if len(begun) else math.inf, 0, 0.6, why="nothing holds it over a hole: no eye should wait")
 
         def flow(above: float, below: float) -> float:
             k = (share < above) & (share > below)
@@ -323,6 +325,28 @@ def silo(run: Run, w: float, slot: float, sloped: bool = False) -> None:
         low, high = (0.8, 1.45) if not sloped else (0.8, 1.9)
         run.check("flow over sqrt(g) D^1.5", first, low, high, why="Beverloo in the plane: 0.8 to 1.45; a funnel of 45 degrees lets through up to a third more")
         run.check("flow later over flow before", last / first, 0.9, 1.1, why="Beverloo: it does not depend on how full it is")
+
+
+@case(coarse=dict(cell=0.02), fine=dict(cell=0.0125), box=dict(cell=0.02, box=True))
+def funnel(run: Run, cell: float, box: bool = False) -> None:
+    """Sand (30 degrees) that runs out of a funnel piles up, a few degrees less steep than it could be."""
+    frame = Frame(shift=0.3 * cell)
+    with run.world(2, cell) as world:
+        world.add_collider(frame.box((-2, -0.2), (2, 0)) if box else frame.plane((0, 0), (0, 1)), friction_coefficient=1.0)
+        for side in (-1, 1):
+            world.add_collider(Box(frame.out((0.34 * side, 0.92)).tolist(), (0.35, 0.02), rotation=side * math.pi / 4), friction_coefficient=0.1)
+        p = lattice((-0.5, 0.8), (0.5, 1.25), cell / 2)
+        p = p[np.abs(p[:, 0]) < p[:, 1] - 0.68]
+        world.add_particles(world.add_material(_sand()), frame.out(p))
+        run.steps(world, 5)
+        q = frame.positions(world)
+        low = q[q[:, 1] < 0.55]
+        run.check("share that has run out", len(low) / len(p), 0.9, 1.0, why="a funnel of 45 degrees with a friction of 6 keeps nothing but what lies in its mouth")
+        reach = np.percentile(np.abs(low[:, 0]), 97)
+        x = np.linspace(0.2 * reach, 0.8 * reach, 20)
+        top = [low[np.abs(np.abs(low[:, 0]) - v) < cell, 1].max() for v in x]
+        slope = math.degrees(math.atan(-np.polyfit(x, top, 1)[0]))
+        run.check("angle of repose", slope, 17, 33, "degrees", why="friction of 30 degrees; what falls comes with speed and lies flatter")
 
 
 @case(dry=dict())
