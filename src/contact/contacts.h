@@ -39,6 +39,7 @@ typedef struct Colliders {
     Array solid;         /* uint64_t per node block: see ContactFrame.solid */
     Array open;          /* float per node: the share that is open */
     Array groups;        /* uint32_t per node: those of the materials there; 0: none is */
+    Array anchored;      /* Obstacle: the same from the grid's anchor, see push_out.c */
     Array gap;           /* float per node with mass: how far [cells] the next surface is, negative inside; infinite where none is near */
 
     Impulses impulses;

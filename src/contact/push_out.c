@@ -5,24 +5,50 @@
 #include "contact/field.h"
 #include "contact/push_out.h"
 
-/* An obstacle as a block sees it. Places are relative to the block's first node: the products and differences that lead there are exact in double
- * precision, while a place far from the origin would lose the last bits of its fraction, and the same scene a million cells away end elsewhere. */
+/* Places here are counted from the grid's anchor, a whole number of cells near the matter, or from a block's first node. A place far from the origin would lose the last
+ * bits of its fraction: a particle 2^-35 cells deep in a floor would lie on it a million cells away, where double precision ends at 2^-33. It would not be put back
+ * there, and the same scene would end elsewhere. Differences of places are exact where a cell is a power of two. */
+
+/* The same frame with its obstacles and matter counted from the anchor. */
+typedef struct Anchored {
+    ContactFrame frame;
+    Colliders colliders;
+} Anchored;
+
+static void count_from_anchor(const ContactFrame *frame, Anchored *anchored)
+{
+    anchored->frame = *frame;
+    anchored->colliders = *frame->colliders;
+    anchored->colliders.obstacle = frame->colliders->anchored.data;
+    anchored->frame.colliders = &anchored->colliders;
+}
+
+/* From the anchor [m]. */
+static void corner_of(const ContactFrame *frame, int32_t block, double corner[3])
+{
+    const int32_t *coordinate = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    for (int a = 0; a < 3; a++) corner[a] = a < frame->grid->dimension ? (double)(coordinate[a] * K_BLOCK_AXIS) * frame->cell_size : 0.0;
+}
+
+/* An obstacle as a block sees it, from the block's first node. */
 typedef struct View {
-    const Obstacle *obstacle; /* in the world */
     Obstacle local;
     int32_t cell[3];  /* of the block's first node */
     double corner[3]; /* where that is [m] */
 } View;
 
+/* The obstacle is counted from the anchor. */
 static View view_from(const ContactFrame *frame, const Obstacle *o, int32_t block)
 {
-    const int32_t *corner = (const int32_t *)frame->grid->coordinate.data + 3 * block;
-    View view = {.obstacle = o, .local = *o};
+    const int32_t *coordinate = (const int32_t *)frame->grid->coordinate.data + 3 * block;
+    double corner[3];
+    View view = {.local = *o};
+    corner_of(frame, block, corner);
     for (int a = 0; a < frame->grid->dimension; a++) {
-        view.cell[a] = frame->grid->anchor[a] + corner[a] * K_BLOCK_AXIS;
+        view.cell[a] = frame->grid->anchor[a] + coordinate[a] * K_BLOCK_AXIS;
         view.corner[a] = (double)view.cell[a] * frame->cell_size;
-        view.local.start.position[a] -= view.corner[a];
-        view.local.end.position[a] -= view.corner[a];
+        view.local.start.position[a] -= corner[a];
+        view.local.end.position[a] -= corner[a];
     }
     return view;
 }
@@ -92,11 +118,11 @@ static bool find_sum(const ContactFrame *frame, const Book *book, const Obstacle
 
 /* ---- Particles inside ---- */
 
-/* [m] */
+/* From the anchor [m]. */
 static void place_of(const ContactFrame *frame, const Particles *p, uint32_t row, double point[3])
 {
     for (int a = 0; a < 3; a++)
-        point[a] = a < p->dimension ? ((double)p->cell[a][row] + (double)p->fraction[a][row]) * frame->cell_size : 0.0;
+        point[a] = a < p->dimension ? ((double)(p->cell[a][row] - frame->grid->anchor[a]) + (double)p->fraction[a][row]) * frame->cell_size : 0.0;
 }
 
 /* Moves a particle out through a face: at once out of a wall, and at most a cell per substep out of anything else, so that an obstacle that lands on matter does
@@ -207,10 +233,17 @@ static double longest_unseen(const ContactFrame *frame, const Obstacle *o)
     return fmin(LONGEST_UNSEEN, half / frame->cell_size);
 }
 
+/* The middle of a block, from the anchor [m]. */
+static void centre_of(const ContactFrame *frame, int32_t block, double centre[3])
+{
+    corner_of(frame, block, centre);
+    for (int a = 0; a < frame->grid->dimension; a++) centre[a] += 0.5 * (K_BLOCK_AXIS - 1) * frame->cell_size;
+}
+
 static bool is_in_reach(const ContactFrame *frame, const Obstacle *o, int32_t block, double way)
 {
     double centre[3];
-    contacts_block_centre(frame, block, centre);
+    centre_of(frame, block, centre);
     const double half_diagonal = 0.5 * K_BLOCK_AXIS * sqrt((double)frame->grid->dimension);
     return solid_least(&o->end, centre) / frame->cell_size <= half_diagonal + way;
 }
@@ -229,7 +262,7 @@ void contacts_keep_places(const ContactFrame *frame, const Particles *p, int32_t
     for (int32_t block = begin; block < end; block++) {
         bool wanted = false;
         for (int i = 0; i < colliders->obstacle_count && !wanted; i++) {
-            const Obstacle *o = &colliders->obstacle[i];
+            const Obstacle *o = (const Obstacle *)colliders->anchored.data + i;
             wanted = longest_unseen(frame, o) < INFINITY && is_in_reach(frame, o, block, frame->max_displacement);
         }
         for (int a = 0; wanted && a < p->dimension; a++) {
@@ -325,8 +358,11 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     const uint32_t *begin = frame->grid->block_begin.data;
     double centre[3];
     Near near, some;
+    Anchored anchored;
+    count_from_anchor(frame, &anchored);
+    frame = &anchored.frame;
     for (int i = first; i < colliders->obstacle_count; i++) {
-        const Obstacle *o = &colliders->obstacle[i];
+        const Obstacle *o = &anchored.colliders.obstacle[i];
         ImpulseSum *sum;
         if (!is_near(frame, o, block)) continue;
         if (!find_sum(frame, book, o, &sum)) {
@@ -336,7 +372,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
         }
         hold_block(frame, o, particles, dt, block, sum);
     }
-    contacts_block_centre(frame, block, centre);
+    centre_of(frame, block, centre);
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
     field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
     for (; row < begin[block + 1] && near.count > 0; row++) {
@@ -376,6 +412,17 @@ pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory)
 {
     Colliders *colliders = frame->colliders;
     const size_t blocks = (size_t)frame->grid->particle_blocks;
+    if (!array_reserve(memory, &colliders->anchored, (size_t)colliders->obstacle_count, sizeof(Obstacle)))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %d obstacles", colliders->obstacle_count);
+    for (int i = 0; i < colliders->obstacle_count; i++) {
+        Obstacle *o = (Obstacle *)colliders->anchored.data + i;
+        *o = colliders->obstacle[i];
+        for (int a = 0; a < frame->grid->dimension; a++) {
+            const double anchor = (double)frame->grid->anchor[a] * frame->cell_size;
+            o->start.position[a] -= anchor;
+            o->end.position[a] -= anchor;
+        }
+    }
     if (!colliders->measures || array_reserve(memory, &colliders->impulses.notes, blocks, sizeof(PushNotes))) return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the impulses of %zu blocks", blocks);
 }

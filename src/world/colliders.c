@@ -41,6 +41,7 @@ void colliders_free(Colliders *colliders, Memory *memory)
     array_free(memory, &colliders->solid);
     array_free(memory, &colliders->open);
     array_free(memory, &colliders->groups);
+    array_free(memory, &colliders->anchored);
     array_free(memory, &colliders->gap);
     impulses_free(&colliders->impulses, memory);
     *colliders = (Colliders){0};

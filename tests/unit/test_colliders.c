@@ -391,6 +391,7 @@ static void test_particles_are_pushed_out(void)
     set_nodes(&s, (const float[3]){0, 0, 0});
     find_and_apply(&s, 0, 1);
     const Solid solid = solid_of(&ball, 2);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
     contacts_push_out(&s.frame, &s.particles, dt, 0, s.grid.particle_blocks);
     int at_wall = 0, in_ball = 0;
     for (uint32_t i = 0; i < s.particles.count; i++) {
@@ -416,6 +417,44 @@ static void test_particles_are_pushed_out(void)
     setting_close(&s);
 }
 
+/* A row of particles `cells` away, 2^-28 to 2^-44 cells below the surface of a floor: their fractions and speeds after a push. */
+static void push_from_floor(int32_t cells, float fraction[9], float speed[9])
+{
+    static Setting s;
+    pbmpm_shape floor = shape_defaults();
+    uint32_t row[9] = {0};
+    setting_open(&s, 2, 4);
+    floor.kind = PBMPM_PLANE;
+    floor.position[0] = floor.position[1] = (float)(cells * CELL_SIZE);
+    add_collider(&s, &floor, PBMPM_FRICTION_SLIP);
+    for (uint32_t i = 0; i < s.particles.count; i++) {
+        if (s.particles.cell[1][i] == 0) s.particles.fraction[1][i] = -ldexpf(1.0f, -28 - 2 * (s.particles.cell[0][i] + 4));
+        for (int a = 0; a < 2; a++) s.particles.cell[a][i] += cells;
+        s.particles.velocity[1][i] = -1.0f;
+    }
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s.grid, &s.memory, &s.particles, s.pool, false));
+    colliders_begin_substep(&s.colliders, &s.domain, 2, 0, 1);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
+    for (uint32_t i = 0; i < s.particles.count; i++)
+        if (s.particles.fraction[1][i] != 0.0f) row[s.particles.cell[0][i] - cells + 4] = i;
+    contacts_push_out(&s.frame, &s.particles, 0.01f, 0, s.grid.particle_blocks);
+    for (int k = 0; k < 9; k++) {
+        fraction[k] = s.particles.fraction[1][row[k]];
+        speed[k] = s.particles.velocity[1][row[k]];
+    }
+    setting_close(&s);
+}
+
+/* Double precision ends at 2^-33 cells there: what lies less deep must be put back as it is here, to the last bit. */
+static void test_a_million_cells_away_the_same_is_pushed_out(void)
+{
+    float here[2][9] = {{0}}, there[2][9] = {{0}};
+    push_from_floor(0, here[0], here[1]);
+    push_from_floor(1000000, there[0], there[1]);
+    for (int i = 0; i < 9; i++) TEST_ASSERT_TRUE(here[0][i] >= 0.0f && here[1][i] == 0.0f);
+    TEST_ASSERT_EQUAL_MEMORY(here, there, sizeof here);
+}
+
 /* Where each is after a push, of a row of particles through two boxes that overlap from -1/2 to 1/2 cells, as liquid that stays or not [cells]. */
 static void push_between_boxes(const KernelMaterial *stays, double place[9])
 {
@@ -431,6 +470,7 @@ static void push_between_boxes(const KernelMaterial *stays, double place[9])
     }
     set_nodes(&s, (const float[3]){0, 0, 0});
     find_and_apply(&s, 0, 1);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
     contacts_push_out(&s.frame, &s.particles, 0.01f, 0, s.grid.particle_blocks);
     for (uint32_t i = 0; i < s.particles.count; i++)
         if (fabs(particles_coordinate(&s.particles, i, 1)) < 0.1) place[s.particles.id[i].index % 9] = particles_coordinate(&s.particles, i, 0);
@@ -571,6 +611,7 @@ int main(void)
     RUN_TEST(test_motion_of_obstacles_is_clamped);
     RUN_TEST(test_teleported_obstacles_do_not_push);
     RUN_TEST(test_particles_are_pushed_out);
+    RUN_TEST(test_a_million_cells_away_the_same_is_pushed_out);
     RUN_TEST(test_what_overlapping_boxes_trap_stays_if_it_is_liquid);
     RUN_TEST(test_a_box_that_stands_has_no_bottom);
     RUN_TEST(test_a_standing_box_moves);

@@ -549,15 +549,19 @@ double primal_find_plain_direction(Primal *p)
     return primal_find_direction(p);
 }
 
+/* Near the lowest point the differences of gradients are rounding, and a direction made of such pairs may lead nowhere and be a hundred times too long. Where no step along
+ * it is good the one without pairs is followed, and says what is left. */
 static void minimise(Primal *p)
 {
     StepRecord *record = &p->world->record;
-    for (;;) {
-        double decrement = primal_find_direction(p);
+    for (bool plain = false;;) {
+        double decrement = plain ? primal_find_plain_direction(p) : primal_find_direction(p);
         if (decrement <= 0.0 && p->pairs > 0) decrement = primal_find_plain_direction(p);
         record->residual = sqrt(fmax(decrement, 0.0) / p->mass);
         if (!solver_may_go_on(p->world, PRIMAL_ERROR_PER_RESIDUAL * record->residual)) return;
-        if (!(decrement > 0.0) || !primal_descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations)) return;
+        const bool goes = decrement > 0.0 && primal_descend(p, &record->iterations_used, (uint32_t)p->world->settings.iterations);
+        if (!goes && p->pairs == 0) return;
+        plain = !goes;
     }
 }
 

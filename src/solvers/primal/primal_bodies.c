@@ -179,6 +179,16 @@ static uint32_t let_pay(Primal *p)
     return failed;
 }
 
+/* Where a body ends it has its momentum: what it gained, and the mean that its velocities differ from, are those of that motion. Judged before, stale means let a
+ * body that pays lose or gain momentum, by (1 - s) of what it still missed, and go faster than max_displacement. */
+static uint32_t find_failed(Primal *p)
+{
+    RigidBody *rigid = p->world->primal.rigid.data;
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) rigid[i].kept = 1.0;
+    primal_keep_momentum(p);
+    return primal_check_bodies(p);
+}
+
 /* For bodies that gained energy: see primal.h. */
 static void mend(Primal *p)
 {
@@ -187,12 +197,12 @@ static void mend(Primal *p)
     primal_accept(p, false);
     primal_find_direction(p);
     primal_descend_further(p); /* nearly there */
-    if (primal_check_bodies(p) == 0 || let_pay(p) == 0) return;
+    if (find_failed(p) == 0 || let_pay(p) == 0) return;
     p->turned = true;
     primal_pull_back_to(p, 0.0f);
     primal_find_direction(p);
     primal_descend_further(p);
-    for (int halving = 0; primal_check_bodies(p) > 0 && let_pay(p) > 0; halving++) {
+    for (int halving = 0; find_failed(p) > 0 && let_pay(p) > 0; halving++) {
         p->turned = halving < 2;
         primal_pull_back_to(p, halving < 2 ? 0.5f : 0.0f);
         if (halving == 2) return;

@@ -115,6 +115,36 @@ void primal_find_rigid(Primal *p)
         if (body[i].turns) weigh_body(&body[i]);
 }
 
+/* ---- What turns cost ---- */
+
+void primal_sum_products(double mass, const double x[3], const double y[3], double sum[RIGID_MODES])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        sum[a] += mass * x[a] * y[a];
+        sum[3 + a] += 0.5 * mass * (x[b] * y[c] + x[c] * y[b]);
+    }
+}
+
+/* A rotation w of x changes sum m/2 |R x - y|^2 by -w.l + w'H w / 2 + O(w^3): l = sum m x x y, H = tr S - S, S the symmetric part of sum m x y'. H w = l is right to
+ * second order. In a plane w is the tangent of the best angle: of y = (1 + a) x + b k x x it is b / (1 + a). With y = x, H is the tensor of inertia, which knows no
+ * a. But of what turns by t per substep x + u* has a = -t^2/18 with BDF2, t^2/2 with backward Euler: w is off by t^3/18 or more, and few iterations turn it no
+ * further. A stiff disc lost 5 % of its rotation in ten turns at 120 Hz x 10. Where y is x turned inside out no rotation is the best, and H is not positive. */
+bool primal_weigh_turns(const double products[RIGID_MODES], double m[RIGID_MODES][RIGID_MODES])
+{
+    double h[3][3];
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        h[a][a] = products[b] + products[c];
+        h[b][c] = h[c][b] = -products[3 + a];
+    }
+    const double minor = h[0][0] * h[1][1] - h[0][1] * h[0][1];
+    const double determinant = h[2][2] * minor - h[0][0] * h[1][2] * h[1][2] - h[1][1] * h[0][2] * h[0][2] + 2.0 * h[0][1] * h[1][2] * h[0][2];
+    if (!(h[0][0] > 0.0 && minor > 0.0 && determinant > 0.0)) return false;
+    for (int a = 0; a < 3; a++) memcpy(&m[3 + a][3], h[a], sizeof h[a]);
+    return true;
+}
+
 /* ---- A ---- */
 
 /* J'd: what the motion along d is made of. */

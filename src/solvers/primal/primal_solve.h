@@ -39,6 +39,7 @@ typedef struct RigidBody {
     double centre[3];                          /* from the anchor [cells] */
     double mass[RIGID_MODES][RIGID_MODES];     /* Z'MZ */
     double factor[RIGID_MODES][RIGID_MODES];   /* L of A = L L' */
+    double inertia[RIGID_MODES][RIGID_MODES];  /* of the start: see primal_weigh_turns() */
     double sum[16], motion[RIGID_MODES], start[RIGID_MODES];
     double kept, mean[3];                      /* share of its velocities beside this mean displacement that it keeps */
     bool multistep;                            /* it was solved for by BDF2, whether or not it forgets its past */
@@ -158,11 +159,20 @@ void primal_add_along(RigidBody *body, const double arm[3], const float directio
 void primal_factorise(RigidBody *body);
 void primal_solve_modes(const RigidBody *body, double x[RIGID_MODES]);
 
+/* Adds up the products of places x and y: m x_a y_a, and m (x_b y_c + x_c y_b) / 2. */
+void primal_sum_products(double mass, const double x[3], const double y[3], double sum[RIGID_MODES]);
+
+/* What it costs to turn x away from y, as the rotations' part of m. False, and m as it was, where no rotation is the best one nearby. */
+bool primal_weigh_turns(const double products[RIGID_MODES], double m[RIGID_MODES][RIGID_MODES]);
+
 /* ---- primal_start.c ---- */
 
 /* Starts bodies from their rigid motion if that has less energy than their start: what vibrates too fast for the substep would be stretched by its
  * velocity, and a few iterations would not bring it below the energy that it had. After weigh_nodes(). */
 void primal_choose_start(Primal *p);
+
+/* Where a motion takes a point, turned by the angle whose tangent it has: without strain. */
+void primal_move_rigidly(const double motion[RIGID_MODES], const double x[3], double out[3]);
 
 /* Writes those rigid motions to the nodes that have mass. */
 void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, float *node);

@@ -19,19 +19,30 @@ static const double FOUND = 1e-4; /* [cells], [radians] */
  * with more energy than they had; 30 mended half of that. */
 static const double RIGID = 1000.0;
 
-/* Z'M u*; uses p->force. */
+/* Z'M u*, and the products of x and x + u*. Uses p->force. */
 static void sum_predicted(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    for (size_t i = begin; i < end; i += W)
-        for (size_t c = 0; c < 3; c++) p->force[i + c] = p->base[i + 3] * p->base[i + c];
+    const RigidBody *body = primal_rigid_of(p, block);
+    double corner[3], x[3], free[3];
+    if (!body->turns) return;
+    primal_corner(p, block, body, corner);
+    for (size_t i = begin; i < end; i += W) {
+        const float mass = p->base[i + 3];
+        primal_arm(corner, (i - begin) / W, x);
+        for (size_t c = 0; c < 3; c++) {
+            p->force[i + c] = mass * p->base[i + c];
+            free[c] = x[c] + (double)p->base[i + c];
+        }
+        primal_sum_products((double)mass, x, free, sum + RIGID_MODES);
+    }
     primal_sum_rigid(p, block, p->force + begin, sum);
 }
 
 /* Where the motion w takes a point, turned by the angle whose tangent is |w|, as a step projects velocities: without strain. With s = cos = (1 + w^2)^-1/2
  * and sin = |w| s, (R - I) x = s w x x + (1 - s) / w^2 w x (w x x). */
-static void move_rigidly(const RigidBody *body, const double x[3], double out[3])
+void primal_move_rigidly(const double motion[RIGID_MODES], const double x[3], double out[3])
 {
-    const double *t = body->start, *w = body->start + 3;
+    const double *t = motion, *w = motion + 3;
     const double s = 1.0 / sqrt(1.0 + w[0] * w[0] + w[1] * w[1] + w[2] * w[2]), q = s * s / (1.0 + s);
     const double v[3] = {w[1] * x[2] - w[2] * x[1], w[2] * x[0] - w[0] * x[2], w[0] * x[1] - w[1] * x[0]};
     const double a[3] = {w[1] * v[2] - w[2] * v[1], w[2] * v[0] - w[0] * v[2], w[0] * v[1] - w[1] * v[0]};
@@ -52,7 +63,7 @@ static void add_push(Primal *p, int32_t block, RigidBody *body, const Contact *c
     primal_arm(corner, contact->node, x);
     const double u[3] = {t[0] + w[1] * x[2] - w[2] * x[1], t[1] + w[2] * x[0] - w[0] * x[2], t[2] + w[0] * x[1] - w[1] * x[0]};
     double turned[3], surface[3];
-    move_rigidly(body, x, turned);
+    primal_move_rigidly(body->start, x, turned);
     for (int a = 0; a < 3; a++) surface[a] = (double)contact->surface[a] - (turned[a] - u[a]);
     double depth = -(double)contact->gap, along = 0.0, slip2 = 0.0;
     for (int a = 0; a < 3; a++) along += (u[a] - surface[a]) * (double)contact->normal[a];
@@ -87,7 +98,7 @@ static void push_bodies(Primal *p)
     const Colliders *colliders = p->contacts->colliders;
     const uint32_t *begin = colliders->contact_begin.data;
     for (int32_t i = 0; i < state->bodies.count; i++) {
-        memcpy(body[i].factor, body[i].mass, sizeof body[i].factor);
+        memcpy(body[i].factor, body[i].inertia, sizeof body[i].factor);
         memcpy(body[i].sum, body[i].motion, RIGID_MODES * sizeof *body[i].sum);
         body[i].strain = 0.0;
     }
@@ -101,11 +112,13 @@ static void fit_bodies(Primal *p)
     PrimalState *state = &p->world->primal;
     RigidBody *body = state->rigid.data;
     primal_over_blocks(p, sum_predicted);
-    primal_gather_rigid(p, RIGID_MODES);
+    primal_gather_rigid(p, 2 * RIGID_MODES);
     for (int32_t i = 0; i < state->bodies.count; i++) {
         if (!body[i].turns) continue;
+        memcpy(body[i].inertia, body[i].mass, sizeof body[i].inertia);
+        primal_weigh_turns(body[i].sum + RIGID_MODES, body[i].inertia); /* what is thrown inside out keeps that of small motions */
         memcpy(body[i].motion, body[i].sum, sizeof body[i].motion);
-        memcpy(body[i].factor, body[i].mass, sizeof body[i].factor);
+        memcpy(body[i].factor, body[i].inertia, sizeof body[i].factor);
         primal_factorise(&body[i]);
         primal_solve_modes(&body[i], body[i].start);
     }
@@ -135,7 +148,7 @@ static void sum_start(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i += W) {
         if (p->base[i + 3] == 0.0f) continue;
         primal_arm(corner, (i - begin) / W, x);
-        move_rigidly(body, x, u);
+        primal_move_rigidly(body->start, x, u);
         for (size_t c = 0; c < 3; c++) {
             const double free = (double)p->base[i + c], away = (double)p->best[i + c] - free;
             sum[0] += 0.5 * (double)p->base[i + 3] * (away * away - (u[c] - free) * (u[c] - free));
@@ -151,7 +164,7 @@ void primal_write_rigid(Primal *p, int32_t block, size_t begin, size_t end, floa
     for (size_t i = begin; i < end; i += W) {
         if (p->base[i + 3] == 0.0f) continue;
         primal_arm(corner, (i - begin) / W, x);
-        move_rigidly(body, x, u);
+        primal_move_rigidly(body->start, x, u);
         for (size_t c = 0; c < 3; c++) node[i + c] = (float)u[c];
     }
 }
