@@ -416,7 +416,7 @@ static double sand_figure(const Adviser *adviser, uint32_t slot, double *bound)
     *bound = DEEPEST;
     if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, adviser->substep) * cells;
     const pbmpm_effective held = held_of(adviser, slot);
-    const double shear = 0.5 * (double)held.young_modulus / (1.0 + (double)def->poisson_ratio), wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
+    const double shear = lame_of((double)held.young_modulus, (double)def->poisson_ratio).mu, wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
     *bound = UNSEEN;
     return 0.5 * (double)def->density * gravity_strength(world) * cells * (double)world->def.cell_size / wave;
 }

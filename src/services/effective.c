@@ -5,6 +5,7 @@
 
 #include "solvers/dual/dual.h"
 #include "solvers/joint.h"
+#include "solvers/moduli.h"
 #include "solvers/paper.h"
 #include "solvers/primal/primal.h"
 #include "solvers/solver.h"
@@ -27,10 +28,9 @@ static pbmpm_effective of_paper(const World *world, const pbmpm_material_def *de
 /* The primal's liquid is as stiff as the iterations and the depth that it had in the last substep let it be; see moduli.c. */
 static float bulk_of_liquid(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
 {
-    const double cells = substep / (double)world->def.cell_size, unit = 4.0 * cells * cells / (double)def->density;
     const bool bounded = def->bulk_modulus == 0.0f || world->settings.solver == PBMPM_SOLVER_CONVERGENT;
     if (solver != PBMPM_SOLVER_PRIMAL || !bounded) return def->bulk_modulus;
-    const double most = (double)primal_liquid_dilation(world, (float)substep) / unit;
+    const double most = (double)primal_liquid_dilation(world, (float)substep) / moduli_unit(world, def, substep);
     return (float)(def->bulk_modulus == 0.0f ? most : fmin(most, (double)def->bulk_modulus));
 }
 
@@ -45,9 +45,9 @@ static double share_of(const World *world, pbmpm_solver solver, const pbmpm_mate
 static pbmpm_effective of_material(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, double substep)
 {
     if (def->kind == PBMPM_LIQUID) return (pbmpm_effective){.bulk_modulus = bulk_of_liquid(world, solver, def, substep), .kinematic_viscosity = def->kinematic_viscosity};
-    const double young = share_of(world, solver, def, substep) * (double)def->young_modulus, poisson = (double)def->poisson_ratio;
-    const double shear = 0.5 * young / (1.0 + poisson), lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    return (pbmpm_effective){.bulk_modulus = (float)(lambda + 2.0 * shear / world->def.dimension), .young_modulus = (float)young};
+    const double young = share_of(world, solver, def, substep) * (double)def->young_modulus;
+    const Lame lame = lame_of(young, (double)def->poisson_ratio);
+    return (pbmpm_effective){.bulk_modulus = (float)(lame.lambda + 2.0 * lame.mu / world->def.dimension), .young_modulus = (float)young};
 }
 
 /* The pressure wave's modulus: K of a liquid, K + 2 (d - 1) / d mu of an elastic body. */

@@ -30,22 +30,20 @@ static void set_liquid(World *world, uint32_t slot, float dt, float stiffest)
 double moduli_sand_share(const World *world, const pbmpm_material_def *def, double dt)
 {
     static const double STIFFEST_SHEAR = 1e4;
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
-    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(world, def, dt) * shear));
+    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(world, def, dt) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
 }
 
 void moduli_set_solid(World *world, uint32_t slot, float dt, double share)
 {
     const pbmpm_material_def *def = &world->materials.def[slot];
     KernelMaterial *material = &world->materials.kernel[slot];
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + (double)def->poisson_ratio);
-    const double lambda = 2.0 * shear * (double)def->poisson_ratio / (1.0 - 2.0 * (double)def->poisson_ratio);
+    const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
     const double unit = moduli_unit(world, def, (double)dt), c = unit * share;
     material->relaxation = def->relaxation;
-    material->shear = (float)fmin(c * shear, 1e30);
-    material->dilation = (float)fmin(c * lambda, 1e30);
+    material->shear = (float)fmin(c * lame.mu, 1e30);
+    material->dilation = (float)fmin(c * lame.lambda, 1e30);
     if (material->yields == K_SAND) material->pascal = (float)fmin(1.0 / unit, 1e30);
-    plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lambda / (2.0 * shear));
+    plastic_set(world, slot, (double)dt, 1.0 + world->def.dimension * lame.lambda / (2.0 * lame.mu));
 }
 
 void moduli_set(World *world, float dt, float stiffest)

@@ -411,10 +411,8 @@ void dual_set_materials(World *world, float dt)
 
 double dual_stiffness_of(const World *world, const pbmpm_material_def *def, double substep)
 {
-    const double cells = substep / (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + poisson);
-    const double lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    return 4.0 * cells * cells / (double)def->density * (2.0 * shear + lambda);
+    const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
+    return moduli_unit(world, def, substep) * (2.0 * lame.mu + lame.lambda);
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
