@@ -86,9 +86,9 @@ void granular_bind(World *world)
 }
 
 /* Counts for how long a state has been left, and leaves it. */
-static void change_state(GranularState *state, bool leaves, bool at_once, double dt)
+static void change_state(GranularState *state, bool leaves, bool at_once, const StepContext *step)
 {
-    state->seconds = leaves ? state->seconds + dt : 0.0;
+    state->seconds = leaves ? state->seconds + step->substep_dt : 0.0;
     if (!at_once && state->seconds < SLOW) return;
     state->flows = !state->flows;
     state->seconds = 0.0;
@@ -120,13 +120,13 @@ void granular_judge(World *world)
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
     const GranularBlock all = measure_all(world);
-    const double dt = (double)world->args.dt, fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
-    const bool may_flow = dual_holds_solids(world, dt), whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
+    const double fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
+    const bool may_flow = dual_holds_solids(world, &world->step), whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
     if (!goes_on(world, state) || !may_flow) *state = (GranularState){0.0, 0, 0};
     state->judged = world->step_count + 1;
     if (!may_flow) return;
     if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, dt);
+        change_state(state, speed < SETTLES * fall && whole, false, &world->step);
     else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, &world->step);
 }
