@@ -118,18 +118,18 @@ void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end)
     }
 }
 
-double contacts_momentum_scale(const ContactFrame *frame, double dt)
+double contacts_momentum_scale(const ContactFrame *frame)
 {
-    return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / dt;
+    return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / frame->step->substep_dt;
 }
 
-void contacts_book(const ContactFrame *frame, double dt)
+void contacts_book(const ContactFrame *frame)
 {
     const Colliders *colliders = frame->colliders;
     if (!colliders->measures || colliders->contacts == 0) return;
     const uint32_t *contact_begin = colliders->contact_begin.data;
     const double *booked = colliders->impulses.contact.data;
-    const double scale = contacts_momentum_scale(frame, dt);
+    const double scale = contacts_momentum_scale(frame);
     for (int32_t block = 0; block < frame->grid->node_blocks; block++)
         for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
             const Contact *contact = (const Contact *)colliders->contact.data + i;

@@ -2,6 +2,7 @@
 #ifndef PBMPM_SRC_CONTACT_CONTACTS_H
 #define PBMPM_SRC_CONTACT_CONTACTS_H
 
+#include "base/step_context.h"
 #include "contact/impulses.h"
 #include "contact/obstacles.h"
 #include "grid/grid.h"
@@ -51,6 +52,7 @@ typedef struct ContactFrame {
     Colliders *colliders;
     const Grid *grid;
     double cell_size;
+    const StepContext *step;
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
@@ -100,9 +102,9 @@ void contacts_apply_walled(const ContactFrame *frame, int32_t begin, int32_t end
 void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end);
 
 /* kg m/s per mass times displacement as the kernels count them. */
-double contacts_momentum_scale(const ContactFrame *frame, double dt);
+double contacts_momentum_scale(const ContactFrame *frame);
 
-/* Adds what the contacts booked in this substep of `dt` seconds to the impulses of their obstacles. */
-void contacts_book(const ContactFrame *frame, double dt);
+/* Adds what the contacts booked in this substep to the impulses of their obstacles. */
+void contacts_book(const ContactFrame *frame);
 
 #endif

@@ -9,6 +9,7 @@
 #include "contact/reach.h"
 #include "contact/sight.h"
 #include "contact/walls.h"
+#include "contact/wet_side.h"
 #include "shape/concave.h"
 
 /* Colliders, walls, and what holds nodes. */
@@ -131,13 +132,17 @@ static uint32_t contacts_deep_inside(const ContactFrame *frame, const Around *ar
 
 /* Contacts of a node with the planes around it. In a box near its outer edge the other faces of the edge hold it, too: were it held by one alone, what presses on the
  * other would push past it, and a floating box would lie too deep in the water. */
-static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *around, const float *u, const double point[3], int node, Contact *out)
+static uint32_t contacts_with_faces(const ContactFrame *frame, const Around *around, const float *u, const double point[3], int32_t block, int node, Contact *out)
 {
     Face face[FIELD_FACES];
+    WetSite site = {frame, &around->near, block, {node & 3, node >> 2 & 3, node >> 4}, {point[0], point[1], point[2]}, u[3]};
     uint32_t count = 0;
-    int faces = field_faces(&around->near, point, around->most, face);
+    bool thin, both;
+    int faces = wet_faces(&site, around->most, face, &thin, &both);
     if (faces == 0) return contacts_deep_inside(frame, around, point, node, out);
-    if (face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
+    if (both)
+        faces = 2;
+    else if (face[0].distance < -INSIDE) faces = field_outer_faces(&around->near, point, NODE_REACH, face, faces);
     for (int i = 0; i < faces; i++) {
         const Obstacle *o = face[i].obstacle;
         int k = 0;
@@ -194,7 +199,7 @@ static uint32_t contacts_of_block(const ContactFrame *frame, const Around *all, 
         if ((double)frame->gap[at] > around->most) continue;
         const Near *near = &around->near;
         contacts_node_position(frame, block, i, point);
-        count += contacts_with_faces(frame, around, u, point, i, out ? out + count : NULL);
+        count += contacts_with_faces(frame, around, u, point, block, i, out ? out + count : NULL);
         for (int k = 0; k < near->count; k++) {
             const Obstacle *o = near->obstacle[k];
             if (!o->start.grid) continue;

@@ -128,7 +128,7 @@ static float slip_of(const Contact *contact, const float *u, float slip[3])
 /* Friction over slip. */
 static float rub_of(const Contact *contact, float length, float least) { return contact->limit / fmaxf(length, least); }
 
-float holds_slip_min(double dt) { return SLIP_MIN * (float)(60.0 * dt); }
+float holds_slip_min(const StepContext *step) { return SLIP_MIN * (float)step->reference_steps; }
 
 float holds_rub_stiffness(const Contact *contact, const float *u, float least)
 {

@@ -39,7 +39,7 @@ typedef struct BodyRub {
 } BodyRub;
 
 /* The least slip of a substep [cells]. */
-float holds_slip_min(double dt);
+float holds_slip_min(const StepContext *step);
 
 bool holds_any_rub(const ContactFrame *frame);
 

@@ -64,7 +64,6 @@ typedef struct Pushed {
     Particles *all;
     int32_t block;
     uint32_t row;
-    float dt; /* of the substep */
 } Pushed;
 
 /* Moves a particle by `way` [cells] and takes away its velocity into the surface with this normal. */
@@ -76,8 +75,7 @@ static void put_back(const ContactFrame *frame, const View *view, const Pushed *
     double point[3] = {0}, gained[3] = {0}, inward = 0.0;
     for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
     obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
-    const double to_velocity = frame->cell_size / (double)one->dt;
-    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * to_velocity) * normal[a];
+    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * frame->step->to_velocity) * normal[a];
     particles_shift(p, row, way);
     particles_forget(p, row);
     const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);
@@ -339,20 +337,20 @@ static bool is_near(const ContactFrame *frame, const Obstacle *o, int32_t block)
 }
 
 /* Holds back what passed one obstacle. */
-static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, float dt, int32_t block, ImpulseSum *sum)
+static void hold_block(const ContactFrame *frame, const Obstacle *o, Particles *particles, int32_t block, ImpulseSum *sum)
 {
     const uint32_t *begin = frame->grid->block_begin.data;
     const double unseen = longest_unseen(frame, o);
     if (!(unseen < (o->moves ? CARRIED_MOST : NUDGED_MOST) + (double)((const float *)frame->grid->travel.data)[block])) return;
     const View view = view_from(frame, o, block);
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
-        const Pushed one = {particles, block, row, dt};
+        const Pushed one = {particles, block, row};
         if (particles->status[row] == K_ALIVE && obstacle_meets(o, contacts_row_groups(frame, particles, row))) hold_back(frame, &view, &one, unseen, sum);
     }
 }
 
 /* Works on a block from the obstacle `first` on, and behind the last one from the row `row` on. */
-static void push_block(const ContactFrame *frame, Particles *particles, float dt, int32_t block, int first, uint32_t row, const Book *book)
+static void push_block(const ContactFrame *frame, Particles *particles, int32_t block, int first, uint32_t row, const Book *book)
 {
     const Colliders *colliders = frame->colliders;
     const uint32_t *begin = frame->grid->block_begin.data;
@@ -370,7 +368,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
             book->notes->row = begin[block];
             return;
         }
-        hold_block(frame, o, particles, dt, block, sum);
+        hold_block(frame, o, particles, block, sum);
     }
     centre_of(frame, block, centre);
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
@@ -378,7 +376,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     for (; row < begin[block + 1] && near.count > 0; row++) {
         if (particles->status[row] != K_ALIVE) continue;
         const Near *meeting = field_meeting(&near, contacts_row_groups(frame, particles, row), &some);
-        const Pushed one = {particles, block, row, dt};
+        const Pushed one = {particles, block, row};
         if (push_particle(frame, meeting, centre, reach, &one, book)) continue;
         book->notes->resume = colliders->obstacle_count;
         book->notes->row = row;
@@ -386,7 +384,7 @@ static void push_block(const ContactFrame *frame, Particles *particles, float dt
     }
 }
 
-void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end)
+void contacts_push_out(const ContactFrame *frame, Particles *particles, int32_t begin, int32_t end)
 {
     const Colliders *colliders = frame->colliders;
     const uint32_t *rows = frame->grid->block_begin.data;
@@ -396,7 +394,7 @@ void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt
             book.notes->count = 0;
             book.notes->resume = -1;
         }
-        push_block(frame, particles, dt, block, 0, rows[block], &book);
+        push_block(frame, particles, block, 0, rows[block], &book);
     }
 }
 
@@ -427,7 +425,7 @@ pbmpm_result contacts_prepare_push(const ContactFrame *frame, Memory *memory)
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the impulses of %zu blocks", blocks);
 }
 
-void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt)
+void contacts_book_push(const ContactFrame *frame, Particles *particles)
 {
     const Colliders *colliders = frame->colliders;
     const Book sums = {NULL};
@@ -441,6 +439,6 @@ void contacts_book_push(const ContactFrame *frame, Particles *particles, float d
                 sum->angular[a] += notes->sum[n].angular[a];
             }
         }
-        if (notes->resume >= 0) push_block(frame, particles, dt, block, notes->resume, notes->row, &sums);
+        if (notes->resume >= 0) push_block(frame, particles, block, notes->resume, notes->row, &sums);
     }
 }

@@ -13,12 +13,12 @@ void contacts_keep_places(const ContactFrame *frame, const Particles *particles,
 
 /* Last resort: holds back particles of the particle blocks [begin, end) that passed through an obstacle, and puts those that ended
  * inside one back to its surface. */
-void contacts_push_out(const ContactFrame *frame, Particles *particles, float dt, int32_t begin, int32_t end);
+void contacts_push_out(const ContactFrame *frame, Particles *particles, int32_t begin, int32_t end);
 
 /* In place of that, for a block whose particles did not move. */
 void contacts_pass_over(const ContactFrame *frame, int32_t block);
 
 /* After all blocks: finishes the blocks that had no room to book in, and adds what was booked to the impulses. */
-void contacts_book_push(const ContactFrame *frame, Particles *particles, float dt);
+void contacts_book_push(const ContactFrame *frame, Particles *particles);
 
 #endif

@@ -277,11 +277,11 @@ static void book(const ApplyJob *job, const WallNode *n, int j, const double gai
     impulse_add(&colliders->impulses.sum[o->place], point, gained);
 }
 
-void walls_book(const Walls *walls, const ContactFrame *frame, double dt)
+void walls_book(const Walls *walls, const ContactFrame *frame)
 {
     if (!frame->colliders->measures || walls->nodes == 0) return;
     const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
-    const double scale = contacts_momentum_scale(frame, dt);
+    const double scale = contacts_momentum_scale(frame);
     for (uint32_t i = 0; i < walls->nodes; i++) {
         const WallNode *n = (const WallNode *)walls->node.data + i;
         double sum[3], gained[3];

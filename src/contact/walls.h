@@ -63,7 +63,7 @@ void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool
 void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark);
 
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
-void walls_book(const Walls *walls, const ContactFrame *frame, double dt);
+void walls_book(const Walls *walls, const ContactFrame *frame);
 
 /* Of a listed node: the momentum that it had in the last walls_apply() times its displacement. */
 float walls_work(const Walls *walls, uint32_t node, const float *u);

@@ -9,6 +9,7 @@
 #include "contact/sight.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"
+#include "contact/wet_side.h"
 
 /* ---- Symmetric matrices ---- */
 
@@ -68,34 +69,7 @@ static Columns columns_of(const float m[6]) { return (Columns){{{m[0], m[1], m[2
 
 /* ---- Geometry ---- */
 
-/* Nodes before a wall that are at least so far off [cells] move along its normal freely; half a cell, with what walls are rounded by. */
-static const double CLEAR = 0.4999;
-
-/* Where a node looks from. */
-typedef struct Site {
-    const ContactFrame *frame;
-    const Near *near;
-    int32_t block;
-    int local[3];
-    double point[3];
-} Site;
-
 static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
-
-/* Matter before a face: the heavier of the nodes next to the places 0.6 and 1.4 cells before it. */
-static float wetness(const Site *site, const Face *face)
-{
-    float most = 0.0f;
-    for (double before = 0.6; before < 1.5; before += 0.8) {
-        int way[3];
-        for (int a = 0; a < 3; a++) way[a] = (int)floor((before - face->distance) * face->normal[a] + 0.5);
-        most = fmaxf(most, mass_of(site->frame->grid, grid_node_beside(site->frame->grid, site->block, site->local, way)));
-    }
-    return most;
-}
-
-/* Below this share of the other side's matter a side of a thin wall counts as dry. */
-static const float DRY = 0.02f;
 
 /* A node at walls: the faces that it is bound to. */
 typedef struct Bound {
@@ -104,65 +78,9 @@ typedef struct Bound {
     int local[3];
     Face face[FIELD_FACES];
     int faces;
-    bool both, thin; /* see find_faces() */
+    bool both, thin; /* see wet_faces() */
     float open; /* share */
 } Bound;
-
-/* Whether the matter that reaches a node in a wall is elsewhere than before this face. */
-static bool is_dry(const Site *site, const Bound *bound)
-{
-    const float mass = mass_of(site->frame->grid, bound->node);
-    return bound->face[0].distance < CLEAR && mass > 0.0f && wetness(site, &bound->face[0]) <= DRY * mass;
-}
-
-/* Where thin walls meet, the nearest way out of a node in them leads past the corner to the dry side: taken for that, it would let matter into the corner. The next
- * ways out are tried until there is matter before one. False: none. */
-static bool find_wet_faces(const Site *site, Bound *bound, double reach)
-{
-    enum { MOST = 6 }; /* faces of a corner of three walls */
-    Face passed[MOST], face[FIELD_FACES];
-    int passes = 0;
-    for (passed[passes++] = bound->face[0]; passes <= MOST; passed[passes++] = face[0]) {
-        const int faces = field_other_faces(site->near, site->point, reach, passed, passes, face);
-        if (faces == 0) return false;
-        Bound other = {.node = bound->node, .faces = faces};
-        memcpy(other.face, face, sizeof face);
-        if (!is_dry(site, &other)) {
-            memcpy(bound->face, face, sizeof face);
-            bound->faces = faces;
-            return true;
-        }
-        if (passes == MOST) return false;
-    }
-    return false;
-}
-
-/* The faces that a node is bound to. In a thin wall, thinner than two reaches of a node's spline, that is the one before which matter is; `both`: matter is on both
- * sides, and the node serves neither but goes with the wall. */
-static void find_faces(const Site *site, Bound *bound)
-{
-    const double reach = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
-    Face *face = bound->face, other;
-    double behind[3];
-    bound->faces = field_faces(site->near, site->point, reach, face);
-    bound->both = bound->thin = false;
-    if (bound->faces == 0 || face[0].distance >= CLEAR) return;
-    for (int a = 0; a < 3; a++) behind[a] = site->point[a] - NODE_REACH * site->near->cell_size * face[0].normal[a];
-    bound->thin = field_distance(site->near, behind) > 0.0 && field_opposite(site->near, site->point, &face[0], &other);
-    if (!bound->thin) {
-        bound->thin = is_dry(site, bound) && find_wet_faces(site, bound, reach);
-        return;
-    }
-    const float here = wetness(site, &face[0]), there = wetness(site, &other);
-    if (there <= DRY * here) return;
-    bound->both = here > DRY * there;
-    if (bound->both) {
-        bound->faces = 1;
-        return;
-    }
-    face[0] = other;
-    bound->faces = field_faces_beside(site->near, site->point, reach, face);
-}
 
 /* ---- The nodes that follow ---- */
 
@@ -259,7 +177,7 @@ static bool pressure_leans(const Bound *bound)
     const double *n = bound->face[0].normal;
     for (int k = 1; k < bound->faces; k++)
         if (!field_same_way(&bound->face[k], &bound->face[0]) && bound->face[k].distance < 1.5) return false; /* that one bears a part */
-    return fabs(bound->face[0].distance) < CLEAR && fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) < STRAIGHT;
+    return fabs(bound->face[0].distance) < WET_CLEAR && fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) < STRAIGHT;
 }
 
 /* The normal goes half way to the push of an even pressure: along the wall's own that works, along the push's matter goes through the wall. By more than planes that
@@ -393,8 +311,8 @@ static bool find_parents(Builder *b, const Bound *bound, const Image *image, con
             off[k][j] = profile[j].distance + offset[0] * n[0] + offset[1] * n[1] + offset[2] * n[2];
         }
         if (other && goes_on(b->frame, bound, other)) off[k][0] = other->face[0].distance;
-        bool free = !(other && other->face[0].distance < CLEAR);
-        for (int j = 0; j < count; j++) free = free && off[k][j] >= CLEAR;
+        bool free = !(other && other->face[0].distance < WET_CLEAR);
+        for (int j = 0; j < count; j++) free = free && off[k][j] >= WET_CLEAR;
         if (image->before && !free) continue;
         share[k] = of_corner;
         sum += of_corner;
@@ -468,7 +386,7 @@ static void way_out(const Profile *profile, int count, double way[3])
     for (int k = 0; k < count * count; k++) {
         const Profile *p = &profile[k % count];
         const double distance = p->distance + dot3(way, p->normal);
-        for (int a = 0; a < 3 && distance < CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
+        for (int a = 0; a < 3 && distance < WET_CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
     }
 }
 
@@ -486,12 +404,12 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     memcpy(matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {
         double along = 0.0;
-        scale[j] = profile[j].distance >= CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
+        scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
         if (found && leaves(b, bound, entry, &profile[j], scale[j])) scale[j] = 1.0;
         add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
-        if (!found && profile[j].distance >= CLEAR) add_product(node->own, 1.0, profile[j].axis);
+        if (!found && profile[j].distance >= WET_CLEAR) add_product(node->own, 1.0, profile[j].axis);
     }
     for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
     if (sticks) {
@@ -550,7 +468,7 @@ static void add_follower(Builder *b, uint32_t index)
     for (int j = 0; j < count; j++) {
         for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
         node->obstacle[j] = (uint16_t)(owner[j] - b->frame->colliders->obstacle);
-        node->follows = node->follows || profile[j].distance < CLEAR;
+        node->follows = node->follows || profile[j].distance < WET_CLEAR;
         add_product(rest, -1.0, profile[j].axis);
     }
     if (count == b->frame->grid->dimension) memset(rest, 0, sizeof rest); /* else rounding would be left */
@@ -717,22 +635,29 @@ static const Bound *bound_before(const ContactFrame *frame, int32_t block, int n
     return bound->thin ? NULL : bound;
 }
 
-/* Else another way out may lead to matter, see find_wet_faces(). */
+static WetSite site_of(const ContactFrame *frame, const Bound *bound)
+{
+    WetSite site = {.frame = frame, .block = bound->block, .mass = mass_of(frame->grid, bound->node)};
+    memcpy(site.local, bound->local, sizeof site.local);
+    return site;
+}
+
+/* Else another way out may lead to matter, see wet_side.c. */
 static bool stays_wet(const ContactFrame *frame, const Bound *bound)
 {
-    Site site = {.frame = frame, .block = bound->block};
-    memcpy(site.local, bound->local, sizeof site.local);
-    return bound->faces == 0 || !is_dry(&site, bound);
+    const WetSite site = site_of(frame, bound);
+    return bound->faces == 0 || !wet_is_dry(&site, &bound->face[0]);
 }
 
 static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound, int node)
 {
+    static const double REACH = 2.5; /* [cells]: parents of a node in a hollow lie so far off */
     Near some;
     const Near *meeting = field_meeting(near, contacts_node_groups(frame, bound->node), &some);
-    Site site = {.frame = frame, .near = meeting, .block = bound->block};
-    memcpy(site.local, bound->local, sizeof site.local);
+    WetSite site = site_of(frame, bound);
+    site.near = meeting;
     contacts_node_position(frame, bound->block, node, site.point);
-    find_faces(&site, bound);
+    bound->faces = wet_faces(&site, REACH, bound->face, &bound->thin, &bound->both);
     if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
     if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces, bound->thin);
 }

@@ -34,6 +34,17 @@ static inline bool material_is_solid(const Materials *materials, uint32_t slot) 
 /* Whether it keeps no shape, so that its volume is told by the grid: see pbmpm_material_def.volume_feedback. */
 static inline bool material_flows(const pbmpm_material_def *def) { return def->kind == PBMPM_LIQUID || def->kind == PBMPM_VISCO; }
 
+/* Lame's moduli [Pa]. */
+typedef struct Lame {
+    double mu, lambda;
+} Lame;
+
+static inline Lame lame_of(double young, double poisson)
+{
+    const double mu = 0.5 * young / (1.0 + poisson);
+    return (Lame){mu, 2.0 * mu * poisson / (1.0 - 2.0 * poisson)};
+}
+
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 

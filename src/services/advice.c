@@ -12,7 +12,7 @@
 
 typedef struct Adviser {
     World *world;
-    double substep;
+    StepContext step; /* that is asked about */
     Survey survey;
     pbmpm_advice *array;
     uint32_t capacity, count;
@@ -108,7 +108,7 @@ static bool solved_with(const World *world, pbmpm_solver solver)
 
 static pbmpm_effective held_of(const Adviser *adviser, uint32_t slot)
 {
-    return effective_modulus(adviser->world, slot, adviser->substep);
+    return effective_modulus(adviser->world, slot, &adviser->step);
 }
 
 static pbmpm_material_id id_of(const World *world, uint32_t slot) { return (pbmpm_material_id){slot, world->materials.generation[slot]}; }
@@ -301,7 +301,7 @@ static void pool_too_deep(Adviser *adviser)
         const double depth = adviser->survey.heap[slot].depth;
         if (depth == 0.0 || !flows(def) || (solver != PBMPM_SOLVER_PAPER && solver != PBMPM_SOLVER_DUAL)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_TOO_DEEP, .material = id_of(world, slot)};
-        double figure = gravity_fall(world, adviser->substep) * depth, bound = DEEPEST;
+        double figure = gravity_fall(world, &adviser->step) * depth, bound = DEEPEST;
         advice.text = "the pool is too deep for the rate: it is compressed by its weight";
         if (solver == PBMPM_SOLVER_PAPER) {
             const double bulk = (double)held_of(adviser, slot).bulk_modulus;
@@ -370,7 +370,7 @@ static void pool_stirs(Adviser *adviser)
     const bool leaning = gravity_strength(world) > 0.0 && some_wall_leans(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
-        const double figure = gravity_fall(world, adviser->substep) * adviser->survey.heap[slot].depth;
+        const double figure = gravity_fall(world, &adviser->step) * adviser->survey.heap[slot].depth;
         const double bound = leaning || def->bulk_modulus > 0.0f ? HARD_TO_CALM : CALM;
         if (!flows(def) || solver_of(world, slot) != PBMPM_SOLVER_DUAL || figure <= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = id_of(world, slot), .figure = (float)figure, .bound = (float)bound,
@@ -414,9 +414,9 @@ static double sand_figure(const Adviser *adviser, uint32_t slot, double *bound)
     const pbmpm_material_def *def = &world->materials.def[slot];
     const double cells = adviser->survey.heap[slot].depth, d = world->def.dimension;
     *bound = DEEPEST;
-    if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, adviser->substep) * cells;
+    if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, &adviser->step) * cells;
     const pbmpm_effective held = held_of(adviser, slot);
-    const double shear = 0.5 * (double)held.young_modulus / (1.0 + (double)def->poisson_ratio), wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
+    const double shear = lame_of((double)held.young_modulus, (double)def->poisson_ratio).mu, wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
     *bound = UNSEEN;
     return 0.5 * (double)def->density * gravity_strength(world) * cells * (double)world->def.cell_size / wave;
 }
@@ -482,7 +482,7 @@ static void bounce_damped(Adviser *adviser)
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
         const double mass = 4.0 / 3.0 * PI * (double)def->density * radius * radius * radius;
         const double contact = 2.94 * pow(15.0 * mass / (16.0 * sqrt(radius) * contact_modulus(def)), 0.4) * pow(fmax(speed, 1e-6), -0.2);
-        const double steps = contact / adviser->substep;
+        const double steps = contact / adviser->step.substep_dt;
         if (steps >= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)bound,
                                .text = "a contact lasts too few substeps for the dual solver: the body bounces less than its material would"};
@@ -623,7 +623,7 @@ static void step_too_long(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) speed = fmax(speed, adviser->survey.heap[slot].speed);
     for (uint32_t e = 0; e < world->emitters.used; e++)
         if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
-    const double cells = speed * adviser->substep / (double)world->def.cell_size;
+    const double cells = speed * adviser->step.substep_dt / (double)world->def.cell_size;
     if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
                            .text = "matter is faster than max_displacement allows: it is slowed"};
@@ -745,7 +745,7 @@ static void known_limits(Adviser *adviser)
         if (def->kind == PBMPM_SAND && any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
         if (def->kind == PBMPM_SAND && any_rigid(world) && world->settings.substeps < 4)
             tell_limit(adviser, slot, "a rigid body on sand rocks and sinks in: four substeps hold it better");
-        if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND) && !dual_holds_solids(world, adviser->substep))
+        if (def->kind != PBMPM_SAND && any_present(world, PBMPM_SAND) && !dual_holds_solids(world, &adviser->step))
             tell_limit(adviser, slot, "a body as stiff as this springs back where it falls on sand, and may stop a cell or two above it");
         if (def->kind != PBMPM_SAND && any_present(world, PBMPM_LIQUID) && adviser->survey.heap[slot].narrow > 0.5)
             tell_limit(adviser, slot, "a body with less than five cells between it and walls on both sides hangs in a liquid: leave it more room");
@@ -781,7 +781,7 @@ static const struct {
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
 {
-    Adviser adviser = {.world = world, .substep = dt / world->settings.substeps, .array = array, .capacity = capacity};
+    Adviser adviser = {.world = world, .step = world_context(world, dt / world->settings.substeps), .array = array, .capacity = capacity};
     const pbmpm_result result = survey_make(world, &adviser.survey);
     if (result != PBMPM_OK) return result;
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) rules[i].rule(&adviser);

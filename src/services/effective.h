@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-/* Of a live material; `substep`: its length [s]. With PBMPM_SOLVER_CONVERGENT it looks where the particles are. */
-pbmpm_effective effective_modulus(World *world, uint32_t slot, double substep);
+/* Of a live material in such a substep. With PBMPM_SOLVER_CONVERGENT it looks where the particles are. */
+pbmpm_effective effective_modulus(World *world, uint32_t slot, const StepContext *step);
 
 #endif

@@ -9,7 +9,7 @@
 
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
-void explicit_set_materials(World *world, float dt) { moduli_set(world, dt, FLT_MAX); }
+void explicit_set_materials(World *world) { moduli_set(world, FLT_MAX); }
 
 pbmpm_result explicit_prepare(World *world)
 {

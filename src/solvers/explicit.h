@@ -5,8 +5,8 @@
 
 #include "world/world.h"
 
-/* What the kernels need to know of materials in substeps of `dt` seconds. */
-void explicit_set_materials(World *world, float dt);
+/* What the kernels need to know of materials. */
+void explicit_set_materials(World *world);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result explicit_prepare(World *world);

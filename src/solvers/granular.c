@@ -96,9 +96,9 @@ void granular_bind(World *world)
 }
 
 /* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */
-static void change_state(GranularState *state, bool leaves, bool at_once, double dt)
+static void change_state(GranularState *state, bool leaves, bool at_once, const StepContext *step)
 {
-    state->seconds = fmax(0.0, state->seconds + (leaves ? dt : -dt));
+    state->seconds = fmax(0.0, state->seconds + (leaves ? step->substep_dt : -step->substep_dt));
     if (!at_once && state->seconds < SLOW) return;
     state->flows = !state->flows;
     state->seconds = 0.0;
@@ -124,15 +124,15 @@ static GranularBlock measure_all(World *world)
     return all;
 }
 
-static void follow(World *world, GranularState *state, uint32_t kinds, double dt)
+static void follow(World *world, GranularState *state, uint32_t kinds)
 {
     const GranularBlock all = measure_all(world);
     const double fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
     const bool whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
     if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, dt);
+        change_state(state, speed < SETTLES * fall && whole, false, &world->step);
     else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, dt);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, &world->step);
 }
 
 void granular_judge(World *world)
@@ -140,10 +140,9 @@ void granular_judge(World *world)
     if (!is_judged(world)) return;
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
-    const double dt = (double)world->args.dt;
-    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, dt);
+    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->step);
     if (!goes_on(world, state) || !may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
-    state->flowed = dual || state->flows ? state->flowed + dt : 0.0;
-    if (may_flow && !dual) follow(world, state, kinds, dt);
+    state->flowed = dual || state->flows ? state->flowed + world->step.substep_dt : 0.0;
+    if (may_flow && !dual) follow(world, state, kinds);
 }

@@ -21,13 +21,13 @@ static const double STIFFEST = 64.0;
  * A block of 2000 kg/m^3 below 40 cells of 2 cm keeps it at 0.10 m/s at 60 Hz x 5, as the dual alone does; with 1 at 0.44. With 16 blocks sink by a fifth more slowly. */
 static const float HELD = 4.0f;
 
-double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
 {
     const double n = (double)world->settings.iterations;
-    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(world, def, substep));
+    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(def, step));
 }
 
-void joint_set_materials(World *world, float dt) { dual_set_materials(world, dt); }
+void joint_set_materials(World *world) { dual_set_materials(world); }
 
 static size_t nodes_of(const World *world) { return (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells; }
 
@@ -161,7 +161,7 @@ static void set_solids(World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID)
-            moduli_set_solid(world, slot, world->args.dt, joint_stiffness_share(world, &world->materials.def[slot], (double)world->args.dt));
+            moduli_set_solid(world, slot, joint_stiffness_share(world, &world->materials.def[slot], &world->step));
 }
 
 static void begin_primal(World *world)
@@ -181,7 +181,7 @@ static void sketch(World *world, const ContactFrame *contacts)
     over_blocks(world, move_predictor);
     for_staying(world, push_staying);
     exchange_contacts(world);
-    dual_set_solids(world, world->args.dt);
+    dual_set_solids(world);
 }
 
 /* ---- The substep ---- */

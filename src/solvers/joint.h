@@ -23,10 +23,10 @@
 #include "world/world.h"
 
 /* The share of its stiffness that an elastic material among liquid gets. */
-double joint_stiffness_share(const World *world, const pbmpm_material_def *def, double substep);
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step);
 
-/* What the kernels need to know of materials in substeps of `dt` seconds, while the dual works. */
-void joint_set_materials(World *world, float dt);
+/* What the kernels need to know of materials while the dual works. */
+void joint_set_materials(World *world);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result joint_prepare(World *world);

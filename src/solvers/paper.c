@@ -64,18 +64,18 @@ static double pressure_head(double weight, const LiquidState *liquid) { return 3
  * not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so
  * its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a
  * lower J bears the same pressure. */
-static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight, float dt)
+static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight)
 {
     const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
-    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * (double)dt / (double)world->def.cell_size;
+    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->step.substep_dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
  * the weight of the heaviest one, up to the pressure (1/J - 1) / J K that leaves it J = 0.73: what is crushed further gains energy when it grows. */
-static double pressure_bound(const World *world, const KernelMaterial *material, float dt, double head, double densest)
+static double pressure_bound(const World *world, const KernelMaterial *material, double head, double densest)
 {
     static const double BEARS = 0.5;
-    const double cells = (double)dt / (double)world->def.cell_size;
+    const double cells = world->step.to_cells;
     const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
     const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
     return heavier > 1.0 + SUM_ROUNDING ? fmin(own * heavier, fmax(own, BEARS)) : own;
@@ -91,10 +91,10 @@ static double pressure_bound(const World *world, const KernelMaterial *material,
  * without it particles that were strewn at random creep into the gaps that the grid does not see, unless 2,400 iterations per second damp that
  * (in cells of 0.2 m). So the share begins where gravity cannot move waves of less than 45 cells against that spring:
  * g k < 0.0025 (w N dx / (g dt^2)) g k^4 dx^3. */
-static float even_share(const World *world, const KernelMaterial *material, float dt)
+static float even_share(const World *world, const KernelMaterial *material)
 {
     static const double LOCKS = 1.5e5;
-    const double fall = gravity_fall(world, (double)dt);
+    const double fall = gravity_fall(world, &world->step);
     const double stiffness = (double)material->relaxation * world->settings.iterations / fmax(fall, 1e-12);
     const double share = fall > 0.0 ? fmin(fmax(stiffness / LOCKS - 1.0, 0.0), 1.0) : 0.0;
     return (float)share * material->volume_feedback;
@@ -106,43 +106,44 @@ static float even_share(const World *world, const KernelMaterial *material, floa
  * by r per substep and steps T, t in turn, the product of the two transfer matrices has |trace| <= 1 + det for every r only if
  * T/t + t/T <= 6. So when dt drops the relaxation is lowered at first: stiffness grows by at most 1/0.8^2 per substep. It drops at
  * once, and a constant dt is not touched. */
-static float softening_of_step(World *world, float dt)
+static float softening_of_step(World *world)
 {
-    world->slow_dt = fmax((double)dt, 0.8 * world->slow_dt);
-    const double ratio = (double)dt / world->slow_dt;
+    const double dt = world->step.substep_dt;
+    world->slow_dt = fmax(dt, 0.8 * world->slow_dt);
+    const double ratio = dt / world->slow_dt;
     return (float)(ratio * ratio);
 }
 
-double paper_viscous_share(const World *world, const pbmpm_material_def *def, double dt)
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
 {
     const double dx = (double)world->def.cell_size;
-    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * dt / (world->settings.iterations * dx * dx), 1.0);
+    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * step->substep_dt / (world->settings.iterations * dx * dx), 1.0);
 }
 
 /* Without gravity nothing brings spray back, so crushed matter grows slowly. */
 static const float WEIGHTLESS_REBOUND = 0.3f;
 
-void paper_set_materials(World *world, float dt)
+void paper_set_materials(World *world)
 {
     const LiquidState liquid = measure_liquid(world);
     const double weight = weight_head(world, &liquid), head = pressure_head(weight, &liquid);
-    const float soft = softening_of_step(world, dt) * (float)(world->slow_iterations / (double)world->settings.iterations);
+    const float soft = softening_of_step(world) * (float)(world->slow_iterations / (double)world->settings.iterations);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (world->materials.generation[slot] == 0) continue;
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         material->relaxation = def->relaxation * soft;
         if (material->yields == K_SAND) material->volume_feedback = 0.0f;
-        if (def->kind == PBMPM_VISCO) material->volume_feedback = solver_feedback_share(def, dt);
+        if (def->kind == PBMPM_VISCO) material->volume_feedback = solver_feedback_share(world, def);
         /* It answers a volume strain in full and a deviator by the share beta: 2 mu = beta (2 mu + d lambda), which needs no Poisson effect. */
-        if (material->kind != K_LIQUID) plastic_set(world, slot, (double)dt, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
+        if (material->kind != K_LIQUID) plastic_set(world, slot, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
         if (material->kind != K_LIQUID) continue;
         material->volume_feedback = def->volume_feedback;
-        material->even_share = even_share(world, material, dt);
-        material->viscosity = (float)paper_viscous_share(world, def, (double)dt);
+        material->even_share = even_share(world, material);
+        material->viscosity = (float)paper_viscous_share(world, def, &world->step);
         const bool weightless = weight == 0.0;
-        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight, dt);
-        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, dt, head, liquid.densest);
+        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight);
+        material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, head, liquid.densest);
     }
 }
 

@@ -36,14 +36,14 @@ bool solver_follows_grid(const World *world, uint32_t slot)
 
 /* The share per substep that makes the same share per 1/60 s at any rate: what J is corrected by becomes a velocity, correction / dt, and
  * so noise of the density heats liquid the more the shorter the substep. */
-float solver_feedback_share(const pbmpm_material_def *def, float dt)
+float solver_feedback_share(const World *world, const pbmpm_material_def *def)
 {
-    return (float)(1.0 - pow(1.0 - (double)def->volume_feedback, fmin(60.0 * (double)dt, 1.0)));
+    return (float)per_reference_step((double)def->volume_feedback, &world->step);
 }
 
 double solver_joule(const World *world)
 {
-    const double cells = (double)world->args.dt * (double)world->args.cells_per_metre;
+    const double cells = world->step.substep_dt * (double)(float)world->step.cells_per_metre;
     return 1.0 / (cells * cells);
 }
 

@@ -37,7 +37,7 @@ bool solver_holds_sand(const World *world);
 bool solver_follows_grid(const World *world, uint32_t slot);
 
 /* The share per substep that makes def->volume_feedback per 1/60 s at any rate. */
-float solver_feedback_share(const pbmpm_material_def *def, float dt);
+float solver_feedback_share(const World *world, const pbmpm_material_def *def);
 
 /* Whether the time budget of the step is spent. */
 bool solver_time_is_up(const World *world);

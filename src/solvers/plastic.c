@@ -2,11 +2,11 @@
 
 #include <math.h>
 
-void plastic_set(World *world, uint32_t slot, double dt, double bulk_over_shear)
+void plastic_set(World *world, uint32_t slot, double bulk_over_shear)
 {
     const pbmpm_material_def *def = &world->materials.def[slot];
     KernelMaterial *material = &world->materials.kernel[slot];
     material->friction = (float)sin((double)def->friction_angle);
     material->bulk_over_shear = (float)bulk_over_shear;
-    material->excess_kept = (float)exp(-(double)def->flow_rate * dt);
+    material->excess_kept = (float)exp(-(double)def->flow_rate * world->step.substep_dt);
 }

@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-/* Sets how a material yields in substeps of `dt` seconds. `bulk_over_shear`: (2 mu + d lambda) / (2 mu) of the solver's law. */
-void plastic_set(World *world, uint32_t slot, double dt, double bulk_over_shear);
+/* Sets how a material yields. `bulk_over_shear`: (2 mu + d lambda) / (2 mu) of the solver's law. */
+void plastic_set(World *world, uint32_t slot, double bulk_over_shear);
 
 #endif

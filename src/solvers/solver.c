@@ -20,7 +20,7 @@
 enum { BLOCK_GRAIN = 2 };
 
 typedef struct SolverKind {
-    void (*set_materials)(World *world, float dt);
+    void (*set_materials)(World *world);
     pbmpm_result (*prepare)(World *world); /* takes memory; the paper's needs none */
     void (*solve)(World *world, const ContactFrame *contacts);
 } SolverKind;
@@ -39,14 +39,14 @@ static const SolverKind kinds[] = {
  * nothing presses gaps shut, and a drop that only goes along would come to breathe: what the control corrects is strain, for which it corrects more. */
 static const double CONTROL_SHARE = 0.2;
 
-static void set_volume_control(World *world, float dt)
+static void set_volume_control(World *world)
 {
-    const double part = gravity_fall(world, (double)dt) > 0.0 ? CONTROL_SHARE : 0.0;
+    const double part = gravity_fall(world, &world->step) > 0.0 ? CONTROL_SHARE : 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         const bool controlled = solver_follows_grid(world, slot) && material->yields != K_VISCO;
-        material->volume_share = controlled ? (float)part * solver_feedback_share(&world->materials.def[slot], dt) : 0.0f;
+        material->volume_share = controlled ? (float)part * solver_feedback_share(world, &world->materials.def[slot]) : 0.0f;
     }
 }
 
@@ -59,11 +59,11 @@ static const double CALM_SPEED = 2.4;
  * rises through states of balance, with the work integral (dM) e^2 / 2 and e = p / M, which is (1 - 1/r) of what it held, whatever r is. Slowly: by
  * about the factor e in the time in which its waves cross it twice. With the paper's solver, where M goes with N, they travel sqrt(w N) / 2 cells per
  * substep, so a block of 8 cells takes 26 substeps for N = 1; for the dual see dual_stiffened(). Fewer iterations soften at once. */
-static void follow_iterations(World *world, float dt)
+static void follow_iterations(World *world)
 {
     static const double GROWTH = 1.04; /* per substep */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = solver_uses_dual(world) ? dual_stiffened(world, (double)dt, before) : GROWTH * before;
+    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->step, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -73,13 +73,13 @@ static bool weighs_liquids(const World *world)
     return world->record.solver != PBMPM_SOLVER_PAPER && materials_density_contrast(&world->materials, &world->particles) > 1.0;
 }
 
-void solver_bind(World *world, float dt, bool with_volume)
+void solver_bind(World *world, bool with_volume)
 {
     Particles *p = &world->particles;
     Grid *grid = &world->grid;
     KernelArgs *a = &world->args;
-    const double cells_per_metre = 1.0 / (double)world->def.cell_size;
-    const float calm_way = (float)(CALM_SPEED * (double)dt);
+    const StepContext *step = &world->step;
+    const float calm_way = (float)(CALM_SPEED * step->substep_dt);
     *a = (KernelArgs){.volume_ratio = p->volume_ratio,
                       .mass = p->mass,
                       .identity = (const uint32_t *)(const void *)p->id,
@@ -107,15 +107,15 @@ void solver_bind(World *world, float dt, bool with_volume)
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
-                      .dt = dt,
-                      .cells_per_metre = (float)cells_per_metre,
+                      .dt = (float)step->substep_dt,
+                      .cells_per_metre = (float)step->cells_per_metre,
                       .max_displacement = world->settings.max_displacement,
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
                       .check_strain = world->strain_unchecked};
-    follow_iterations(world, dt);
-    kinds[world->record.solver].set_materials(world, dt);
-    set_volume_control(world, dt);
+    follow_iterations(world);
+    kinds[world->record.solver].set_materials(world);
+    set_volume_control(world);
     memcpy(a->fraction, p->fraction, sizeof a->fraction);
     memcpy(a->cell, p->cell, sizeof a->cell);
     memcpy(a->velocity, p->velocity, sizeof a->velocity);
@@ -124,7 +124,7 @@ void solver_bind(World *world, float dt, bool with_volume)
     multistep_bind(world);
     granular_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
-        const double pull = (double)world->settings.gravity[k] * dt * dt * cells_per_metre;
+        const double pull = (double)world->settings.gravity[k] * step->substep_dt * step->substep_dt * step->cells_per_metre;
         a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
     }
 }

@@ -13,8 +13,8 @@ pbmpm_solver solver_for(const World *world, uint32_t matter);
 /* Whether the substep needs the volume on the grid; asked before the grid is built. */
 bool solver_wants_volume(const World *world);
 
-/* Points the kernel arguments at the world's arrays, for substeps of `dt` seconds. */
-void solver_bind(World *world, float dt, bool with_volume);
+/* Points the kernel arguments at the world's arrays, for substeps as in world->step. */
+void solver_bind(World *world, bool with_volume);
 
 /* First P2G and predictor. */
 void solver_predict(World *world);

@@ -187,12 +187,12 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
 /* ---- Whether there is space ---- */
 
 /* The nodes that particles which appear in this part can touch: in the domain, and as far out of it as to see that its walls are closed. */
-static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part, float dt)
+static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part)
 {
-    const double dx = (double)world->def.cell_size, parts = world->settings.substeps;
+    const double dx = (double)world->def.cell_size, dt = world->step.substep_dt, parts = world->settings.substeps;
     double gravity2 = 0.0;
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
-    const double way = ((double)emitter->def.speed + sqrt(gravity2) * (double)dt) * (double)dt / dx;
+    const double way = ((double)emitter->def.speed + sqrt(gravity2) * dt) * dt / dx;
     const double reach = fmin(way, (double)world->settings.max_displacement) + CROWD_WIDE + 2.0;
     Crowd crowd = {.size = {1, 1, 1}, .groups = world->materials.def[emitter->def.material.index].groups};
     double low[2][3], high[2][3];
@@ -274,10 +274,10 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     return settle(world, emitter, crowd, birth, point, clear, generation);
 }
 
-/* Particles that come due in a part of the length dt, counted as far as anybody can. */
-static double count_due(const World *world, const Emitter *emitter, float dt)
+/* Particles that come due in a part of a step, counted as far as anybody can. */
+static double count_due(const World *world, const Emitter *emitter)
 {
-    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * (double)dt), 1e15);
+    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * world->step.substep_dt), 1e15);
 }
 
 static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused, int part)
@@ -291,11 +291,11 @@ static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused
 }
 
 /* The j-th birth is when `due` passes the number j. */
-static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int part, float dt)
+static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int part)
 {
     EmitterState *state = &emitter->state;
     const EmitterState before = *state;
-    const double rate = particle_rate(world, &emitter->def), parts = world->settings.substeps;
+    const double rate = particle_rate(world, &emitter->def), dt = world->step.substep_dt, parts = world->settings.substeps;
     const double spacing = (double)world->def.cell_size / (double)emitter->def.particles_per_axis;
     const uint32_t generation = generation_next_of_particles();
     const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
@@ -303,9 +303,9 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
     uint64_t j = 1;
     for (; j <= due && j <= world->particles.capacity; j++) {
         if (state->emitted >= budget || world->particles.count >= world->particles.capacity) break;
-        const double after = fmin(fmax(((double)j - before.due) / rate, 0.0), (double)dt);
-        Birth birth = {.since = (double)dt - after};
-        if (emitter->moving) nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + after / (double)dt) / parts));
+        const double after = fmin(fmax(((double)j - before.due) / rate, 0.0), dt);
+        Birth birth = {.since = dt - after};
+        if (emitter->moving) nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + after / dt) / parts));
         draw_point(emitter, &nozzle, spacing, birth.point);
         draw_velocity(emitter, &nozzle, birth.velocity);
         state->born++;
@@ -323,47 +323,47 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
 }
 
 /* Where the way adds more nodes than there are at its end, and too many, there is none. */
-static void jump_if_far(const World *world, Emitter *emitter, Crowd *crowd, int part, float dt)
+static void jump_if_far(const World *world, Emitter *emitter, Crowd *crowd, int part)
 {
     Emitter there = *emitter;
     emitter_arrive(&there);
-    const Crowd end = crowd_bounds(world, &there, part, dt);
+    const Crowd end = crowd_bounds(world, &there, part);
     if (crowd_nodes(crowd) <= crowd_nodes(&end) + EMITTER_CELLS_MAX) return;
     *emitter = there;
     *crowd = end;
 }
 
-pbmpm_result emitters_prepare(World *world, int part, float dt)
+pbmpm_result emitters_prepare(World *world, int part)
 {
     Emitters *emitters = &world->emitters;
     for (uint32_t slot = 0; slot < emitters->used; slot++) {
         Emitter *emitter = &emitters->slot[slot];
-        if (!works(emitter) || count_due(world, emitter, dt) < 1.0) continue;
+        if (!works(emitter) || count_due(world, emitter) < 1.0) continue;
         pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
         if (room == PBMPM_OK && emitter->def.user_value) room = particles_enable_user_values(&world->particles, &world->memory);
         if (room != PBMPM_OK) return room;
-        Crowd crowd = crowd_bounds(world, emitter, part, dt);
-        if (emitter->moving && crowd_nodes(&crowd) > EMITTER_CELLS_MAX) jump_if_far(world, emitter, &crowd, part, dt);
+        Crowd crowd = crowd_bounds(world, emitter, part);
+        if (emitter->moving && crowd_nodes(&crowd) > EMITTER_CELLS_MAX) jump_if_far(world, emitter, &crowd, part);
         if (crowd_nodes(&crowd) > 1e9 || !array_reserve(&world->memory, &emitters->crowd, (size_t)crowd_nodes(&crowd), sizeof(float)))
             return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", crowd_nodes(&crowd));
     }
     return PBMPM_OK;
 }
 
-void emitters_run(World *world, int part, float dt)
+void emitters_run(World *world, int part)
 {
     Emitters *emitters = &world->emitters;
     for (uint32_t slot = 0; slot < emitters->used; slot++) {
         Emitter *emitter = &emitters->slot[slot];
         if (!works(emitter)) continue;
-        const double due = count_due(world, emitter, dt);
+        const double due = count_due(world, emitter);
         if (due >= 1.0) {
-            Crowd crowd = crowd_bounds(world, emitter, part, dt);
+            Crowd crowd = crowd_bounds(world, emitter, part);
             crowd.volume = emitters->crowd.data;
             crowd_measure(world, &crowd);
-            emit(world, emitter, &crowd, (uint64_t)due, part, dt);
+            emit(world, emitter, &crowd, (uint64_t)due, part);
         }
-        const double total = emitter->state.due + particle_rate(world, &emitter->def) * (double)dt;
+        const double total = emitter->state.due + particle_rate(world, &emitter->def) * world->step.substep_dt;
         emitter->state.due = total - floor(total);
     }
 }

@@ -5,8 +5,8 @@
 #include "world/world.h"
 
 /* Takes the memory that emitters_run() needs for part `part` of a step. */
-pbmpm_result emitters_prepare(World *world, int part, float dt);
+pbmpm_result emitters_prepare(World *world, int part);
 /* Adds what is due in that part, at its end. The obstacles are those of that part. */
-void emitters_run(World *world, int part, float dt);
+void emitters_run(World *world, int part);
 
 #endif

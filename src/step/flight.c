@@ -16,14 +16,12 @@ static bool is_felt_everywhere(const Forces *forces)
     return false;
 }
 
-void flight_begin(Flight *flight, const World *world, float dt)
+void flight_begin(Flight *flight, const World *world)
 {
     const pbmpm_solver solver = world->settings.solver;
     const bool solved = solver == PBMPM_SOLVER_PAPER || solver == PBMPM_SOLVER_DUAL || solver == PBMPM_SOLVER_CONVERGENT;
     *flight = (Flight){.world = world,
-                       .possible = solved && solver_holds_liquid(world) && !is_felt_everywhere(&world->forces),
-                       .dt = dt,
-                       .to_cells = (double)dt / (double)world->def.cell_size};
+                       .possible = solved && solver_holds_liquid(world) && !is_felt_everywhere(&world->forces)};
 }
 
 /* How it moves within the substep [cells]. */
@@ -37,12 +35,13 @@ static Motion motion_of(const Flight *flight, uint32_t row)
 {
     const World *world = flight->world;
     const Particles *p = &world->particles;
+    const StepContext *step = &world->step;
     Motion motion = {0};
     for (int a = 0; a < p->dimension; a++) {
-        const double d = ((double)p->velocity[a][row] + (double)world->settings.gravity[a] * (double)flight->dt) * flight->to_cells;
+        const double d = ((double)p->velocity[a][row] + (double)world->settings.gravity[a] * step->substep_dt) * step->to_cells;
         motion.way += d * d;
-        motion.growth += (double)p->affine[a * 4][row] * (double)flight->dt;
-        for (int c = 0; c < p->dimension; c++) motion.strain += fabs((double)p->affine[a * 3 + c][row]) * (double)flight->dt;
+        motion.growth += (double)p->affine[a * 4][row] * step->substep_dt;
+        for (int c = 0; c < p->dimension; c++) motion.strain += fabs((double)p->affine[a * 3 + c][row]) * step->substep_dt;
     }
     motion.way = sqrt(motion.way);
     return motion;

@@ -10,13 +10,11 @@ struct World;
 
 typedef struct Flight {
     const struct World *world;
-    bool possible;   /* for some particle */
-    float dt;        /* [s] of the substep */
-    double to_cells; /* from a velocity to cells per substep */
+    bool possible; /* for some particle */
 } Flight;
 
 /* The obstacles of the substep are known. */
-void flight_begin(Flight *flight, const struct World *world, float dt);
+void flight_begin(Flight *flight, const struct World *world);
 
 /* A GridFlies; `context`: a Flight that is possible. */
 bool flight_is_free(const void *context, uint32_t row);

@@ -72,10 +72,10 @@ static void wind_at(const Force *force, const double point[3], double out[3])
 }
 
 /* k dt. Infinity is 1e9: what is left of a velocity is then 0, and of an acceleration a billionth. */
-static double drag_at(const Force *force, double share, double dt)
+static double drag_at(const Force *force, double share, const StepContext *step)
 {
-    const double rate = force->def.kind == PBMPM_FORCE_DRAG ? (double)force->def.strength * share : -60.0 * log1p(-share);
-    return fmin(rate * dt, 1e9);
+    const double rate = force->def.kind == PBMPM_FORCE_DRAG ? (double)force->def.strength * share : -REFERENCE_RATE * log1p(-share);
+    return fmin(rate * step->substep_dt, 1e9);
 }
 
 /* ---- At a node ---- */
@@ -97,8 +97,9 @@ typedef struct Felt {
     bool any;
 } Felt;
 
-static void feel(const Reaching *reaching, const double point[3], double cell_size, double dt, Felt *felt)
+static void feel(const World *world, const Reaching *reaching, const double point[3], Felt *felt)
 {
+    const StepContext *step = &world->step;
     felt->any = false;
     felt->total_drag = 0.0;
     for (int a = 0; a < 3; a++) felt->acceleration[a] = felt->wind[a] = 0.0;
@@ -110,13 +111,13 @@ static void feel(const Reaching *reaching, const double point[3], double cell_si
         felt->any = true;
         if (is_drag(&force->def)) {
             wind_at(force, point, felt->change[i]);
-            felt->drag[i] = drag_at(force, share, dt);
+            felt->drag[i] = drag_at(force, share, step);
             felt->total_drag += felt->drag[i];
             for (int a = 0; a < 3; a++) felt->wind[a] += felt->drag[i] * felt->change[i][a];
             continue;
         }
-        acceleration_at(force, point, share, cell_size, felt->change[i]);
-        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= dt;
+        acceleration_at(force, point, share, (double)world->def.cell_size, felt->change[i]);
+        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= step->substep_dt;
     }
     for (int a = 0; a < 3 && felt->total_drag > 0.0; a++) felt->wind[a] /= felt->total_drag;
 }
@@ -143,7 +144,6 @@ static void add_impulses(const Reaching *reaching, const Felt *felt, const doubl
 
 typedef struct ForceJob {
     World *world;
-    double dt, to_velocity;
     const Force *force[PBMPM_MAX_FORCES]; /* that are on */
     uint32_t on;
 } ForceJob;
@@ -151,7 +151,7 @@ typedef struct ForceJob {
 /* The displacement of a node in the predictor [cells], changed by what it feels; see pbmpm_force_def. `pull`: of gravity. */
 static void change_node(const ForceJob *job, const Felt *felt, float *u, double gained[3])
 {
-    const double drag = felt->total_drag, lost = -expm1(-drag), to_cells = 1.0 / job->to_velocity;
+    const double drag = felt->total_drag, lost = -expm1(-drag), to_velocity = job->world->step.to_velocity, to_cells = 1.0 / to_velocity;
     for (int a = 0; a < job->world->def.dimension; a++) {
         const double pull = (double)job->world->args.gravity[a], before = (double)u[a];
         if (drag == 0.0) {
@@ -161,7 +161,7 @@ static void change_node(const ForceJob *job, const Felt *felt, float *u, double 
             u[a] = (float)(free + (felt->wind[a] * to_cells - free) * lost + pushed * (lost / drag));
         }
         u[a] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, u[a]));
-        gained[a] = ((double)u[a] - before) * job->to_velocity;
+        gained[a] = ((double)u[a] - before) * to_velocity;
     }
 }
 
@@ -200,7 +200,7 @@ static void change_block(const ForceJob *job, int32_t block, const double corner
         Felt felt;
         if (u[3] == 0.0f) continue;
         for (int a = 0; a < world->def.dimension; a++) point[a] = corner[a] + local[a] * dx;
-        feel(reaching, point, dx, job->dt, &felt);
+        feel(world, reaching, point, &felt);
         if (felt.any) {
             change_node(job, &felt, u, gained);
             add_impulses(reaching, &felt, gained, (double)u[3] * world_cell_volume(world), shares);
@@ -238,10 +238,10 @@ static pbmpm_result take_memory(World *world, uint32_t on, size_t floats, bool k
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the forces on %d blocks", world->grid.node_blocks);
 }
 
-pbmpm_result forces_apply(World *world, float dt)
+pbmpm_result forces_apply(World *world)
 {
     Forces *forces = &world->forces;
-    ForceJob job = {.world = world, .dt = (double)dt, .to_velocity = (double)world->def.cell_size / (double)dt};
+    ForceJob job = {.world = world};
     for (uint32_t slot = 0; slot < forces->used; slot++)
         if (forces->slot[slot].generation != 0 && forces->slot[slot].def.enabled) job.force[job.on++] = &forces->slot[slot];
     forces->on = job.on;

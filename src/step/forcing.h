@@ -5,7 +5,7 @@
 #include "world/world.h"
 
 /* Changes the predictor of a substep. On failure (no memory) it is as it was. */
-pbmpm_result forces_apply(World *world, float dt);
+pbmpm_result forces_apply(World *world);
 /* That substep is done: what the forces did in it counts. */
 void forces_account(Forces *forces, int32_t node_blocks);
 

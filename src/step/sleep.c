@@ -12,8 +12,9 @@
 
 /* ---- Beginning and ending ---- */
 
-void sleep_begin_step(World *world, double dt)
+void sleep_begin_step(World *world)
 {
+    const double dt = world->step.substep_dt;
     Sleep *sleep = &world->sleep;
     static const double SAME = 1.1; /* factor between lengths of substeps with which matter at rest stays at rest */
     if (!world->settings.sleeping) {
@@ -36,7 +37,7 @@ static const uint32_t JOINED_MOST = 16;
 typedef struct Decision {
     World *world;
     Sleep *sleep;
-    float dt, speed2;
+    float speed2;
     int32_t corner[3]; /* place of the grid's anchor */
     uint32_t rows;     /* first row that was in the grid when it was decided */
     SleepBlock *next;  /* per block in order of discovery */
@@ -146,7 +147,7 @@ static void fall_asleep(const Decision *d, uint32_t blocks)
     for (uint32_t f = 0; f < blocks; f++) {
         SleepBlock *block = &d->next[f];
         if (block->stage != SLEEP_AWAKE) continue;
-        block->quiet = is_quiet_around(d, block) ? block->quiet + d->dt : 0.0f;
+        block->quiet = is_quiet_around(d, block) ? block->quiet + (float)d->world->step.substep_dt : 0.0f;
         if (!(block->quiet > d->world->settings.sleep_time) || sleep_is_measured(d->world, block->place)) continue;
         block->stage = SLEEP_DROWSY;
         block->moved = 1;
@@ -309,11 +310,11 @@ static bool reserve(World *world)
            array_reserve(memory, &sleep->drift, (size_t)blocks * K_DRIFT_WIDTH, sizeof(float));
 }
 
-pbmpm_result sleep_build(World *world, float dt, bool with_volume)
+pbmpm_result sleep_build(World *world, bool with_volume)
 {
     Sleep *sleep = &world->sleep;
     Grid *grid = &world->grid;
-    Decision d = {.world = world, .sleep = sleep, .dt = dt, .speed2 = world->settings.sleep_speed * world->settings.sleep_speed};
+    Decision d = {.world = world, .sleep = sleep, .speed2 = world->settings.sleep_speed * world->settings.sleep_speed};
     int32_t anchor[3];
     sleep_settle(world);
     grid_clear(grid);
@@ -365,20 +366,20 @@ pbmpm_result sleep_prepare(World *world)
  * with the default sleep_speed a block bears 1.7 m/s^2. */
 static const double MEMORY = 0.03; /* [s] */
 
-static bool would_move(const World *world, SleepBlock *block, const float *drift, double dt)
+static bool would_move(const World *world, SleepBlock *block, const float *drift)
 {
-    const double to_velocity = (double)world->def.cell_size / dt, limit = (double)world->settings.sleep_speed;
+    const double to_velocity = world->step.to_velocity, limit = (double)world->settings.sleep_speed;
     const double mass = fmax((double)drift[0], FLT_MIN);
     double gained2 = 0.0;
     for (int a = 0; a < 3; a++) {
-        block->gained[a] = (float)((double)block->gained[a] * exp(-dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
+        block->gained[a] = (float)((double)block->gained[a] * exp(-world->step.substep_dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
         gained2 += (double)block->gained[a] * (double)block->gained[a];
     }
     const double fastest = sqrt((double)drift[4]) * to_velocity;
     return !(gained2 <= limit * limit && fastest <= limit);
 }
 
-void sleep_judge(World *world, float dt)
+void sleep_judge(World *world)
 {
     Sleep *sleep = &world->sleep;
     Particles *p = &world->particles;
@@ -386,7 +387,7 @@ void sleep_judge(World *world, float dt)
     solver_over_still(world, world->kernels->drift);
     for (int32_t b = 0; b < world->grid.still_blocks; b++) {
         SleepBlock *block = sleep_list_block(&sleep->active, (uint32_t)b);
-        if (would_move(world, block, (const float *)sleep->drift.data + (size_t)b * K_DRIFT_WIDTH, (double)dt)) {
+        if (would_move(world, block, (const float *)sleep->drift.data + (size_t)b * K_DRIFT_WIDTH)) {
             block->woken = 1;
             sleep->stirred = true;
             sleep->woken_blocks++;

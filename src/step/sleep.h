@@ -5,15 +5,15 @@
 #include "world/world.h"
 
 /* Follows the settings: begins or ends sleeping. `dt`: of its substeps. */
-void sleep_begin_step(World *world, double dt);
+void sleep_begin_step(World *world);
 
 /* In place of grid_build(): decides who sleeps and builds the grid of the others. */
-pbmpm_result sleep_build(World *world, float dt, bool with_volume);
+pbmpm_result sleep_build(World *world, bool with_volume);
 
 /* Before the solution: keeps what it changes of still particles. */
 pbmpm_result sleep_prepare(World *world);
 
 /* After the solution, before particles move: decides which still blocks wake at once. */
-void sleep_judge(World *world, float dt);
+void sleep_judge(World *world);
 
 #endif

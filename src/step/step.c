@@ -119,7 +119,6 @@ static void remove_marked(World *world)
 typedef struct PushJob {
     World *world;
     const ContactFrame *frame;
-    float dt;
     bool pushes_later; /* the solver has to see first where all particles went */
 } PushJob;
 
@@ -129,7 +128,7 @@ static void push_out(const PushJob *job, int32_t begin, int32_t end)
         if (sleep_is_still(job->world, block))
             contacts_pass_over(job->frame, block);
         else
-            contacts_push_out(job->frame, &job->world->particles, job->dt, block, block + 1);
+            contacts_push_out(job->frame, &job->world->particles, block, block + 1);
     }
 }
 
@@ -153,38 +152,38 @@ static pbmpm_result empty_substep(World *world, int part)
 }
 
 /* Where the particles are: order, blocks, runs, and which of them touch. */
-static pbmpm_result build_grid(World *world, float dt)
+static pbmpm_result build_grid(World *world)
 {
     const bool with_volume = solver_wants_volume(world);
     if (islands_wanted(world)) return islands_build(world);
-    return world->sleep.on ? sleep_build(world, dt, with_volume)
+    return world->sleep.on ? sleep_build(world, with_volume)
                            : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
 }
 
-static pbmpm_result find_places(World *world, float dt, int part)
+static pbmpm_result find_places(World *world, int part)
 {
     Flight flight;
     world->islands.groups = 1;
     world->islands.contacts = 0;
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
-    flight_begin(&flight, world, dt);
+    flight_begin(&flight, world);
     world->grid.flies = flight.possible ? flight_is_free : NULL;
     world->grid.flies_context = &flight;
-    const pbmpm_result result = build_grid(world, dt);
+    const pbmpm_result result = build_grid(world);
     world->grid.flies = NULL;
     return result;
 }
 
 /* Where they would go if nothing held them. */
-static pbmpm_result predict(World *world, float dt, bool with_volume)
+static pbmpm_result predict(World *world, bool with_volume)
 {
     pbmpm_result result = solver_prepare(world);
     if (result != PBMPM_OK) return result;
-    solver_bind(world, dt, with_volume);
+    solver_bind(world, with_volume);
     if (world->sleep.on) result = sleep_prepare(world);
     if (result != PBMPM_OK) return result;
     solver_predict(world);
-    return forces_apply(world, dt);
+    return forces_apply(world);
 }
 
 /* What they may meet on the way. */
@@ -199,8 +198,9 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     *contacts = (ContactFrame){.colliders = &world->colliders,
                                .grid = &world->grid,
                                .cell_size = cell_size,
+                               .step = &world->step,
                                .max_displacement = world->settings.max_displacement,
-                               .fall = gravity_fall(world, (double)world->args.dt),
+                               .fall = gravity_fall(world, &world->step),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
@@ -230,33 +230,33 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
 }
 
 /* They go, and what happened on the way is booked. Returns how many have to be removed. */
-static uint32_t go(World *world, float dt, int part, const ContactFrame *contacts)
+static uint32_t go(World *world, int part, const ContactFrame *contacts)
 {
-    const PushJob push = {world, contacts, dt, solver_ends_by_primal(world)};
+    const PushJob push = {world, contacts, solver_ends_by_primal(world)};
     Loops loops;
     loops_open(&loops, world->pool);
     solver_before_going(world);
     LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), go_blocks, &push);
     loops_run(&loops);
     solver_after_going(world, contacts);
-    contacts_book(contacts, (double)dt); /* bodies that bounce off have scaled it */
-    walls_book(&world->walls, contacts, (double)dt);
+    contacts_book(contacts); /* bodies that bounce off have scaled it */
+    walls_book(&world->walls, contacts);
     if (push.pushes_later) LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), push_out_blocks, &push);
     loops_run(&loops);
-    contacts_book_push(contacts, &world->particles, dt);
+    contacts_book_push(contacts, &world->particles);
     forces_account(&world->forces, world->grid.node_blocks);
     const uint32_t drained = sinks_mark(world, (uint32_t)part);
     return drained + collect_events(world, (uint32_t)part);
 }
 
 /* All that is in world->grid takes the substep. Adds to *marked how many particles have to be removed. */
-static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *marked)
+static pbmpm_result take_substep(World *world, int part, uint32_t *marked)
 {
     StepRecord *record = &world->record;
     double clock = now_ms();
 
     const bool with_volume = solver_wants_volume(world);
-    pbmpm_result result = predict(world, dt, with_volume);
+    pbmpm_result result = predict(world, with_volume);
     if (result != PBMPM_OK) return result;
     lap(&record->ms_scatter, &clock);
 
@@ -267,10 +267,10 @@ static pbmpm_result take_substep(World *world, float dt, int part, uint32_t *mar
 
     /* Where their materials let them go. */
     if (world->grid.particle_blocks > 0) solver_solve(world, &contacts); /* else all fly */
-    if (world->sleep.on) sleep_judge(world, dt);
+    if (world->sleep.on) sleep_judge(world);
     lap(&record->ms_iterate, &clock);
 
-    *marked += go(world, dt, part, &contacts);
+    *marked += go(world, part, &contacts);
     granular_judge(world);
     lap(&record->ms_integrate, &clock);
     return PBMPM_OK;
@@ -299,7 +299,7 @@ static double deadline_of(const World *world, int group, double deadline)
 }
 
 /* Each group as if it were all there is; see islands.h. */
-static pbmpm_result take_by_groups(World *world, float dt, int part, uint32_t *marked)
+static pbmpm_result take_by_groups(World *world, int part, uint32_t *marked)
 {
     StepRecord *record = &world->record;
     const double deadline = record->deadline_ms, iterations = world->slow_iterations;
@@ -311,7 +311,7 @@ static pbmpm_result take_by_groups(World *world, float dt, int part, uint32_t *m
         world->slow_iterations = iterations;
         world->strain_unchecked = unchecked;
         islands_enter(world, group);
-        result = take_substep(world, dt, part, marked);
+        result = take_substep(world, part, marked);
         islands_leave(world, group);
         if (group > 0) report_with(record, &others);
         if (group + 1 < world->islands.groups) world->islands.contacts += colliders_contacts(&world->colliders);
@@ -320,15 +320,15 @@ static pbmpm_result take_by_groups(World *world, float dt, int part, uint32_t *m
     return result;
 }
 
-static pbmpm_result substep(World *world, float dt, int part)
+static pbmpm_result substep(World *world, int part)
 {
     double clock = now_ms();
     uint32_t marked = 0;
-    pbmpm_result result = find_places(world, dt, part);
+    pbmpm_result result = find_places(world, part);
     if (result != PBMPM_OK) return result;
     if (grid_row_blocks(&world->grid) == 0) return empty_substep(world, part); /* all sleep */
     lap(&world->record.ms_sort, &clock);
-    result = world->islands.groups > 1 ? take_by_groups(world, dt, part, &marked) : take_substep(world, dt, part, &marked);
+    result = world->islands.groups > 1 ? take_by_groups(world, part, &marked) : take_substep(world, part, &marked);
     if (result == PBMPM_OK && marked > 0) remove_marked(world);
     return result;
 }
@@ -337,22 +337,22 @@ pbmpm_result world_step(World *world, float dt)
 {
     const double begin = now_ms();
     const int parts = world->settings.substeps;
-    const float part_dt = (float)((double)dt / parts);
+    world->step = world_context(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
     impulses_clear(&world->colliders.impulses);
     forces_begin_step(&world->forces);
     world_touch(world);
-    sleep_begin_step(world, (double)part_dt);
+    sleep_begin_step(world);
     pool_set_serial(world->pool, world->particles.count - world->sleep.rows < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
         world->record.deadline_ms = begin + (double)world->settings.time_budget_ms * (part + 1) / parts;
         if (world->sleep.on) sleep_begin_substep(world, part);
-        pbmpm_result result = emitters_prepare(world, part, part_dt);
-        if (result == PBMPM_OK) result = world->particles.count ? substep(world, part_dt, part) : empty_substep(world, part);
+        pbmpm_result result = emitters_prepare(world, part);
+        if (result == PBMPM_OK) result = world->particles.count ? substep(world, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
-        emitters_run(world, part, part_dt);
-        world->simulated_seconds += (double)part_dt;
+        emitters_run(world, part);
+        world->simulated_seconds += world->step.substep_dt;
         world->record.substeps++;
     }
     colliders_end_step(&world->colliders);

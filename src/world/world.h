@@ -7,6 +7,7 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
+#include "base/step_context.h"
 #include "contact/sight.h"
 #include "contact/walls.h"
 #include "grid/bodies.h"
@@ -161,6 +162,7 @@ typedef struct World {
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     Islands islands;
+    StepContext step; /* of the present step, or the last one */
     KernelArgs args;
     DualState dual;
     GuessState guess;
@@ -209,6 +211,9 @@ static inline double world_cell_volume(const World *world)
     const double dx = (double)world->def.cell_size;
     return world->def.dimension == 3 ? dx * dx * dx : dx * dx;
 }
+
+/* Of substeps of so many seconds. */
+static inline StepContext world_context(const World *world, double substep_dt) { return step_context(substep_dt, (double)world->def.cell_size); }
 
 /* To be called before the first particle of a live material is added; does nothing the second time. */
 pbmpm_result world_make_room_for(World *world, uint32_t material);

@@ -147,6 +147,7 @@ typedef struct Setting {
     Grid grid;
     Colliders colliders;
     Domain domain;
+    StepContext step;
     ContactFrame frame;
 } Setting;
 
@@ -167,7 +168,8 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
     const pbmpm_world_def def = world_def_defaults();
     s->domain = domain_of(&def);
-    s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .max_displacement = LIMIT};
+    s->step = step_context((double)0.01f, CELL_SIZE);
+    s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .step = &s->step, .max_displacement = LIMIT};
 }
 
 static void setting_close(Setting *s)
@@ -371,7 +373,6 @@ static void test_teleported_obstacles_do_not_push(void)
 static void test_particles_are_pushed_out(void)
 {
     static Setting s;
-    const float dt = 0.01f;
     setting_open(&s, 2, 4);
     pbmpm_world_def def = world_def_defaults();
     def.domain_enabled = 1;
@@ -392,7 +393,7 @@ static void test_particles_are_pushed_out(void)
     find_and_apply(&s, 0, 1);
     const Solid solid = solid_of(&ball, 2);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
-    contacts_push_out(&s.frame, &s.particles, dt, 0, s.grid.particle_blocks);
+    contacts_push_out(&s.frame, &s.particles, 0, s.grid.particle_blocks);
     int at_wall = 0, in_ball = 0;
     for (uint32_t i = 0; i < s.particles.count; i++) {
         double point[3] = {0}, normal[3];
@@ -407,8 +408,8 @@ static void test_particles_are_pushed_out(void)
     }
     TEST_ASSERT_TRUE(at_wall > 10);
     TEST_ASSERT_TRUE(in_ball > 0); /* those deeper than a cell take longer */
-    contacts_push_out(&s.frame, &s.particles, dt, 0, s.grid.particle_blocks);
-    contacts_push_out(&s.frame, &s.particles, dt, 0, s.grid.particle_blocks);
+    contacts_push_out(&s.frame, &s.particles, 0, s.grid.particle_blocks);
+    contacts_push_out(&s.frame, &s.particles, 0, s.grid.particle_blocks);
     for (uint32_t i = 0; i < s.particles.count; i++) {
         double point[3] = {0}, normal[3];
         for (int a = 0; a < 2; a++) point[a] = particles_coordinate(&s.particles, i, a) * CELL_SIZE;
@@ -437,7 +438,7 @@ static void push_from_floor(int32_t cells, float fraction[9], float speed[9])
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
     for (uint32_t i = 0; i < s.particles.count; i++)
         if (s.particles.fraction[1][i] != 0.0f) row[s.particles.cell[0][i] - cells + 4] = i;
-    contacts_push_out(&s.frame, &s.particles, 0.01f, 0, s.grid.particle_blocks);
+    contacts_push_out(&s.frame, &s.particles, 0, s.grid.particle_blocks);
     for (int k = 0; k < 9; k++) {
         fraction[k] = s.particles.fraction[1][row[k]];
         speed[k] = s.particles.velocity[1][row[k]];
@@ -471,7 +472,7 @@ static void push_between_boxes(const KernelMaterial *stays, double place[9])
     set_nodes(&s, (const float[3]){0, 0, 0});
     find_and_apply(&s, 0, 1);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_prepare_push(&s.frame, &s.memory));
-    contacts_push_out(&s.frame, &s.particles, 0.01f, 0, s.grid.particle_blocks);
+    contacts_push_out(&s.frame, &s.particles, 0, s.grid.particle_blocks);
     for (uint32_t i = 0; i < s.particles.count; i++)
         if (fabs(particles_coordinate(&s.particles, i, 1)) < 0.1) place[s.particles.id[i].index % 9] = particles_coordinate(&s.particles, i, 0);
     setting_close(&s);

@@ -154,7 +154,8 @@ static void test_rates_of_emitters(void)
 static void predict(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
-    solver_bind(world, 0.01f, false);
+    world->step = world_context(world, (double)0.01f);
+    solver_bind(world, false);
     solver_predict(world);
 }
 
@@ -196,7 +197,7 @@ static void check_reach(int dimension, uint32_t seed)
     def.falloff = (pbmpm_falloff)(seed / 2 % 4);
     def.strength = 500.0f; /* 0.2 cells per substep */
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &shape, dimension, 1, &id));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world));
     const float *node = world->grid.node.data;
     const Solid solid = solid_of(&shape, dimension);
     double impulse = 0.0;
@@ -245,7 +246,7 @@ static void check_drag(pbmpm_force_kind kind)
     def.velocity[1] = -2.0f;
     def.spin = 0.5f;
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &box, 2, 1, &id));
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world));
     const float *node = world->grid.node.data;
     const double kept = kind == PBMPM_FORCE_GRAB ? 0.0 : exp(-0.3);
     double impulse[2] = {0}, size = 0.0;
@@ -285,7 +286,7 @@ static void test_forces_that_are_off_cost_nothing(void)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_add(&world->forces, &world->memory, &def, &shape, 2, 1, &id));
     predict();
     const uint64_t used = world->memory.used;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world, 0.01f));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, forces_apply(world));
     TEST_ASSERT_EQUAL_UINT64(used, world->memory.used);
     TEST_ASSERT_NULL(world->forces.share.data);
 }

@@ -29,13 +29,31 @@ static World *open_world(int dimension, float cell_size)
     return world;
 }
 
+static void bind_for(World *world, float dt, bool with_volume)
+{
+    world->step = world_context(world, (double)dt);
+    solver_bind(world, with_volume);
+}
+
+static double share_of(const World *world, const pbmpm_material_def *def, double dt)
+{
+    const StepContext step = world_context(world, dt);
+    return dual_stiffness_share(world, def, &step);
+}
+
+static double cap_of(const World *world, const pbmpm_material_def *def, double dt)
+{
+    const StepContext step = world_context(world, dt);
+    return dual_stiffness_cap(world, def, &step);
+}
+
 static const KernelMaterial *bound_material(World *world, const pbmpm_material_def *def, pbmpm_solver solver, float dt)
 {
     pbmpm_material_id id;
     TEST_ASSERT_NULL(material_problem(def));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, def, 1, &id));
     world->record.solver = world->settings.solver = solver;
-    solver_bind(world, dt, false);
+    bind_for(world, dt, false);
     return &world->materials.kernel[id.index];
 }
 
@@ -71,7 +89,7 @@ static void test_moduli_of_liquids(void)
         NEAR((double)def.bulk_modulus / L, material->pascal);
         TEST_ASSERT_EQUAL_FLOAT(def.relaxation, material->relaxation);
         world->settings.iterations = 1;
-        solver_bind(world, dt, true);
+        bind_for(world, dt, true);
         NEAR(L / (double)def.bulk_modulus * 0.45, material->carried); /* a single one carries less, so that it damps */
         world_destroy(world);
     }
@@ -113,13 +131,13 @@ static void test_lightness(void)
         bound_material(world, &def, PBMPM_SOLVER_DUAL, 1.0f / 60);
     }
     world->particles.of_material[0] = world->particles.of_material[2] = 1;
-    solver_bind(world, 1.0f / 60, false);
+    bind_for(world, 1.0f / 60, false);
     for (int i = 0; i < 4; i++) TEST_ASSERT_EQUAL_FLOAT(1.0f, material[i].lightness); /* one liquid has particles */
     world->particles.of_material[1] = 1;
-    solver_bind(world, 1.0f / 60, false);
+    bind_for(world, 1.0f / 60, false);
     for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_FLOAT(200.0f / densities[i], material[i].lightness);
     world->settings.pressure = PBMPM_PRESSURE_CELLS;
-    solver_bind(world, 1.0f / 60, false);
+    bind_for(world, 1.0f / 60, false);
     for (int i = 0; i < 3; i++) TEST_ASSERT_EQUAL_FLOAT(1.0f, material[i].lightness);
     world_destroy(world);
 }
@@ -174,7 +192,7 @@ static void test_moduli_of_elastic_bodies(void)
         const pbmpm_solver solver = i % 3 ? PBMPM_SOLVER_PRIMAL : PBMPM_SOLVER_DUAL;
         const KernelMaterial *material = bound_material(world, &def, solver, dt);
         const double nu = (double)def.poisson_ratio, E = (double)def.young_modulus, rho = (double)def.density;
-        const double share = solver == PBMPM_SOLVER_DUAL ? dual_stiffness_cap(world, &def, (double)dt) : 1.0;
+        const double share = solver == PBMPM_SOLVER_DUAL ? cap_of(world, &def, (double)dt) : 1.0;
         TEST_ASSERT_TRUE(share > 0.0 && share <= 1.0);
         NEAR(share * twice_courant_squared(E / (2.0 * (1.0 + nu)), rho, (double)dt, (double)cell), material->shear);
         NEAR(share * twice_courant_squared(E * nu / ((1.0 + nu) * (1.0 - 2.0 * nu)), rho, (double)dt, (double)cell), material->dilation);
@@ -190,12 +208,12 @@ static void test_what_the_dual_solver_holds(void)
     def.kind = PBMPM_ELASTIC;
     def.young_modulus = 1e9f;
     world->settings.iterations = 50;
-    const double once = dual_stiffness_share(world, &def, 1.0 / 60);
-    NEAR(4.0 * once, dual_stiffness_share(world, &def, 1.0 / 120));
+    const double once = share_of(world, &def, 1.0 / 60);
+    NEAR(4.0 * once, share_of(world, &def, 1.0 / 120));
     world->settings.iterations = 100;
-    TEST_ASSERT_TRUE(dual_stiffness_share(world, &def, 1.0 / 60) > 3.9 * once && once < 1.0);
+    TEST_ASSERT_TRUE(share_of(world, &def, 1.0 / 60) > 3.9 * once && once < 1.0);
     def.young_modulus = 1.0f;
-    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_share(world, &def, 1.0 / 60));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, share_of(world, &def, 1.0 / 60));
     world_destroy(world);
 }
 
@@ -209,18 +227,18 @@ static void test_raised_iterations_take_effect_slowly(void)
     def.young_modulus = 1e9f;
     world->record.solver = PBMPM_SOLVER_DUAL;
     world->settings.iterations = 10;
-    const double ten = dual_stiffness_share(world, &def, 1.0 / 60);
-    solver_bind(world, 1.0f / 60, false);
-    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    const double ten = share_of(world, &def, 1.0 / 60);
+    bind_for(world, 1.0f / 60, false);
+    NEAR(ten, share_of(world, &def, 1.0 / 60));
     world->settings.iterations = 40;
-    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
-    solver_bind(world, 1.0f / 60, false);
-    NEAR(exp(2.0 * 10.0 / 480.0) * ten, dual_stiffness_share(world, &def, 1.0 / 60));
-    for (int i = 0; i < 40; i++) solver_bind(world, 1.0f / 60, false);
-    NEAR(16.0 * ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    NEAR(ten, share_of(world, &def, 1.0 / 60));
+    bind_for(world, 1.0f / 60, false);
+    NEAR(exp(2.0 * 10.0 / 480.0) * ten, share_of(world, &def, 1.0 / 60));
+    for (int i = 0; i < 40; i++) bind_for(world, 1.0f / 60, false);
+    NEAR(16.0 * ten, share_of(world, &def, 1.0 / 60));
     world->settings.iterations = 10;
-    solver_bind(world, 1.0f / 60, false);
-    NEAR(ten, dual_stiffness_share(world, &def, 1.0 / 60));
+    bind_for(world, 1.0f / 60, false);
+    NEAR(ten, share_of(world, &def, 1.0 / 60));
     world_destroy(world);
 }
 
@@ -235,20 +253,20 @@ static void test_what_solids_are_asked_to_bear(void)
     def.young_modulus = 1e9f;
     world->settings.iterations = 5;
     world->settings.gravity[0] = world->settings.gravity[1] = 0.0f;
-    const double held = dual_stiffness_share(world, &def, 1.0 / 60);
-    NEAR(held, dual_stiffness_cap(world, &def, 1.0 / 60));
+    const double held = share_of(world, &def, 1.0 / 60);
+    NEAR(held, cap_of(world, &def, 1.0 / 60));
     world->settings.gravity[1] = -9.81f;
     TEST_ASSERT_TRUE(matter_depth(world) > 0.0);
     const double fall = (double)9.81f / (60.0 * 60.0) / (double)0.05f, weight = 80.0 * fall * matter_depth(world);
     const double most = 25.0;
-    NEAR(fmax(1.0, fmin(weight, most) / 4.0) * held, dual_stiffness_cap(world, &def, 1.0 / 60)); /* 5 iterations hold (5 / 2.5)^2 */
+    NEAR(fmax(1.0, fmin(weight, most) / 4.0) * held, cap_of(world, &def, 1.0 / 60)); /* 5 iterations hold (5 / 2.5)^2 */
     static const double fallen[] = {0.1, 0.125, 0.2, 1000.0}, shares[] = {1.0, 0.8, 0.5, 0.5};
     for (int i = 0; i < 4; i++) {
         world->settings.gravity[1] = -(float)(fallen[i] * 60.0 * 60.0 * 0.05);
-        NEAR(fmin(80.0 * fallen[i] * matter_depth(world), shares[i] * most) / 4.0 * held, dual_stiffness_cap(world, &def, 1.0 / 60));
+        NEAR(fmin(80.0 * fallen[i] * matter_depth(world), shares[i] * most) / 4.0 * held, cap_of(world, &def, 1.0 / 60));
     }
     world->settings.iterations = 1;
-    NEAR(held / 25.0, dual_stiffness_cap(world, &def, 1.0 / 60));
+    NEAR(held / 25.0, cap_of(world, &def, 1.0 / 60));
     world_destroy(world);
 }
 
@@ -263,15 +281,15 @@ static void test_what_is_asked_of_raised_iterations_grows_with_their_swing(void)
     world->settings.gravity[1] = -1e6f;
     world->record.solver = PBMPM_SOLVER_DUAL;
     world->settings.iterations = 50;
-    const double all = dual_stiffness_cap(world, &def, 1.0 / 60);
+    const double all = cap_of(world, &def, 1.0 / 60);
     world->settings.iterations = 1;
-    solver_bind(world, 1.0f / 60, false);
-    double before = dual_stiffness_cap(world, &def, 1.0 / 60);
+    bind_for(world, 1.0f / 60, false);
+    double before = cap_of(world, &def, 1.0 / 60);
     world->settings.iterations = 50;
     for (int i = 0; i < 1900 && before < all; i++) {
         const double swings = 3.0 * 160.0 / world->slow_iterations;
-        solver_bind(world, 1.0f / 60, false);
-        const double asked = dual_stiffness_cap(world, &def, 1.0 / 60);
+        bind_for(world, 1.0f / 60, false);
+        const double asked = cap_of(world, &def, 1.0 / 60);
         TEST_ASSERT_TRUE(asked > before && asked < (1.0 + 1e-9) * exp(1.0 / swings) * before);
         before = asked;
     }
@@ -353,11 +371,11 @@ static void test_rounds_of_solids_among_liquids(void)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &body, 1, &solid));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, materials_add(&world->materials, &water, 1, &liquid));
     world->particles.of_material[solid.index] = 1;
-    const double alone = dual_stiffness_share(world, &body, 1.0 / 60);
+    const double alone = share_of(world, &body, 1.0 / 60);
     world->particles.of_material[liquid.index] = 1;
-    NEAR(21.0 * 21.0 / 25.0 * alone, dual_stiffness_share(world, &body, 1.0 / 60)); /* 5 iterations and 16 rounds; steps of the guess are none */
+    NEAR(21.0 * 21.0 / 25.0 * alone, share_of(world, &body, 1.0 / 60)); /* 5 iterations and 16 rounds; steps of the guess are none */
     world->settings.pressure = PBMPM_PRESSURE_CELLS;
-    NEAR(alone, dual_stiffness_share(world, &body, 1.0 / 60));
+    NEAR(alone, share_of(world, &body, 1.0 / 60));
     memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
@@ -381,7 +399,7 @@ static void test_rounds_list_the_blocks_with_solids(void)
             particles_append(&world->particles, &particle, (uint32_t)i + 1);
         }
         TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, false));
-        solver_bind(world, 1.0f / 60, false);
+        bind_for(world, 1.0f / 60, false);
         TEST_ASSERT_TRUE(rounds_reserve(world));
         rounds_begin(world);
         TEST_ASSERT_EQUAL_INT(solids, world->dual.rounds.solids);
@@ -441,17 +459,17 @@ static void test_solids_are_asked_to_bear_their_weight(void)
     world->settings.iterations = 5;
     memset(world->settings.gravity, 0, sizeof world->settings.gravity);
     const double stiffness = 2.0 * twice_courant_squared(0.5e9, 1000.0, dt, 0.05), held = 4.0 / stiffness;
-    NEAR(held, dual_stiffness_cap(world, &body, dt));
+    NEAR(held, cap_of(world, &body, dt));
     world->settings.gravity[1] = -9.81f;
-    NEAR(weight / stiffness, dual_stiffness_cap(world, &body, dt)); /* 4.4, and 4 are held */
+    NEAR(weight / stiffness, cap_of(world, &body, dt)); /* 4.4, and 4 are held */
     world->settings.gravity[1] = -98.1f; /* a fall of 0.5 cells */
-    NEAR(12.5 / stiffness, dual_stiffness_cap(world, &body, dt));
-    NEAR(held, dual_stiffness_share(world, &body, dt));
+    NEAR(12.5 / stiffness, cap_of(world, &body, dt));
+    NEAR(held, share_of(world, &body, dt));
     world->settings.iterations = 1;
-    NEAR(held / 25.0, dual_stiffness_cap(world, &body, dt));
+    NEAR(held / 25.0, cap_of(world, &body, dt));
     body.young_modulus = 1e3f;
     world->settings.iterations = 5;
-    TEST_ASSERT_EQUAL_DOUBLE(1.0, dual_stiffness_cap(world, &body, dt));
+    TEST_ASSERT_EQUAL_DOUBLE(1.0, cap_of(world, &body, dt));
     memset(world->particles.of_material, 0, sizeof world->particles.of_material);
     world_destroy(world);
 }
@@ -468,7 +486,7 @@ static void test_volume_feedback_is_a_share_per_second(void)
             def.volume_feedback = share;
             const double left = 1.0 - (double)bound_material(world, &def, PBMPM_SOLVER_DUAL, 1.0f / (60.0f * (float)parts))->volume_feedback;
             TEST_ASSERT_DOUBLE_WITHIN(1e-5, 1.0 - (double)share, pow(left, parts));
-            solver_bind(world, 0.5f, false);
+            bind_for(world, 0.5f, false);
             TEST_ASSERT_FLOAT_WITHIN(1e-6f, share, world->materials.kernel[0].volume_feedback);
             world_destroy(world);
         }
@@ -484,9 +502,9 @@ static void test_volume_control_is_a_part_of_the_feedback(void)
         def.volume_feedback = 0.5f;
         TEST_ASSERT_EQUAL_FLOAT(0.0f, bound_material(world, &def, solvers[i], 1.0f / 60.0f)->volume_share);
         world->settings.gravity[1] = -9.81f;
-        solver_bind(world, 1.0f / 60.0f, false);
+        bind_for(world, 1.0f / 60.0f, false);
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.1f, world->materials.kernel[0].volume_share);
-        solver_bind(world, 1.0f / 240.0f, false);
+        bind_for(world, 1.0f / 240.0f, false);
         TEST_ASSERT_FLOAT_WITHIN(1e-6f, 0.2f * (1.0f - powf(0.5f, 0.25f)), world->materials.kernel[0].volume_share);
         def.kind = PBMPM_ELASTIC;
         TEST_ASSERT_EQUAL_FLOAT(0.0f, bound_material(world, &def, solvers[i], 1.0f / 60.0f)->volume_share);
@@ -508,7 +526,7 @@ static void test_stiff_liquid_is_evened_out(void)
         world->settings.gravity[1] = (float)-gravity;
         TEST_ASSERT_FLOAT_WITHIN(1e-5f, (float)share[i], bound_material(world, &def, PBMPM_SOLVER_PAPER, 1.0f / 480.0f)->even_share);
         world->settings.gravity[1] = 0.0f;
-        solver_bind(world, 1.0f / 480.0f, false);
+        bind_for(world, 1.0f / 480.0f, false);
         TEST_ASSERT_EQUAL_FLOAT(0.0f, world->materials.kernel[0].even_share);
         world_destroy(world);
     }

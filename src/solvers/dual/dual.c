@@ -144,7 +144,7 @@ static void bind_cells(World *world)
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
     a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
-    a->settle = solver_holds_sand(world) ? (float)(1.0 - pow(1.0 - SETTLED_SHARE, fmin(1.0, 60.0 * (double)a->dt))) : 1.0f;
+    a->settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->step) : 1.0f;
     a->elastic_guesses = shares_world(world);
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
@@ -161,7 +161,7 @@ static const double GROWTH_MAX = 0.3;
 static float growth_max(const World *world)
 {
     const double heavier = materials_density_contrast(&world->materials, &world->particles);
-    const double in_time = 60.0 * (double)world->args.dt * sqrt(heavier), iterations = (double)world->settings.iterations;
+    const double in_time = world->step.reference_steps * sqrt(heavier), iterations = (double)world->settings.iterations;
     return (float)(GROWTH_MAX * fmin(1.0, fmax(in_time, 1.0 / (iterations * iterations))));
 }
 
@@ -319,7 +319,7 @@ static int sand_rounds(const World *world)
 {
     static const double CELLS_PER_ITERATION = 4.0;
     if (!solver_holds_sand(world)) return 0;
-    const double wanted = ceil(matter_depth(world) * 60.0 * (double)world->args.dt / CELLS_PER_ITERATION) - world->settings.iterations;
+    const double wanted = ceil(matter_depth(world) * REFERENCE_RATE * world->step.substep_dt / CELLS_PER_ITERATION) - world->settings.iterations;
     return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
 }
 
@@ -384,45 +384,43 @@ void dual_solve_with(World *world, const ContactFrame *contacts, DualSketch *ske
     if (!joint_is_chosen(world)) eddy_damping_find(world);
 }
 
-void dual_set_solids(World *world, float dt)
+void dual_set_solids(World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0 || material->kind == K_LIQUID) continue;
-        moduli_set_solid(world, slot, dt, dual_stiffness_cap(world, def, (double)dt));
+        moduli_set_solid(world, slot, dual_stiffness_cap(world, def, &world->step));
         material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
     }
 }
 
-void dual_set_materials(World *world, float dt)
+void dual_set_materials(World *world)
 {
     const double measure = guess_density(world), carried = dual_carried_share(world);
-    moduli_set(world, dt, FLT_MAX);
-    dual_set_solids(world, dt);
+    moduli_set(world, FLT_MAX);
+    dual_set_solids(world);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(world, def, (double)dt), 1e30);
+        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->step), 1e30);
     }
 }
 
-double dual_stiffness_of(const World *world, const pbmpm_material_def *def, double substep)
+double dual_stiffness_of(const pbmpm_material_def *def, const StepContext *step)
 {
-    const double cells = substep / (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
-    const double shear = 0.5 * (double)def->young_modulus / (1.0 + poisson);
-    const double lambda = 2.0 * shear * poisson / (1.0 - 2.0 * poisson);
-    return 4.0 * cells * cells / (double)def->density * (2.0 * shear + lambda);
+    const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
+    return moduli_unit(def, step) * (2.0 * lame.mu + lame.lambda);
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
-double dual_stiffness_share(const World *world, const pbmpm_material_def *def, double substep)
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
 {
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(world, def, substep);
-    const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step);
+    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
@@ -433,9 +431,9 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, d
  * pressure there is 4 g dt^2/dx per cell of depth. */
 static const double WEIGHT_STRAIN = 0.05;
 
-static double weight_stiffness(const World *world, double substep)
+static double weight_stiffness(const World *world, const StepContext *step)
 {
-    const double fall = gravity_fall(world, substep);
+    const double fall = gravity_fall(world, step);
     return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
@@ -443,10 +441,10 @@ static double weight_stiffness(const World *world, double substep)
  * the iterations do not hold is crushed by as much at once, unevenly, and its particles go on holding strains against each other (J 0.2 off the mean). The
  * stiffer they are held, the higher the body stands once iterations rise: asked for 5 at 15 Hz x 10 by 2 to 10 % of the energy it fell with (cells of 0.2 m,
  * eight seedings), asked for 2.5 by 0.6 % at most. */
-static double asked_per_iteration(const World *world, double substep)
+static double asked_per_iteration(const World *world, const StepContext *step)
 {
     static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
-    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
+    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, step), SHORT_FALL));
 }
 
 /* A single iteration lets no particle answer another. */
@@ -461,10 +459,10 @@ static double most_asked(double each, double iterations)
  * E. Lifshitz, Mechanics, 1976, section 49), the root of M: by exp(1/6) per swing. Backward Euler takes from it the share (2 pi / T)^2 per substep of the T that a
  * swing has, exp(-4 pi^2 / T) per swing, which is exp(-1/4) at n = 1, T = 160, and more from there on. In one swing it would grow by exp(1/2), in two by as
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
-double dual_stiffened(const World *world, double substep, double iterations)
+double dual_stiffened(const World *world, const StepContext *step, double iterations)
 {
     static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0;
-    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, substep);
+    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, step);
     const double risen = fmax(root * root, most_asked(each, iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
     const double for_weight = risen / each; /* n (n - 1) up to n = 2, n from there on */
     return fmin(DUAL_ITERATIONS_PER_ROOT * sqrt(risen), for_weight < 2.0 ? 0.5 + sqrt(0.25 + for_weight) : for_weight);
@@ -473,24 +471,24 @@ double dual_stiffened(const World *world, double substep, double iterations)
 /* Of solids among liquids or sand, by so many iterations. */
 static double shared_stiffness_cap(double iterations, double stiffness) { return fmin(1.0, 16.0 * iterations * iterations / stiffness); }
 
-bool dual_holds_solids(const World *world, double substep)
+bool dual_holds_solids(const World *world, const StepContext *step)
 {
     bool held = true;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (world->particles.of_material[slot] == 0 || !material_is_solid(&world->materials, slot) || def->kind == PBMPM_SAND) continue;
-        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(world, def, substep)) == 1.0;
+        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(def, step)) == 1.0;
     }
     return held;
 }
 
-double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, double substep)
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const StepContext *step)
 {
-    const double stiffness = dual_stiffness_of(world, def, substep), iterations = trusted_iterations(world);
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(world, def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
+    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step); /* it remembers what it bears, not strain: see ispc/granular.isph */
     if (shares_world(world)) return shared_stiffness_cap(iterations, stiffness);
-    const double share = dual_stiffness_share(world, def, substep);
+    const double share = dual_stiffness_share(world, def, step);
     if (share == 1.0) return share;
-    const double asked = most_asked(asked_per_iteration(world, substep), iterations);
-    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, substep), asked) / stiffness));
+    const double asked = most_asked(asked_per_iteration(world, step), iterations);
+    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, step), asked) / stiffness));
 }

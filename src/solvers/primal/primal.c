@@ -50,14 +50,14 @@ static void bind_couples(Primal *p)
 
 /* ---- Memory ---- */
 
-void primal_set_materials(World *world, float dt)
+void primal_set_materials(World *world)
 {
-    moduli_set(world, dt, primal_liquid_dilation(world, dt));
+    moduli_set(world, primal_liquid_dilation(world, &world->step));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         if (material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
-        if (material->yields == K_SAND) moduli_set_solid(world, slot, dt, moduli_sand_share(world, &world->materials.def[slot], (double)dt));
+        if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->step));
     }
 }
 
@@ -636,7 +636,7 @@ static void find_friction(Primal *p)
 {
     PrimalState *state = &p->world->primal;
     BodyRub *body = state->rub.data;
-    p->slip_min = holds_slip_min((double)p->world->args.dt);
+    p->slip_min = holds_slip_min(&p->world->step);
     p->rubs = holds_any_rub(p->contacts);
     if (!p->rubs) return;
     for (int32_t i = 0; i < state->bodies.count; i++) body[i].groups = 0;

@@ -41,15 +41,15 @@ static inline float primal_stiffest(int iterations) { return 0.25f * (float)iter
 bool primal_is_mixed(const World *world);
 
 /* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
-float primal_liquid_dilation(const World *world, float dt);
+float primal_liquid_dilation(const World *world, const StepContext *step);
 
 /* What crowded liquid may grow by in a substep, of this dilation L = 4 (c dt/dx)^2. Crushed and let go it leaves with its sound's speed c at most: a plane
  * wave turns all of the pressure's energy into it. So nothing that a particle feels, nodes up to 3/2 cells away, parts from it faster:
  * tr D 3/2 dx <= c dt. */
 static inline float primal_growth(float dilation) { return sqrtf(dilation) / 3.0f; }
 
-/* What the kernels need to know of materials in substeps of `dt` seconds. */
-void primal_set_materials(World *world, float dt);
+/* What the kernels need to know of materials. */
+void primal_set_materials(World *world);
 
 /* Takes memory for the blocks and particles of this substep. */
 pbmpm_result primal_prepare(World *world);
