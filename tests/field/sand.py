@@ -32,14 +32,17 @@ def _creep(run: Run, world: Any, frame: Frame, seconds: float) -> float:
     off_grid=dict(phi=30, shift=0.4),
     light=dict(phi=30, density=500.0),
     three_d=dict(phi=30, dimension=3),
+    thin=dict(phi=30, shift=0.5, thick=1),
+    thin_on_grid=dict(phi=30, thick=2),
+    thin_3d=dict(phi=30, shift=0.75, dimension=3, thick=1),
 )
-def bin(run: Run, phi: float, angle: float = 0.0, shift: float = 0.0, density: float = 1600.0, dimension: int = 2) -> None:  # noqa: A001
-    """Sand that fills a bin of 20 x 15 cells (3D: 8 x 8 x 8) stays as high as it is."""
+def bin(run: Run, phi: float, angle: float = 0.0, shift: float = 0.0, density: float = 1600.0, dimension: int = 2, thick: float | None = None) -> None:  # noqa: A001
+    """Sand that fills a bin of 20 x 15 cells (3D: 8 x 8 x 8), with walls of 0.1 m or `thick` cells, stays as high as it is."""
     cell = CELL if dimension == 2 else 0.04
     w, h = (0.4, 0.3) if dimension == 2 else (0.32, 0.32)
     frame = Frame(dimension, angle, shift * cell)
     with run.world(dimension, cell, frame.gravity) as world:
-        tank(world, frame, w, 0.5, "boxes", thick=0.1, friction=Friction.COULOMB, friction_coefficient=0.4)
+        tank(world, frame, w, 0.5, "boxes", thick=thick * cell if thick else 0.1, friction=Friction.COULOMB, friction_coefficient=0.4)
         grains = Sand(density=density, young_modulus=1e6, friction_angle=math.radians(phi))
         pool(world, frame, [0.0] * dimension, [w, h] + [w] * (dimension - 2), grains)
         run.steps(world, 2)

@@ -140,13 +140,22 @@ def stack(run: Run, modulus: float, dimension: int = 2, angle: float = 0.0) -> N
         run.near("mean height", frame.positions(world)[:, 1].mean(), 1.5 * side - sag, MEAN, cell, why="Hooke, and contact without a gap")
 
 
-@case(one=dict(dimension=2), one_3d=dict(dimension=3), off_grid=dict(dimension=2, shift=0.4))
-def lies_on_floor(run: Run, dimension: int, shift: float = 0.0) -> None:
-    """A block that has fallen by 0.1 m lies on the floor without a gap, and still."""
+@case(
+    one=dict(dimension=2),
+    one_3d=dict(dimension=3),
+    off_grid=dict(dimension=2, shift=0.4),
+    table=dict(dimension=2, shift=0.5, thick=1),
+    table_low=dict(dimension=2, shift=0.75, thick=1.5),
+    table_3d=dict(dimension=3, shift=0.75, thick=1),
+)
+def lies_on_floor(run: Run, dimension: int, shift: float = 0.0, thick: float = 0.0) -> None:
+    """A block that has fallen by 0.1 m lies on the floor, or on a table of a few cells, without a gap, and still."""
     side, cell = 0.2, 0.025 if dimension == 2 else 0.04
     frame = Frame(dimension, 0, [0.0, shift * cell] + [0.0] * (dimension - 2))
     with run.world(dimension, cell) as world:
-        world.add_collider(frame.plane([0] * dimension, np.eye(dimension)[1]), friction_coefficient=0.5)
+        high = [0.5, 0.0] + [0.5] * (dimension - 2)
+        table = frame.box([-0.5, -thick * cell] + [-0.5] * (dimension - 2), high)
+        world.add_collider(table if thick > 0 else frame.plane([0] * dimension, np.eye(dimension)[1]), friction_coefficient=0.5)
         world.fill(
             frame.box([-side / 2] + [0.1] + [-side / 2] * (dimension - 2), [side / 2, 0.1 + side] + [side / 2] * (dimension - 2)),
             world.add_material(Elastic(young_modulus=1e6)),
