@@ -1,5 +1,5 @@
-"""Holds the order of the rooms of src: an include points to the same room or a lower one, no circle leads back to a file, and no function of C has
-more than seven parameters.
+"""Holds the order of the rooms of src: an include points to the same room or a lower one, no circle leads back to a file, and no function
+of src or of the kernels beside it has more than seven parameters.
 
 A file is what one name stands for: NAME.h and NAME.c include as one. `rooms.py SRC` prints what breaks the order, and the exit status is then 1;
 `rooms.py --planted SRC` plants such includes into a copy, one at a time, and asks whether each is found.
@@ -83,11 +83,11 @@ _FUNCTION = re.compile(r"^[a-z][\w \*]*?\b(\w+)\(([^;{}()]*)\)\s*\{", re.MULTILI
 def long_lists(source: Path) -> list[str]:
     """Functions with more parameters than a reader keeps apart."""
     found = []
-    for path in sorted(source.rglob("*.c")):
+    for path in [*sorted(source.rglob("*.c")), *sorted((source.parent / "ispc").glob("*.isp*"))]:
         for name, parameters in _FUNCTION.findall(path.read_text(encoding="utf-8")):
             count = parameters.count(",") + 1
             if count > PARAMETERS_MOST:
-                found.append(f"{path.relative_to(source)}: {name}() has {count} parameters")
+                found.append(f"{path.relative_to(source.parent)}: {name}() has {count} parameters")
     return found
 
 
@@ -104,7 +104,8 @@ PLANTED = (
     ("solvers/dual/dual.c", '#include "solvers/joint.h"', "a circle: solvers/dual/dual -> solvers/joint -> solvers/dual/dual"),
     ("world/depth.c", '#include "depth.h"', "world/depth.c includes depth.h, which is no file in a room"),
     ("attic/things.h", "", "attic/things.h is in no room"),
-    ("base/memory.c", "void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "base/memory.c: f() has 8 parameters"),
+    ("base/memory.c", "void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "src/base/memory.c: f() has 8 parameters"),
+    ("../ispc/crowd.isph", "static void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "ispc/crowd.isph: f() has 8 parameters"),
 )
 
 
@@ -114,6 +115,7 @@ def missed(source: Path) -> list[str]:
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "src"
         shutil.copytree(source, copy)
+        shutil.copytree(source.parent / "ispc", copy.parent / "ispc")
         for name, text, expected in PLANTED:
             file = copy / name
             before = file.read_bytes() if file.is_file() else None
