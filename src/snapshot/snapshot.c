@@ -200,13 +200,14 @@ typedef struct Counters {
     double credit;
     EddyAccount eddy_account[ISLAND_GROUPS + 1];
     GranularState granular[ISLAND_GROUPS + 1];
+    Stirred stirred;
 } Counters;
 
 static void save_counters(const World *world, SnapshotOut *out)
 {
     Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                          world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0.0, 0, 0}}};
+                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0.0, 0, 0}}, world->granular.stirred};
     memcpy(counters.eddy_account, world->dual.eddy_damping.account, sizeof counters.eddy_account);
     memcpy(counters.granular, world->granular.of, sizeof counters.granular);
     snapshot_put_part(out, &counters, sizeof counters);
@@ -238,6 +239,7 @@ static void load_counters(World *world, SnapshotIn in)
     world->primal.credit = counters.credit;
     memcpy(world->dual.eddy_damping.account, counters.eddy_account, sizeof counters.eddy_account);
     memcpy(world->granular.of, counters.granular, sizeof counters.granular);
+    world->granular.stirred = counters.stirred;
 }
 
 /* ---- Colliders: poses and targets are loaded ---- */

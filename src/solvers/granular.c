@@ -8,6 +8,7 @@
 #include "world/depth.h"
 #include "world/island_groups.h"
 #include "world/sleep_rows.h"
+#include "world/stirred.h"
 
 enum { BLOCK_GRAIN = 8 };
 
@@ -124,7 +125,17 @@ static GranularBlock measure_all(World *world)
     return all;
 }
 
-static void follow(World *world, GranularState *state, uint32_t kinds)
+/* Whether what it stood on may be gone. */
+static bool is_stirred(const World *world)
+{
+    const GranularBlock *blocks = world->granular.blocks.data;
+    bool stirred = false;
+    for (int32_t block = 0; world->granular.stirred.any && block < world->grid.particle_blocks && !stirred; block++)
+        stirred = blocks[block].grains > 0 && stirred_meets(world, block);
+    return stirred;
+}
+
+static void follow(World *world, GranularState *state, uint32_t kinds, bool rested)
 {
     const GranularBlock all = measure_all(world);
     const double fall = sqrt(2.0 * gravity_strength(world) * (double)world->def.cell_size), speed = (double)all.speed;
@@ -132,7 +143,7 @@ static void follow(World *world, GranularState *state, uint32_t kinds)
     if (state->flows)
         change_state(state, speed < SETTLES * fall && whole, false, &world->step);
     else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall, &world->step);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->step);
 }
 
 void granular_judge(World *world)
@@ -140,9 +151,9 @@ void granular_judge(World *world)
     if (!is_judged(world)) return;
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
-    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->step);
-    if (!goes_on(world, state) || !may_flow) *state = (GranularState){0};
+    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->step), known = goes_on(world, state);
+    if (!known || !may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
     state->flowed = dual || state->flows ? state->flowed + world->step.substep_dt : 0.0;
-    if (may_flow && !dual) follow(world, state, kinds);
+    if (may_flow && !dual) follow(world, state, kinds, known);
 }

@@ -24,6 +24,7 @@
 #include "world/island_groups.h"
 #include "world/sleep_rows.h"
 #include "world/sleep_wake.h"
+#include "world/stirred.h"
 
 /* With fewer particles waking threads costs more than it brings. */
 enum { SERIAL_BELOW = 3000, BLOCK_GRAIN = 2 };
@@ -360,6 +361,7 @@ pbmpm_result world_step(World *world, float dt)
     world->record.blocks_woken = world->sleep.woken_blocks;
     world->sleep.woken_blocks = 0;
     world->step_count++;
+    stirred_clear(world);
     world->record.seconds = dt;
     world->record.ms_total = now_ms() - begin;
     return PBMPM_OK;

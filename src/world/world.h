@@ -73,9 +73,16 @@ typedef struct GranularState {
     uint64_t flows;  /* or rests */
 } GranularState;
 
+/* The box around what stirred.h speaks of. */
+typedef struct Stirred {
+    double low[3], high[3]; /* [m] */
+    uint64_t any;
+} Stirred;
+
 /* Of all of them. */
 typedef struct Granular {
     GranularState of[ISLAND_GROUPS + 1]; /* each set of kinds */
+    Stirred stirred;
     Array blocks;                        /* see granular.c */
 } Granular;
 

@@ -92,6 +92,44 @@ static void test_slow_sand_flows_after_a_while(void)
     TEST_ASSERT_GREATER_OR_EQUAL_INT32(2, steps);
 }
 
+/* A box beside the sand is taken away: what it held would fall from the next step on. One that stands elsewhere is nothing to it. */
+static void test_sand_flows_where_something_goes(void)
+{
+    static const float across[2] = {0.5f, 50.0f};
+    static const pbmpm_solver after[2] = {PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL};
+    for (int i = 0; i < 2; i++) {
+        pbmpm_material_id sand;
+        const pbmpm_world_id world = bin(&sand);
+        const pbmpm_collider_id box = create_collider(world, box_shape(across[i], 0.4f, 0, 0.15f, 0.1f, 0), false);
+        expect_solver(world, PBMPM_SOLVER_PRIMAL, 60); /* what came before the first step is nothing new */
+        OK(pbmpm_collider_destroy(world, box));
+        step(world);
+        expect_solver(world, after[i], 2);
+    }
+}
+
+/* Saved between the call that takes it away and the step: that is known, too. */
+static void test_what_went_is_saved(void)
+{
+    pbmpm_material_id sand;
+    uint64_t bytes;
+    const pbmpm_world_id world = bin(&sand);
+    const pbmpm_collider_id box = create_collider(world, box_shape(0.5f, 0.4f, 0, 0.15f, 0.1f, 0), false);
+    expect_solver(world, PBMPM_SOLVER_PRIMAL, 60);
+    OK(pbmpm_collider_destroy(world, box));
+    OK(pbmpm_snapshot_size(world, &bytes, NULL));
+    void *data = malloc(bytes);
+    TEST_ASSERT_NOT_NULL(data);
+    OK(pbmpm_snapshot_save(world, data, bytes, NULL));
+    for (int i = 0; i < 5; i++) step(world);
+    const uint64_t hash = world_hash(world);
+    const pbmpm_result restored = pbmpm_snapshot_restore(world, data, bytes, 0);
+    free(data);
+    OK(restored);
+    for (int i = 0; i < 5; i++) step(world);
+    TEST_ASSERT_EQUAL_UINT64(hash, world_hash(world));
+}
+
 static float mean_height(pbmpm_world_id world)
 {
     const pbmpm_view view = view_of(world, PBMPM_POSITION);
@@ -207,6 +245,8 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(test_sand_rests_then_flows_then_rests);
     RUN_TEST(test_slow_sand_flows_after_a_while);
+    RUN_TEST(test_sand_flows_where_something_goes);
+    RUN_TEST(test_what_went_is_saved);
     RUN_TEST(test_going_over_moves_nothing);
     RUN_TEST(test_deformation_bears_the_pressure);
     RUN_TEST(test_the_state_is_saved);

@@ -318,7 +318,7 @@ def silo(run: Run, w: float, slot: float, sloped: bool = False) -> None:
         run.steps(world, 1.6, after=watch)
         t, share = np.array(log).T
         begun = t[share < 0.98] - t[0]
-        run.check("seconds until a fiftieth has run out", begun[0] if len(begun) else math.inf, 0, 0.6, why="nothing holds it over a hole: no eye should wait")
+        run.check("seconds until a fiftieth has run out", begun[0] if len(begun) else math.inf, 0, 0.25, why="nothing holds it over a hole: no eye should wait")
 
         def flow(above: float, below: float) -> float:
             k = (share < above) & (share > below)
