@@ -9,7 +9,7 @@
  * p = -K ln det F. J stands beside it and says the volume. `pressure` is p in pascals.
  *
  * The state is that of all sand of the islands with the same set of kinds. What sand does is measured against the speed v of a fall through one cell, v^2 = 2 g dx.
- * It begins at rest. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it
+ * It begins as what it does. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it
  * has not, or when an obstacle or a drain beside it came, went or changed. It rests when none has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
  * alone gives it back. Without gravity sand that moves flows. In a world that is told to use the dual all sand does.
  *
@@ -23,7 +23,10 @@
 /* Whether sand of the islands with these kinds flows in the next substep. Sand that touches liquid always does: the primal does not bear the depth of that. */
 bool granular_flows(const World *world, uint32_t kinds);
 
-/* Takes memory for the blocks of this substep and the pressures. */
+/* Whether what the sand of these islands does is known from the substep before. */
+bool granular_goes_on(const World *world);
+
+/* Takes memory for the blocks of this substep and the pressures; before it is asked what flows. */
 pbmpm_result granular_prepare(World *world);
 void granular_free(World *world);
 

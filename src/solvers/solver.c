@@ -158,6 +158,8 @@ static pbmpm_solver chosen(const World *world)
     return world->settings.solver == PBMPM_SOLVER_CONVERGENT ? solver_for(world, islands_kinds(world)) : world->settings.solver;
 }
 
+bool solver_may_want_volume(const World *world) { return solver_wants_volume(world) || (solver_holds_sand(world) && !granular_goes_on(world)); }
+
 bool solver_wants_volume(const World *world)
 {
     return materials_want_volume(&world->materials, &world->particles) || (chosen(world) == PBMPM_SOLVER_DUAL && solver_holds_sand(world));
@@ -174,7 +176,6 @@ pbmpm_result solver_prepare(World *world)
         (weighs_liquids(world) && !array_reserve(&world->memory, &world->grid.node_density, nodes, sizeof(float))))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the predictor of %d blocks", world->grid.node_blocks);
     pbmpm_result result = viscosity_prepare(world);
-    if (result == PBMPM_OK) result = granular_prepare(world);
     return result == PBMPM_OK ? kinds[solver].prepare(world) : result;
 }
 

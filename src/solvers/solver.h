@@ -10,7 +10,8 @@ pbmpm_result solver_prepare(World *world);
 /* What PBMPM_SOLVER_CONVERGENT stands for in the next substep where matter of these kinds, see islands.h, touches; itself for the joint solver. */
 pbmpm_solver solver_for(const World *world, uint32_t matter);
 
-/* Whether the substep needs the volume on the grid; asked before the grid is built. */
+/* Whether the substep may need the volume on the grid, asked before the grid is built; and whether it does. */
+bool solver_may_want_volume(const World *world);
 bool solver_wants_volume(const World *world);
 
 /* Points the kernel arguments at the world's arrays, for substeps as in world->step. */

@@ -29,7 +29,7 @@ static pbmpm_result build_groups(World *world)
     share_out(world);
     for (int g = 0; g < islands->groups && result == PBMPM_OK; g++) {
         islands_enter(world, g);
-        result = grid_arrange_part(&world->grid, &world->memory, p, world->pool, solver_wants_volume(world));
+        result = grid_arrange_part(&world->grid, &world->memory, p, world->pool, solver_may_want_volume(world));
         islands_leave(world, g);
     }
     if (result != PBMPM_OK) {
@@ -54,5 +54,5 @@ pbmpm_result islands_build(World *world)
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to find islands in %u blocks", grid->found_count);
     }
     if (world->islands.groups > 1) return build_groups(world);
-    return grid_finish(grid, &world->memory, &world->particles, world->pool, solver_wants_volume(world), 0);
+    return grid_finish(grid, &world->memory, &world->particles, world->pool, solver_may_want_volume(world), 0);
 }

@@ -155,7 +155,7 @@ static pbmpm_result empty_substep(World *world, int part)
 /* Where the particles are: order, blocks, runs, and which of them touch. */
 static pbmpm_result build_grid(World *world)
 {
-    const bool with_volume = solver_wants_volume(world);
+    const bool with_volume = solver_may_want_volume(world);
     if (islands_wanted(world)) return islands_build(world);
     return world->sleep.on ? sleep_build(world, with_volume)
                            : grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume);
@@ -256,8 +256,10 @@ static pbmpm_result take_substep(World *world, int part, uint32_t *marked)
     StepRecord *record = &world->record;
     double clock = now_ms();
 
+    pbmpm_result result = granular_prepare(world);
+    if (result != PBMPM_OK) return result;
     const bool with_volume = solver_wants_volume(world);
-    pbmpm_result result = predict(world, with_volume);
+    result = predict(world, with_volume);
     if (result != PBMPM_OK) return result;
     lap(&record->ms_scatter, &clock);
 
