@@ -125,14 +125,11 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
 /* Cells beside a run in which an obstacle counts as near, and runs that are looked at, along an axis. */
 enum { ROOM = 5, LOOKED_AT = 64 };
 
-static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+static bool is_open_at(const World *world, uint32_t slot, const double point[3])
 {
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) {
-        point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
+    for (int a = 0; a < world->def.dimension; a++)
         for (int upper = 0; upper < 2 && world->def.domain_enabled; upper++)
             if (!world->domain.wall[domain_place(a, upper)].open && (upper ? point[a] > (double)world->def.domain_max[a] : point[a] < (double)world->def.domain_min[a])) return false;
-    }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[slot].groups)) continue;
@@ -140,6 +137,14 @@ static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
         if (solid_gap(&solid, point) < 0.0) return false;
     }
     return true;
+}
+
+/* At the upper corner of a cell, which is all around its node. */
+static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+{
+    double point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
+    return is_open_at(world, slot, point);
 }
 
 /* Whether an obstacle stands within ROOM cells of an end of a run. */
@@ -249,7 +254,7 @@ static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MA
 
 static double middle_of(const World *world, const Share *share, int axis)
 {
-    return ((double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) + 0.5) * (double)world->def.cell_size;
+    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
 }
 
 /* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. */
@@ -257,11 +262,13 @@ static double drop_of(const World *world, const Cells *cells, const Share *botto
 {
     enum { FAR = 256 };
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    int32_t cell[3] = {bottom->cell[0], bottom->cell[1], bottom->cell[2]}, place[3] = {0};
+    int32_t cell[3] = {bottom->cell[0], bottom->cell[1], bottom->cell[2]};
+    double point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, bottom, a);
     for (int step = 0; step < FAR; step++) {
         cell[axis] += way;
-        for (int a = 0; a < world->def.dimension; a++) place[a] = cell[a] + world->particles.cell[a][0] - HALF;
-        if (filling_at(cells, cell) > 0.0 || !is_open(world, bottom->slot, place)) return step;
+        point[axis] += way * (double)world->def.cell_size;
+        if (filling_at(cells, cell) > 0.0 || !is_open_at(world, bottom->slot, point)) return step;
     }
     return 0.0;
 }
@@ -306,12 +313,14 @@ static bool has_room_below(const World *world, const Cells *cells, const Share *
     enum { SIDE = 6 };
     const double cell = (double)world->def.cell_size, deep = tan((double)world->materials.def[top->slot].friction_angle) * SIDE + 1.0;
     for (int half = 1; half <= 2; half++) {
-        int32_t place[3] = {0}, among[3] = {0};
+        int32_t among[3] = {0};
+        double point[3] = {0};
         for (int a = 0; a < world->def.dimension; a++) {
-            place[a] = (int32_t)floor(middle_of(world, top, a) / cell + 0.5 * half * (SIDE * side[a] + deep * down[a]));
-            among[a] = place[a] - world->particles.cell[a][0] + HALF;
+            const double way = 0.5 * half * (SIDE * side[a] + deep * down[a]);
+            among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
+            point[a] = middle_of(world, top, a) + way * cell;
         }
-        if (!is_open(world, top->slot, place) || (half == 2 && filling_at(cells, among) > 0.0)) return false;
+        if (!is_open_at(world, top->slot, point) || (half == 2 && filling_at(cells, among) > 0.0)) return false;
     }
     return true;
 }
@@ -343,19 +352,20 @@ static double share_of_steep(const World *world, const Cells *cells, int axis, u
 
 /* ---- Obstacles in liquid ---- */
 
-/* How much a solid's surface bulges near a point, per cell: the divergence of the direction away from it. Planes and the insides of corners have none. */
+/* How much a solid's surface bulges near a point, per cell: the divergence of the direction away from it. Planes and the insides of corners have none. Half a cell
+ * from it or nearer nothing is told: thin walls have another side. */
 static double bulge_at(const Solid *solid, const double point[3], int dimension, double cell)
 {
     const double gap = solid_gap(solid, point);
     double sum = 0.0;
-    if (gap < 0.0 || gap > 2.0 * cell) return 0.0;
+    if (gap < 0.5 * cell || gap > 2.0 * cell) return 0.0;
     for (int a = 0; a < dimension; a++)
         for (int step = -1; step <= 1; step += 2) {
             double beside[3] = {point[0], point[1], point[2]};
-            beside[a] += step * cell;
+            beside[a] += step * 0.5 * cell;
             sum += solid_gap(solid, beside) - gap;
         }
-    return sum / cell;
+    return 4.0 * sum / cell;
 }
 
 /* Rigid bodies are left out: they float. */
