@@ -47,6 +47,7 @@ LIMITS = {
     "on sand": "on sand",
     "calm": "goes on|go on",
     "afloat": "in a liquid",
+    "modulus": "stays more strained",
 }
 """What the text of a KNOWN_LIMIT says if it speaks of a subject."""
 

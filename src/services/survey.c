@@ -368,6 +368,25 @@ static double bulge_at(const Solid *solid, const double point[3], int dimension,
     return 4.0 * sum / cell;
 }
 
+/* Whether a ball or a capsule reaches below the highest cell of liquid: what flows will stand around it. */
+static bool is_below_liquid(const World *world, const Cells *cells, const Solid *solid)
+{
+    double most = -INFINITY, lowest = 0.0, low[3] = {0}, high[3] = {0};
+    if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
+    solid_bounds(solid, low, high);
+    for (uint32_t i = 0; i < cells->count; i++) {
+        double up = 0.0;
+        if (cells->share[i].group != 0) continue;
+        for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
+        most = fmax(most, up);
+    }
+    for (int a = 0; a < world->def.dimension; a++) {
+        const double pull = (double)world->settings.gravity[a];
+        lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
+    }
+    return lowest < most;
+}
+
 /* Rigid bodies are left out: they float. */
 static bool stands_in_liquid(const World *world, const Cells *cells)
 {
@@ -378,6 +397,7 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
+        if (is_below_liquid(world, cells, &solid)) return true;
         for (uint32_t i = 0; i < cells->count; i += stride) {
             if (cells->share[i].group != 0) continue;
             double point[3] = {0};

@@ -22,7 +22,8 @@ typedef struct Heap {
 
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
-    bool obstructed; /* whether an obstacle with edges, or that is round, stands in liquid: one whose surface bulges there */
+    bool obstructed; /* whether an obstacle with edges, or that is round, stands in liquid: one whose surface bulges there, or a ball or a
+                      * capsule lower than it */
 } Survey;
 
 /* Needs some bytes per particle, which it gives back. */
