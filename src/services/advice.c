@@ -560,6 +560,7 @@ static void rolling_braked(Adviser *adviser)
         pbmpm_advice advice = {.code = PBMPM_ADVICE_ROLLING_BRAKED, .material = id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
                                .text = "a round body rests on less than the grid resolves: it rolls too slowly"};
         by_cells(adviser, 1.0 / cells, &advice);
+        if (advice.change == PBMPM_CHANGE_NONE) advice.text = "a round body rests on far less than the grid resolves: it rolls too slowly, and no setting helps";
         give(adviser, advice);
     }
 }
@@ -712,7 +713,8 @@ static void not_solved(Adviser *adviser)
     const double error = adviser->world->record.predicted_error;
     if (error <= SEEN) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_NOT_SOLVED, .figure = (float)error, .bound = (float)SEEN, .came_true = 1,
-                           .text = "the last substep is far from solved: matter is too soft, and jets of liquid leave too fast"};
+                           .text = any_present(adviser->world, PBMPM_LIQUID) ? "the last substep is far from solved: liquid leaves through holes too fast, and bodies are too soft"
+                                                                             : "the last substep is far from solved: stiffness and contact are not what they should be"};
     by_iterations(adviser, sqrt(error / SEEN), &advice);
     give(adviser, advice);
 }

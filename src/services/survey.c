@@ -559,7 +559,7 @@ static const double THICKEST = 4.0;
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
-    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
     const int down = axis_of_gravity(world);
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = 1.0;
     for (int a = 0; a < cells->dimension; a++)
@@ -578,8 +578,6 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
         thickness[cells->share[i].group] += part * cells->share[i].thickness;
         weight[cells->share[i].group] += part;
-        mean[cells->share[i].group] += cells->share[i].filling * cells->share[i].thickness;
-        mass[cells->share[i].group] += cells->share[i].filling;
     }
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (survey->heap[slot].particles == 0) continue;
@@ -588,9 +586,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         survey->heap[slot].filling = filling[group];
         survey->heap[slot].overlapping = overlapping[group];
         survey->heap[slot].narrow = group > 0 ? narrow[group] : 0.0;
-        if (!(weight[group] > 0.0)) continue;
-        survey->heap[slot].thickness = thickness[group] / weight[group];
-        survey->heap[slot].evenness = mean[group] / mass[group] / survey->heap[slot].thickness;
+        if (weight[group] > 0.0) survey->heap[slot].thickness = thickness[group] / weight[group];
     }
 }
 

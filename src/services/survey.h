@@ -10,7 +10,6 @@ typedef struct Heap {
     double speed;      /* the fastest [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double thickness;  /* the least over the axes, where it is thickest */
-    double evenness;   /* the mean thickness over that; 1: a box along the axes */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
     bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
