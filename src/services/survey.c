@@ -368,23 +368,29 @@ static double bulge_at(const Solid *solid, const double point[3], int dimension,
     return 4.0 * sum / cell;
 }
 
-/* Whether a ball or a capsule reaches below the highest cell of liquid: what flows will stand around it. */
-static bool is_below_liquid(const World *world, const Cells *cells, const Solid *solid)
+/* How high the highest cell of liquid is, times |g|; minus infinity where there is none. */
+static double top_of_liquid(const World *world, const Cells *cells)
 {
-    double most = -INFINITY, lowest = 0.0, low[3] = {0}, high[3] = {0};
-    if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
-    solid_bounds(solid, low, high);
+    double top = -INFINITY;
     for (uint32_t i = 0; i < cells->count; i++) {
         double up = 0.0;
-        if (cells->share[i].group != 0) continue;
         for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
-        most = fmax(most, up);
+        if (cells->share[i].group == 0) top = fmax(top, up);
     }
+    return top;
+}
+
+/* Whether a ball or a capsule reaches below a height: liquid that is higher will flow around it. */
+static bool is_ball_below(const World *world, const Solid *solid, double top)
+{
+    double lowest = 0.0, low[3] = {0}, high[3] = {0};
+    if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
+    solid_bounds(solid, low, high);
     for (int a = 0; a < world->def.dimension; a++) {
         const double pull = (double)world->settings.gravity[a];
         lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
     }
-    return lowest < most;
+    return lowest < top;
 }
 
 /* Rigid bodies are left out: they float. */
@@ -392,12 +398,13 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
 {
     static const double BULGES = 0.1; /* a ball of ten cells */
     enum { MOST = 1 << 16 };
+    const double top = top_of_liquid(world, cells);
     const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_below_liquid(world, cells, &solid)) return true;
+        if (is_ball_below(world, &solid, top)) return true;
         for (uint32_t i = 0; i < cells->count; i += stride) {
             if (cells->share[i].group != 0) continue;
             double point[3] = {0};
