@@ -307,25 +307,39 @@ static void measure_drops(const World *world, const Cells *cells, int axis, uint
     heap->drop_most = drops[count - 1];
 }
 
-/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell. */
+/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, and no wall between. */
 static bool has_room_below(const World *world, const Cells *cells, const Share *top, const double down[3], const double side[3])
 {
-    enum { SIDE = 6 };
+    enum { SIDE = 6, LOOKS = 4 * SIDE };
     const double cell = (double)world->def.cell_size, deep = tan((double)world->materials.def[top->slot].friction_angle) * SIDE + 1.0;
-    for (int half = 1; half <= 2; half++) {
-        int32_t among[3] = {0};
+    int32_t among[3] = {0};
+    for (int look = 1; look <= LOOKS; look++) {
         double point[3] = {0};
         for (int a = 0; a < world->def.dimension; a++) {
-            const double way = 0.5 * half * (SIDE * side[a] + deep * down[a]);
+            const double way = (SIDE * side[a] + deep * down[a]) * look / LOOKS;
             among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
             point[a] = middle_of(world, top, a) + way * cell;
         }
-        if (!is_open_at(world, top->slot, point) || (half == 2 && filling_at(cells, among) > 0.0)) return false;
+        if (!is_open_at(world, top->slot, point)) return false;
     }
-    return true;
+    return filling_at(cells, among) == 0.0;
 }
 
-/* Sorted by cell. */
+/* Whether what is below a cell stands on an obstacle, within two cells of its own. */
+static bool is_borne(const World *world, const Cells *cells, const Share *top, int axis)
+{
+    enum { GAP = 2 };
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    int32_t cell[3] = {top->cell[0], top->cell[1], top->cell[2]};
+    double point[3] = {0};
+    int steps = 0;
+    for (; filling_at(cells, cell) > 0.0; steps++) cell[axis] += way;
+    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, top, a);
+    point[axis] += way * (steps - 1 + GAP) * (double)world->def.cell_size;
+    return !is_open_at(world, top->slot, point);
+}
+
+/* Of the surface of what does not fall. Sorted by cell. */
 static double share_of_steep(const World *world, const Cells *cells, int axis, uint32_t slot)
 {
     const double strength = gravity_strength(world);
@@ -334,7 +348,7 @@ static double share_of_steep(const World *world, const Cells *cells, int axis, u
     for (int a = 0; a < d; a++) down[a] = (double)world->settings.gravity[a] / strength;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || !is_end(cells, share, axis, up)) continue;
+        if (share->group != slot + 1 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
         bool found = false;
         for (int a = 0; a < d && !found; a++)
             for (int sign = -1; sign <= 1 && a != axis && !found; sign += 2) {

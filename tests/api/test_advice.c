@@ -363,13 +363,13 @@ static void test_bodies_that_hit_each_other(void)
 static void test_sand_that_moves(void)
 {
     static const struct {
-        float floor, wall; /* below it, and on both sides of it */
+        float floor, wall, thick; /* below it, on both sides of it, and half the walls' thickness */
         bool slides, pours, lands;
-    } cases[] = {{0, 0, false, false, false}, {0, 1, true, false, false}, {0.4f, 0, false, true, false}, {1.2f, 0, false, true, true}};
+    } cases[] = {{0, 0, 0.1f, false, false, false}, {0, 0, 0.01f, false, false, false}, {0, 1, 0.1f, true, false, false}, {0.4f, 1, 0.1f, false, true, false}, {1.2f, 0, 0.1f, false, true, true}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.02f);
         create_collider(world, box_shape(0, -0.1f - cases[i].floor, 0, 3, 0.1f, 1), false);
-        for (int side = -1; side <= 1; side += 2) create_collider(world, box_shape((float)side * (0.3f + cases[i].wall), 0, 0, 0.1f, 3, 1), false);
+        for (int side = -1; side <= 1; side += 2) create_collider(world, box_shape((float)side * (0.2f + cases[i].wall + cases[i].thick), 0, 0, cases[i].thick, 3, 1), false);
         fill_shape(world, create_material(world, PBMPM_SAND), box_shape(0, 0.15f, 0, 0.2f, 0.15f, 1), at_rest);
         ask(world);
         bool slides = false, pours = false;
