@@ -53,7 +53,8 @@ LIMITS = {
 
 SUBJECTS = (
     (r"^far_away", "modulus"),
-    (r"^(jelly|rigid)_on_sand.*(height of the cube|tilt|height, off|rms speed)", "on sand"),
+    (r"^(jelly|rigid)_on_sand.*(height of the cube|tilt|height, off)", "on sand"),
+    (r"^jelly_on_sand.*rms speed|^tilted_tray.*up to 3 degrees below", "grains at rest"),
     (r"^(all_in_a_tank|jelly_in_a_glass).*level", "afloat"),
     (r"discharge", "jet"),
     (r"^silo.*(flow over|flow later|flow at|seconds)", "flow"),
