@@ -812,14 +812,14 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     const World *world = adviser->world;
     const pbmpm_material_def *def = &world->materials.def[slot];
     const Heap *heap = &adviser->survey.heap[slot];
-    const bool wet = any_present(world, PBMPM_LIQUID), falls = heap->drop_least > FALLS;
+    const bool wet = any_present(world, PBMPM_LIQUID), loose = heap->on_matter && !any_sticks(world), falls = loose && heap->drop_least > FALLS; /* or it may hang */
     if (any_present(world, PBMPM_SAND) && !dual_holds_solids(world, &adviser->step))
         tell_limit(adviser, slot, "a body as stiff as this springs back from sand, or stops a cell or two above it");
     else if (any_present(world, PBMPM_SAND) && falls)
         tell_limit(adviser, slot, "a body that falls on sand may stop a cell or two above it");
     if (wet && heap->narrow > 0.5) tell_limit(adviser, slot, "a body with less than five cells to the walls on both sides hangs in a liquid");
     /* A jelly of 5e4 or 2e5 Pa and ten cells that is put afloat has the strain of hydrostatics, at 60 and 240 Hz; one that fell by 1 to 12 cells two to four times that. */
-    if (wet && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
+    if (wet && loose && heap->drop_least > FALLS_IN) tell_limit(adviser, slot, "a body that fell into a liquid stays more strained than one that was put there afloat");
     if (sinks(world, def)) tell_limit(adviser, slot, "a body that sinks in a liquid stops a cell above the floor, and slides; the level may be off");
     if (sinks(world, def) && falls) tell_limit(adviser, slot, "where a heavy body fell into a liquid, the liquid goes on moving by some centimetres per second");
 }

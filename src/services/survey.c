@@ -257,8 +257,8 @@ static double middle_of(const World *world, const Share *share, int axis)
     return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
 }
 
-/* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. */
-static double drop_of(const World *world, const Cells *cells, const Share *bottom, int axis)
+/* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. Tells if it is matter. */
+static double drop_of(const World *world, const Cells *cells, const Share *bottom, int axis, bool *on_matter)
 {
     enum { FAR = 256 };
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
@@ -268,7 +268,10 @@ static double drop_of(const World *world, const Cells *cells, const Share *botto
     for (int step = 0; step < FAR; step++) {
         cell[axis] += way;
         point[axis] += way * (double)world->def.cell_size;
-        if (filling_at(cells, cell) > 0.0 || !is_open_at(world, bottom->slot, point)) return step;
+        const bool matter = filling_at(cells, cell) > 0.0;
+        if (!matter && is_open_at(world, bottom->slot, point)) continue;
+        *on_matter = *on_matter || matter;
+        return step;
     }
     return 0.0;
 }
@@ -298,7 +301,7 @@ static void measure_drops(const World *world, const Cells *cells, int axis, uint
         const Share *share = &cells->share[i];
         if (share->group != slot + 1) continue;
         const bool looked = number++ % stride == 0;
-        if (looked && is_end(cells, share, axis, way)) drops[count++] = drop_of(world, cells, share, axis);
+        if (looked && is_end(cells, share, axis, way)) drops[count++] = drop_of(world, cells, share, axis, &heap->on_matter);
     }
     if (count == 0) return;
     qsort(drops, count, sizeof *drops, by_size);

@@ -15,6 +15,7 @@ typedef struct Heap {
     bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
     double steep;      /* share of its surface that has room below, at more than a solid's angle of friction; sand */
     double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
+    bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;
