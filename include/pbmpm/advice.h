@@ -18,12 +18,13 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
-    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2, dt the substep's */
+    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2, dt the substep's; else the mean
-                                            strain under its own weight */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed. By its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and beside liquid; else its mean
+                                            strain. Where it lands: figure its speed there [cells per substep]; the text tells which */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
-    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< dual solver: the time step damps what bounces. Figure: how many substeps the contact of a ball as thick as the body lasts (Hertz's theory) */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces: with the dual solver, and where bodies hit each other. Figure: how many substeps the contact of a ball as
+                                            thick as the body lasts (Hertz's theory) */
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
@@ -31,7 +32,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
-    PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction. Figure: its Coulomb coefficient */
+    PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
@@ -41,7 +42,7 @@ typedef enum pbmpm_advice_code {
 
 /** What would help. */
 typedef enum pbmpm_change {
-    PBMPM_CHANGE_NONE = 0,       /**< no setting would help; see the text */
+    PBMPM_CHANGE_NONE = 0,       /**< no setting would help, or only one that costs more than half the cell size; see the text */
     PBMPM_CHANGE_SUBSTEPS = 1,   /**< settings.substeps, or the rate in the same proportion */
     PBMPM_CHANGE_ITERATIONS = 2, /**< settings.iterations */
     PBMPM_CHANGE_CELL_SIZE = 3,  /**< world_def.cell_size [m] */

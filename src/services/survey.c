@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "contact/domain.h"
+#include "world/depth.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
 typedef struct Share {
@@ -15,6 +16,7 @@ typedef struct Share {
     double filling;   /* rest volume over cell volume */
     double all;       /* the same of all groups; 0 where a neighbour is empty */
     double thickness; /* least so far */
+    uint32_t body;    /* an earlier share of the same body, or itself */
 } Share;
 
 enum { AXIS_BITS = 18, GROUP_BITS = 9, FEW = 8, HALF = 1 << (AXIS_BITS - 1) };
@@ -46,6 +48,17 @@ static void sort_along(Cells *cells, int axis, bool grouped)
     qsort(cells->share, cells->count, sizeof(Share), by_place);
 }
 
+/* The cell that a particle is in, and whether it is near enough to the first's. */
+static bool near_first(const Particles *p, uint32_t row, int32_t cell[3])
+{
+    bool near = true;
+    for (int a = 0; a < p->dimension; a++) {
+        cell[a] = p->cell[a][row] - p->cell[a][0] + HALF;
+        near = near && cell[a] > 0 && cell[a] < 2 * HALF - 1;
+    }
+    return near;
+}
+
 /* One share per particle, then per cell and group. Particles that are 2^18 cells from the first are left out. */
 static void find_cells(const World *world, Cells *cells)
 {
@@ -53,11 +66,7 @@ static void find_cells(const World *world, Cells *cells)
     for (uint32_t row = 0; row < p->count; row++) {
         const uint32_t slot = p->material[row];
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
-        bool near = true;
-        for (int a = 0; a < p->dimension; a++) {
-            share.cell[a] = p->cell[a][row] - p->cell[a][0] + HALF;
-            near = near && share.cell[a] > 0 && share.cell[a] < 2 * HALF - 1;
-        }
+        const bool near = near_first(p, row, share.cell);
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
         if (near) cells->share[cells->count++] = share;
     }
@@ -116,14 +125,11 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
 /* Cells beside a run in which an obstacle counts as near, and runs that are looked at, along an axis. */
 enum { ROOM = 5, LOOKED_AT = 64 };
 
-static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+static bool is_open_at(const World *world, uint32_t slot, const double point[3])
 {
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) {
-        point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
+    for (int a = 0; a < world->def.dimension; a++)
         for (int upper = 0; upper < 2 && world->def.domain_enabled; upper++)
             if (!world->domain.wall[domain_place(a, upper)].open && (upper ? point[a] > (double)world->def.domain_max[a] : point[a] < (double)world->def.domain_min[a])) return false;
-    }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[slot].groups)) continue;
@@ -131,6 +137,14 @@ static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
         if (solid_gap(&solid, point) < 0.0) return false;
     }
     return true;
+}
+
+/* At the upper corner of a cell, which is all around its node. */
+static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+{
+    double point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
+    return is_open_at(world, slot, point);
 }
 
 /* Whether an obstacle stands within ROOM cells of an end of a run. */
@@ -236,6 +250,273 @@ static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MA
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(volume[group], 1e-300);
 }
 
+/* ---- Falling, sliding ---- */
+
+static double middle_of(const World *world, const Share *share, int axis)
+{
+    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
+}
+
+/* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. Tells if it is matter. */
+static double drop_of(const World *world, const Cells *cells, const Share *bottom, int axis, bool *on_matter)
+{
+    enum { FAR = 256 };
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    int32_t cell[3] = {bottom->cell[0], bottom->cell[1], bottom->cell[2]};
+    double point[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, bottom, a);
+    for (int step = 0; step < FAR; step++) {
+        cell[axis] += way;
+        point[axis] += way * (double)world->def.cell_size;
+        const bool matter = filling_at(cells, cell) > 0.0;
+        if (!matter && is_open_at(world, bottom->slot, point)) continue;
+        *on_matter = *on_matter || matter;
+        return step;
+    }
+    return 0.0;
+}
+
+static int by_size(const void *a, const void *b)
+{
+    const double one = *(const double *)a, other = *(const double *)b;
+    return one < other ? -1 : one > other;
+}
+
+static bool is_end(const Cells *cells, const Share *share, int axis, int way)
+{
+    int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
+    next[axis] += way;
+    return filling_at(cells, next) == 0.0;
+}
+
+/* Sorted by cell. */
+static void measure_drops(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
+{
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    double drops[2 * LOOKED_AT];
+    uint32_t ends = 0, number = 0, count = 0;
+    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1;
+    const uint32_t stride = 1 + ends / (8 * LOOKED_AT); /* about one cell in eight is at the lower end */
+    for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
+        const Share *share = &cells->share[i];
+        if (share->group != slot + 1) continue;
+        const bool looked = number++ % stride == 0;
+        if (looked && is_end(cells, share, axis, way)) drops[count++] = drop_of(world, cells, share, axis, &heap->on_matter);
+    }
+    if (count == 0) return;
+    qsort(drops, count, sizeof *drops, by_size);
+    heap->drop_least = drops[0];
+    heap->drop_half = drops[count / 2];
+    heap->drop_most = drops[count - 1];
+}
+
+/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, and no wall between. */
+static bool has_room_below(const World *world, const Cells *cells, const Share *top, const double down[3], const double side[3])
+{
+    enum { SIDE = 6, LOOKS = 4 * SIDE };
+    const double cell = (double)world->def.cell_size, deep = tan((double)world->materials.def[top->slot].friction_angle) * SIDE + 1.0;
+    int32_t among[3] = {0};
+    for (int look = 1; look <= LOOKS; look++) {
+        double point[3] = {0};
+        for (int a = 0; a < world->def.dimension; a++) {
+            const double way = (SIDE * side[a] + deep * down[a]) * look / LOOKS;
+            among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
+            point[a] = middle_of(world, top, a) + way * cell;
+        }
+        if (!is_open_at(world, top->slot, point)) return false;
+    }
+    return filling_at(cells, among) == 0.0;
+}
+
+/* Whether what is below a cell stands on an obstacle, within two cells of its own. */
+static bool is_borne(const World *world, const Cells *cells, const Share *top, int axis)
+{
+    enum { GAP = 2 };
+    const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    int32_t cell[3] = {top->cell[0], top->cell[1], top->cell[2]};
+    double point[3] = {0};
+    int steps = 0;
+    for (; filling_at(cells, cell) > 0.0; steps++) cell[axis] += way;
+    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, top, a);
+    point[axis] += way * (steps - 1 + GAP) * (double)world->def.cell_size;
+    return !is_open_at(world, top->slot, point);
+}
+
+/* Of the surface of what does not fall. Sorted by cell. */
+static double share_of_steep(const World *world, const Cells *cells, int axis, uint32_t slot)
+{
+    const double strength = gravity_strength(world);
+    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1, d = world->def.dimension;
+    double looked = 0.0, steep = 0.0, down[3] = {0};
+    for (int a = 0; a < d; a++) down[a] = (double)world->settings.gravity[a] / strength;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        if (share->group != slot + 1 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
+        bool found = false;
+        for (int a = 0; a < d && !found; a++)
+            for (int sign = -1; sign <= 1 && a != axis && !found; sign += 2) {
+                double side[3] = {0}, length = 0.0;
+                for (int b = 0; b < d; b++) side[b] = sign * ((a == b ? 1.0 : 0.0) - down[a] * down[b]);
+                for (int b = 0; b < d; b++) length += side[b] * side[b];
+                for (int b = 0; b < d; b++) side[b] /= sqrt(length);
+                found = has_room_below(world, cells, share, down, side);
+            }
+        looked += 1.0;
+        steep += found;
+    }
+    return looked > 0.0 ? steep / looked : 0.0;
+}
+
+/* ---- Obstacles in liquid ---- */
+
+/* How much a solid's surface bulges near a point, per cell: the divergence of the direction away from it. Planes and the insides of corners have none. Half a cell
+ * from it or nearer nothing is told: thin walls have another side. */
+static double bulge_at(const Solid *solid, const double point[3], int dimension, double cell)
+{
+    const double gap = solid_gap(solid, point);
+    double sum = 0.0;
+    if (gap < 0.5 * cell || gap > 2.0 * cell) return 0.0;
+    for (int a = 0; a < dimension; a++)
+        for (int step = -1; step <= 1; step += 2) {
+            double beside[3] = {point[0], point[1], point[2]};
+            beside[a] += step * 0.5 * cell;
+            sum += solid_gap(solid, beside) - gap;
+        }
+    return 4.0 * sum / cell;
+}
+
+/* How high the highest cell of liquid is, times |g|; minus infinity where there is none. */
+static double top_of_liquid(const World *world, const Cells *cells)
+{
+    double top = -INFINITY;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        double up = 0.0;
+        for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
+        if (cells->share[i].group == 0) top = fmax(top, up);
+    }
+    return top;
+}
+
+/* Whether a ball or a capsule reaches below a height: liquid that is higher will flow around it. */
+static bool is_ball_below(const World *world, const Solid *solid, double top)
+{
+    double lowest = 0.0, low[3] = {0}, high[3] = {0};
+    if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
+    solid_bounds(solid, low, high);
+    for (int a = 0; a < world->def.dimension; a++) {
+        const double pull = (double)world->settings.gravity[a];
+        lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
+    }
+    return lowest < top;
+}
+
+/* Rigid bodies are left out: they float. */
+static bool stands_in_liquid(const World *world, const Cells *cells)
+{
+    static const double BULGES = 0.1; /* a ball of ten cells */
+    enum { MOST = 1 << 16 };
+    const double top = top_of_liquid(world, cells);
+    const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
+        const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
+        if (is_ball_below(world, &solid, top)) return true;
+        for (uint32_t i = 0; i < cells->count; i += stride) {
+            if (cells->share[i].group != 0) continue;
+            double point[3] = {0};
+            for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, &cells->share[i], a);
+            if (bulge_at(&solid, point, world->def.dimension, (double)world->def.cell_size) > BULGES) return true;
+        }
+    }
+    return false;
+}
+
+/* ---- Bodies ---- */
+
+static uint32_t find_share(const Cells *cells, uint64_t place)
+{
+    uint32_t low = 0, high = cells->count;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        if (cells->share[middle].place < place)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < cells->count && cells->share[low].place == place ? low : cells->count;
+}
+
+static uint32_t body_of(Cells *cells, uint32_t i)
+{
+    while (cells->share[i].body != i) {
+        cells->share[i].body = cells->share[cells->share[i].body].body;
+        i = cells->share[i].body;
+    }
+    return i;
+}
+
+/* Joins cells that touch by a face or an edge. Sorted by cell. */
+static void find_bodies(Cells *cells)
+{
+    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        if (cells->share[i].group == 0) continue;
+        for (int a = 0; a < cells->dimension; a++) {
+            Share next = cells->share[i];
+            next.cell[a]++;
+            const uint32_t other = find_share(cells, place_of(&next, 0, false));
+            if (other == cells->count) continue;
+            const uint32_t one = body_of(cells, i), two = body_of(cells, other);
+            cells->share[one > two ? one : two].body = one > two ? two : one;
+        }
+    }
+}
+
+typedef struct Extent {
+    uint64_t particles;
+    double mean[3], square, most;
+} Extent;
+
+/* A ball's farthest point is 1.29 as far from its middle as its mean square, a disc's 1.41, a cylinder's as long as it is wide 1.55; that of a cube or a square 1.73. */
+static const double ROUNDEST = 1.6;
+
+static pbmpm_result find_round(World *world, Cells *cells, Survey *survey)
+{
+    const Particles *p = &world->particles;
+    const size_t bytes = cells->count * sizeof(Extent);
+    Extent *extent = memory_take(&world->memory, bytes);
+    if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
+    for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
+    find_bodies(cells);
+    double round[PBMPM_MAX_MATERIALS] = {0};
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t row = 0; row < p->count; row++) {
+            const uint32_t slot = p->material[row];
+            if (!material_is_solid(&world->materials, slot)) continue;
+            Share share = {.group = slot + 1};
+            const uint32_t found = near_first(p, row, share.cell) ? find_share(cells, place_of(&share, 0, false)) : cells->count;
+            if (found == cells->count) continue;
+            Extent *of = &extent[body_of(cells, found)];
+            double square = 0.0;
+            of->particles += pass == 0;
+            for (int a = 0; a < p->dimension; a++) {
+                const double at = particles_coordinate(p, row, a);
+                if (pass == 0) of->mean[a] += at;
+                else square += (at - of->mean[a] / (double)of->particles) * (at - of->mean[a] / (double)of->particles);
+            }
+            of->square += square;
+            of->most = fmax(of->most, square);
+        }
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Extent *of = &extent[i];
+        if (of->particles > 0 && of->most * (double)of->particles < ROUNDEST * ROUNDEST * of->square) round[cells->share[i].slot] += (double)of->particles;
+    }
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) survey->heap[slot].round = round[slot] > 0.5 * survey->heap[slot].particles;
+    memory_give(&world->memory, extent, bytes);
+    return PBMPM_OK;
+}
+
 /* ---- Particles ---- */
 
 /* The least and the largest singular value of F, from F^T F: its characteristic polynomial has three real roots (2D: two). */
@@ -302,7 +583,7 @@ static const double THICKEST = 4.0;
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
     double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
-    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, mean[PBMPM_MAX_MATERIALS + 1] = {0}, mass[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
     const int down = axis_of_gravity(world);
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = 1.0;
     for (int a = 0; a < cells->dimension; a++)
@@ -310,12 +591,17 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
     measure_filling(cells, filling);
     measure_overlaps(cells, overlapping);
+    survey->obstructed = stands_in_liquid(world, cells);
+    for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
+        Heap *heap = &survey->heap[slot];
+        if (heap->particles == 0 || !material_is_solid(&world->materials, slot)) continue;
+        measure_drops(world, cells, down, slot, heap);
+        if (world->materials.def[slot].kind == PBMPM_SAND) heap->steep = share_of_steep(world, cells, down, slot);
+    }
     for (uint32_t i = 0; i < cells->count; i++) {
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
         thickness[cells->share[i].group] += part * cells->share[i].thickness;
         weight[cells->share[i].group] += part;
-        mean[cells->share[i].group] += cells->share[i].filling * cells->share[i].thickness;
-        mass[cells->share[i].group] += cells->share[i].filling;
     }
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (survey->heap[slot].particles == 0) continue;
@@ -324,9 +610,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
         survey->heap[slot].filling = filling[group];
         survey->heap[slot].overlapping = overlapping[group];
         survey->heap[slot].narrow = group > 0 ? narrow[group] : 0.0;
-        if (!(weight[group] > 0.0)) continue;
-        survey->heap[slot].thickness = thickness[group] / weight[group];
-        survey->heap[slot].evenness = mean[group] / mass[group] / survey->heap[slot].thickness;
+        if (weight[group] > 0.0) survey->heap[slot].thickness = thickness[group] / weight[group];
     }
 }
 
@@ -340,6 +624,7 @@ pbmpm_result survey_make(World *world, Survey *survey)
     look_at_particles(world, survey);
     find_cells(world, &cells);
     look_at_cells(world, &cells, survey);
+    const pbmpm_result found = find_round(world, &cells, survey);
     memory_give(&world->memory, cells.share, bytes);
-    return PBMPM_OK;
+    return found;
 }

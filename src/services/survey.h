@@ -10,15 +10,20 @@ typedef struct Heap {
     double speed;      /* the fastest [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double thickness;  /* the least over the axes, where it is thickest */
-    double evenness;   /* the mean thickness over that; 1: a box along the axes */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
+    bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
+    double steep;      /* share of its surface that has room below, at more than a solid's angle of friction; sand */
+    double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
+    bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
     double clamped;    /* share of particles that are strained to a bound; solids */
 } Heap;
 
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
+    bool obstructed; /* whether an obstacle with edges, or that is round, stands in liquid: one whose surface bulges there, or a ball or a
+                      * capsule lower than it */
 } Survey;
 
 /* Needs some bytes per particle, which it gives back. */

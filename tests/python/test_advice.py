@@ -110,7 +110,6 @@ def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None
     report = json.loads(done.stdout)
     assert {(row["code"], row["of"]) for row in report["advice"]} == {
         ("ignored", "jam"),
-        ("pool_stirs", "jam"),  # an obstacle moves through it
         ("collider_too_thin", "colliders[0]"),
         ("collider_too_fast", "colliders[1]"),
     }

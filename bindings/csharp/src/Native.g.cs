@@ -282,16 +282,17 @@ namespace Pbmpm
         /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
-        /// <summary>dual solver: a pool does not come to rest. Figure: g dt^2 depth / dx^2, dt the substep's</summary>
+        /// <summary>dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three</summary>
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is compressed by its weight. Figure: with the dual solver g dt^2 depth / dx^2, dt the substep's; else the mean
-        /// strain under its own weight</summary>
+        /// <summary>sand is crushed. By its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and beside liquid; else its mean
+        /// strain. Where it lands: figure its speed there [cells per substep]; the text tells which</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>dual solver: the time step damps what bounces. Figure: how many substeps the contact of a ball as thick as the body lasts (Hertz's theory)</summary>
+        /// <summary>the time step damps what bounces: with the dual solver, and where bodies hit each other. Figure: how many substeps the contact of a ball as
+        /// thick as the body lasts (Hertz's theory)</summary>
         BounceDamped = 9,
         /// <summary>a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells]</summary>
         RollingBraked = 10,
@@ -306,7 +307,7 @@ namespace Pbmpm
         Overlaps = 17,
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
-        /// <summary>sand above a floor of the domain that has no friction. Figure: its Coulomb coefficient</summary>
+        /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient</summary>
         NoFriction = 19,
         /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
         VolumeLost = 14,
@@ -319,7 +320,7 @@ namespace Pbmpm
     /// <summary>What would help.</summary>
     public enum Change : int
     {
-        /// <summary>no setting would help; see the text</summary>
+        /// <summary>no setting would help, or only one that costs more than half the cell size; see the text</summary>
         None = 0,
         /// <summary>settings.substeps, or the rate in the same proportion</summary>
         Substeps = 1,
