@@ -42,7 +42,7 @@ typedef enum pbmpm_advice_code {
 
 /** What would help. */
 typedef enum pbmpm_change {
-    PBMPM_CHANGE_NONE = 0,       /**< no setting would help, or only one that costs more than half the cell size; see the text */
+    PBMPM_CHANGE_NONE = 0,       /**< no setting would help, or only one that costs more than halving the cell size; see the text */
     PBMPM_CHANGE_SUBSTEPS = 1,   /**< settings.substeps, or the rate in the same proportion */
     PBMPM_CHANGE_ITERATIONS = 2, /**< settings.iterations */
     PBMPM_CHANGE_CELL_SIZE = 3,  /**< world_def.cell_size [m] */

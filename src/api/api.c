@@ -25,6 +25,7 @@
 #include "world/colliders.h"
 #include "world/keyed.h"
 #include "world/sleep_wake.h"
+#include "world/stirred.h"
 
 pbmpm_result api_hold(pbmpm_world_id id, int kind, Hold *held)
 {
@@ -319,6 +320,7 @@ static void wake_near_collider(World *w, const Collider *collider)
     if (collider->def.sensor) return;
     const Solid solid = solid_among(&collider->shape, w->def.dimension, &w->baked);
     sleep_wake_near(w, &solid, SLEEP_FELT);
+    stirred_add(w, &solid, SLEEP_FELT);
 }
 
 /* `slot`: -1 for a new one. */

@@ -9,6 +9,7 @@
 #include "world/keyed.h"
 #include "world/sinks.h"
 #include "world/sleep_wake.h"
+#include "world/stirred.h"
 
 /* ---- emitter.h ---- */
 
@@ -117,6 +118,12 @@ static pbmpm_result check_drain(const World *w, const pbmpm_drain_def *def, cons
     return fail(PBMPM_ERROR_INVALID_ID, "drain.material is not of this world");
 }
 
+static void wake_near_drain(World *w, const Drain *drain)
+{
+    sleep_wake_near(w, &drain->solid, SLEEP_FELT);
+    stirred_add(w, &drain->solid, SLEEP_FELT);
+}
+
 pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def, const pbmpm_shape *shape, pbmpm_drain_id *drain)
 {
     REQUIRE(drain);
@@ -127,7 +134,7 @@ pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def
     const pbmpm_result checked = check_drain(w, &own, &form, -1);
     if (checked != PBMPM_OK) LET_GO(checked);
     const pbmpm_result result = sinks_add(&w->sinks, &w->memory, &own, &form, w->def.dimension, generation_next(), drain);
-    if (result == PBMPM_OK) sleep_wake_near(w, &sinks_find(&w->sinks, *drain)->solid, SLEEP_FELT);
+    if (result == PBMPM_OK) wake_near_drain(w, sinks_find(&w->sinks, *drain));
     LET_GO(result);
 }
 
@@ -164,7 +171,7 @@ pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const p
     const pbmpm_result checked = check_drain(w, &own, &form, (int32_t)drain.index);
     if (checked == PBMPM_OK) {
         drain_set(found, &own, &form, w->def.dimension);
-        sleep_wake_near(w, &found->solid, SLEEP_FELT);
+        wake_near_drain(w, found);
     }
     LET_GO(checked);
 }

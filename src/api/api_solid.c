@@ -6,6 +6,7 @@
 #include "base/generations.h"
 #include "shape/bake.h"
 #include "world/sleep_wake.h"
+#include "world/stirred.h"
 
 /* ---- Baking: no world ---- */
 
@@ -147,6 +148,7 @@ pbmpm_result pbmpm_domain_wall_set(pbmpm_world_id world, int32_t axis, int32_t u
     if (problem) LET_GO(api_invalid(problem));
     domain_set_wall(&w->domain, &w->def, domain_place(axis, upper), &own);
     sleep_wake_all(w);
+    stirred_add(w, NULL, 0.0);
     LET_GO(PBMPM_OK);
 }
 

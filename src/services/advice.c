@@ -341,7 +341,7 @@ static void pool_stirs(Adviser *adviser)
         const double speed = share * few * fall * fall * cell_speed;
         if (!flows(def) || solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
-                               .text = around ? "water goes on moving around what stands in it, at this rate and so few iterations"
+                               .text = around ? "water goes on moving around what stands in it, at this rate"
                                               : "a pool this deep goes on circling slowly at this rate"};
         by_substeps(adviser, cbrt(speed / CALM_SPEED), &advice); /* f falls with the square of the rate */
         give(adviser, advice);

@@ -5,6 +5,7 @@
 
 #include "base/numbers.h"
 #include "base/result.h"
+#include "world/stirred.h"
 
 /* The lattice of what sleeps moves by whole blocks too, so no particle changes its place in one. */
 enum { SHIFT_CELLS = K_BLOCK_AXIS };
@@ -168,6 +169,7 @@ pbmpm_result origin_shift(World *world, const double wanted[3], double moved[3])
     move_domain(world, &shift);
     move_things(world, &shift);
     move_particles(world, &shift);
+    stirred_shift(world, shift.by);
     move_sleeping(&world->sleep.asleep, &shift);
     move_sleeping(&world->sleep.active, &shift);
     grid_clear(&world->grid);

@@ -456,7 +456,7 @@ static uint32_t body_of(Cells *cells, uint32_t i)
     return i;
 }
 
-/* Joins cells that touch by a face or an edge. Sorted by cell. */
+/* Joins cells that share a face, in 2D an edge. Sorted by cell. */
 static void find_bodies(Cells *cells)
 {
     for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
@@ -478,7 +478,7 @@ typedef struct Extent {
     double mean[3], square, most;
 } Extent;
 
-/* A ball's farthest point is 1.29 as far from its middle as its mean square, a disc's 1.41, a cylinder's as long as it is wide 1.55; that of a cube or a square 1.73. */
+/* A ball's farthest point is 1.29 as far from its middle as the root of its mean square distance, a disc's 1.41, a cylinder's as long as it is wide 1.55; that of a cube or a square 1.73. */
 static const double ROUNDEST = 1.6;
 
 static pbmpm_result find_round(World *world, Cells *cells, Survey *survey)

@@ -213,6 +213,11 @@ static void save_counters(const World *world, SnapshotOut *out)
     snapshot_put_part(out, &counters, sizeof counters);
 }
 
+static bool state_is_sound(const GranularState *state)
+{
+    return state->seconds >= 0.0 && isfinite(state->seconds) && state->flowed >= 0.0 && isfinite(state->flowed);
+}
+
 static pbmpm_result check_counters(World *world, SnapshotIn in)
 {
     Counters counters = {0};
@@ -220,8 +225,9 @@ static pbmpm_result check_counters(World *world, SnapshotIn in)
     if (!snapshot_take_part(&in, &counters, sizeof counters) || snapshot_goes_on(&in)) return snapshot_malformed();
     bool fits = counters.simulated_seconds >= 0.0 && counters.slow_dt >= 0.0 && counters.slow_iterations >= 0.0 &&
                       isfinite(counters.simulated_seconds + counters.slow_dt + counters.slow_iterations) && isfinite(counters.credit);
-    for (int i = 0; i <= ISLAND_GROUPS; i++) 
-        fits = fits && isfinite(counters.eddy_account[i].debt + counters.eddy_account[i].left) && isfinite(counters.granular[i].seconds);
+    for (int a = 0; a < 3; a++) fits = fits && !isnan(counters.stirred.low[a]) && !isnan(counters.stirred.high[a]); /* planes have no bounds */
+    for (int i = 0; i <= ISLAND_GROUPS; i++)
+        fits = fits && isfinite(counters.eddy_account[i].debt + counters.eddy_account[i].left) && state_is_sound(&counters.granular[i]);
     return fits ? PBMPM_OK : snapshot_malformed();
 }
 

@@ -9,8 +9,9 @@
  * p = -K ln det F. J stands beside it and says the volume. `pressure` is p in pascals.
  *
  * The state is that of all sand of the islands with the same set of kinds. What sand does is measured against the speed v of a fall through one cell, v^2 = 2 g dx.
- * It begins as what it does. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it
- * has not, or when an obstacle or a drain beside it came, went or changed. It rests when none has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
+ * It begins at rest if no block moves at FALLS v. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it
+ * has not, or when an obstacle, a wall of the domain or a drain
+ * beside it came, went or changed (world/stirred.h). It rests when none has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
  * alone gives it back. Without gravity sand that moves flows. In a world that is told to use the dual all sand does.
  *
  * With the dual bodies sink into sand. So sand that they touch rests as soon as it is slow. Solids that the dual would hold softer than they are would spring up

@@ -4,7 +4,7 @@
 
 #include "world/world.h"
 
-/* Follows the settings: begins or ends sleeping. `dt`: of its substeps. */
+/* Follows the settings: begins or ends sleeping. */
 void sleep_begin_step(World *world);
 
 /* In place of grid_build(): decides who sleeps and builds the grid of the others. */

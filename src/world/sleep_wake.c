@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "world/stirred.h"
-
 const double SLEEP_FELT = 2.0;
 
 /* A call that touches a block that is awake keeps it so for another sleep_time. */
@@ -76,7 +74,6 @@ static bool is_near(const World *world, const SleepBlock *block, const void *con
 void sleep_wake_near(World *world, const Solid *solid, double reach)
 {
     const NearSolid near = {solid, reach * (double)world->def.cell_size};
-    stirred_add(world, solid, reach);
     wake_where(world, is_near, &near);
 }
 

@@ -1,4 +1,4 @@
-/* Reasons to wake. Without sleeping they do nothing but that sand which rested may flow, see stirred.h. */
+/* Reasons to wake. Without sleeping they do nothing. */
 #ifndef PBMPM_SRC_WORLD_SLEEP_WAKE_H
 #define PBMPM_SRC_WORLD_SLEEP_WAKE_H
 

@@ -68,7 +68,7 @@ typedef struct EddyDamping {
 /* Sand of the islands with one set of kinds, see granular.h. */
 typedef struct GranularState {
     double seconds;  /* for which it has done what ends its state, less those for which it has not */
-    double flowed;   /* for how long it has [s]; 0 only after a substep at rest */
+    double flowed;   /* for how long it has [s]; 0: it rested in the last substep that was judged */
     uint64_t judged; /* the step after that in which it was; 0: never */
     uint64_t flows;  /* or rests */
 } GranularState;

@@ -92,29 +92,57 @@ static void test_slow_sand_flows_after_a_while(void)
     TEST_ASSERT_GREATER_OR_EQUAL_INT32(2, steps);
 }
 
-/* A box beside the sand is taken away: what it held would fall from the next step on. One that stands elsewhere is nothing to it. */
+static void set_sleeping(pbmpm_world_id world)
+{
+    pbmpm_settings settings = {.size = sizeof settings};
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.sleeping = 1;
+    OK(pbmpm_world_set_settings(world, &settings));
+}
+
+static pbmpm_collider_id add_box(pbmpm_world_id world, float across) { return create_collider(world, box_shape(across, 0.4f, 0, 0.15f, 0.1f, 0), false); }
+
+/* A box beside the sand is taken away: what it held would fall from the next step on, also if it slept. One that stands elsewhere is nothing to it. */
 static void test_sand_flows_where_something_goes(void)
 {
-    static const float across[2] = {0.5f, 50.0f};
-    static const pbmpm_solver after[2] = {PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL};
-    for (int i = 0; i < 2; i++) {
+    static const float across[3] = {0.5f, 50.0f, 0.5f};
+    static const pbmpm_solver after[3] = {PBMPM_SOLVER_DUAL, PBMPM_SOLVER_PRIMAL, PBMPM_SOLVER_DUAL};
+    for (int i = 0; i < 3; i++) {
         pbmpm_material_id sand;
         const pbmpm_world_id world = bin(&sand);
-        const pbmpm_collider_id box = create_collider(world, box_shape(across[i], 0.4f, 0, 0.15f, 0.1f, 0), false);
-        expect_solver(world, PBMPM_SOLVER_PRIMAL, 60); /* what came before the first step is nothing new */
+        const pbmpm_collider_id box = add_box(world, across[i]);
+        if (i == 2) set_sleeping(world);
+        expect_solver(world, PBMPM_SOLVER_PRIMAL, 20); /* what came before the first step is nothing new */
+        for (int k = 0; i == 2 && k < 240; k++) step(world);
+        if (i == 2) TEST_ASSERT_EQUAL_UINT32(world_count(world), world_stats(world).particles_asleep);
         OK(pbmpm_collider_destroy(world, box));
         step(world);
         expect_solver(world, after[i], 2);
     }
 }
 
-/* Saved between the call that takes it away and the step: that is known, too. */
+static void test_a_wall_that_opens_lets_sand_flow(void)
+{
+    pbmpm_material_id sand;
+    const pbmpm_world_id world = bin(&sand);
+    pbmpm_domain_wall wall;
+    expect_solver(world, PBMPM_SOLVER_PRIMAL, 60);
+    wall.size = sizeof wall;
+    OK(pbmpm_domain_wall_get(world, 1, 0, &wall));
+    wall.open = 1;
+    OK(pbmpm_domain_wall_set(world, 1, 0, &wall));
+    step(world);
+    expect_solver(world, PBMPM_SOLVER_DUAL, 2);
+}
+
+/* Saved between the call that takes it away and the step, or shifted: that is known, too. */
 static void test_what_went_is_saved(void)
 {
     pbmpm_material_id sand;
     uint64_t bytes;
+    double moved[3];
     const pbmpm_world_id world = bin(&sand);
-    const pbmpm_collider_id box = create_collider(world, box_shape(0.5f, 0.4f, 0, 0.15f, 0.1f, 0), false);
+    const pbmpm_collider_id box = add_box(world, 0.5f);
     expect_solver(world, PBMPM_SOLVER_PRIMAL, 60);
     OK(pbmpm_collider_destroy(world, box));
     OK(pbmpm_snapshot_size(world, &bytes, NULL));
@@ -128,6 +156,13 @@ static void test_what_went_is_saved(void)
     OK(restored);
     for (int i = 0; i < 5; i++) step(world);
     TEST_ASSERT_EQUAL_UINT64(hash, world_hash(world));
+    const pbmpm_world_id shifted = bin(&sand);
+    const pbmpm_collider_id gate = add_box(shifted, 0.5f);
+    expect_solver(shifted, PBMPM_SOLVER_PRIMAL, 60);
+    OK(pbmpm_collider_destroy(shifted, gate));
+    OK(pbmpm_world_shift_origin(shifted, (const double[3]){100, 0, 0}, moved));
+    step(shifted);
+    expect_solver(shifted, PBMPM_SOLVER_DUAL, 2);
 }
 
 static float mean_height(pbmpm_world_id world)
@@ -246,6 +281,7 @@ int main(void)
     RUN_TEST(test_sand_rests_then_flows_then_rests);
     RUN_TEST(test_slow_sand_flows_after_a_while);
     RUN_TEST(test_sand_flows_where_something_goes);
+    RUN_TEST(test_a_wall_that_opens_lets_sand_flow);
     RUN_TEST(test_what_went_is_saved);
     RUN_TEST(test_going_over_moves_nothing);
     RUN_TEST(test_deformation_bears_the_pressure);

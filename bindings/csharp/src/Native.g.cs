@@ -320,7 +320,7 @@ namespace Pbmpm
     /// <summary>What would help.</summary>
     public enum Change : int
     {
-        /// <summary>no setting would help, or only one that costs more than half the cell size; see the text</summary>
+        /// <summary>no setting would help, or only one that costs more than halving the cell size; see the text</summary>
         None = 0,
         /// <summary>settings.substeps, or the rate in the same proportion</summary>
         Substeps = 1,

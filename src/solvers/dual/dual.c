@@ -319,7 +319,7 @@ static int sand_rounds(const World *world)
 {
     static const double CELLS_PER_ITERATION = 4.0;
     if (!solver_holds_sand(world)) return 0;
-    const double wanted = ceil(matter_depth(world) * REFERENCE_RATE * world->step.substep_dt / CELLS_PER_ITERATION) - world->settings.iterations;
+    const double wanted = ceil(matter_depth(world) * world->step.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
     return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
 }
 

@@ -161,8 +161,8 @@ static void find_turn(RigidBody *body)
     static const double none[RIGID_MODES];
     double *sum = body->sum, torque[RIGID_MODES] = {0.0, 0.0, 0.0, sum[6], sum[7], sum[8]};
     const double mass = body->mass[0][0];
-    for (int a = 0; a < 3; a++) body->arrives[a] = sum[9 + a] / mass;
-    primal_sum_products(-mass, body->arrives, body->arrives, sum);
+    for (int a = 0; a < 3; a++) body->middle[a] = sum[9 + a] / mass;
+    primal_sum_products(-mass, body->middle, body->middle, sum);
     memcpy(body->factor, body->mass, sizeof body->factor);
     memcpy(body->motion, none, sizeof none);
     if (!primal_weigh_turns(sum, body->factor)) return;
@@ -181,7 +181,7 @@ static void turn_body(Primal *p, int32_t block, size_t begin, size_t end, double
     for (size_t i = begin; i < end; i += W) {
         if (p->base[i + 3] == 0.0f) continue;
         primal_arm(corner, (i - begin) / W, x);
-        for (int a = 0; a < 3; a++) x[a] += (double)p->best[i + (size_t)a] - body->arrives[a];
+        for (int a = 0; a < 3; a++) x[a] += (double)p->best[i + (size_t)a] - body->middle[a];
         primal_move_rigidly(body->motion, x, way);
         for (size_t c = 0; c < 3; c++) p->best[i + c] += (float)way[c];
     }
@@ -196,7 +196,7 @@ static void keep_rotations(Primal *p)
     primal_over_blocks(p, sum_turns);
     primal_gather_rigid(p, 12);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
-        if (body[i].sum[0] > 0.0) find_turn(&body[i]);
+        if (body[i].turns && body[i].multistep) find_turn(&body[i]);
     primal_over_blocks(p, turn_body);
 }
 

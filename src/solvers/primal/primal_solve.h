@@ -48,6 +48,7 @@ typedef struct RigidBody {
     double strain;                             /* energy at contacts, of `start` */
     bool turns;                                /* it may; then: it gets this back */
     double spin[3], arrives[3];                /* [radians per substep]; where its centre goes */
+    double middle[3];                          /* what it is turned about, from where its centre was */
     double share;                              /* see primal_find_shares() */
 } RigidBody;
 
