@@ -76,9 +76,8 @@ static void test_sand_rests_then_flows_then_rests(void)
     throw_all(world, 2.0f, 0);
     TEST_ASSERT_LESS_OR_EQUAL_INT32(2, steps_until(world, PBMPM_SOLVER_DUAL, 5)); /* it is judged after a step */
     expect_solver(world, PBMPM_SOLVER_DUAL, 17);                                    /* 0.3 s are 18 */
-    steps_until(world, PBMPM_SOLVER_PRIMAL, 300);
-    for (int i = 0; i < 240; i++) step(world); /* the foot of the slope slides once more */
-    expect_solver(world, PBMPM_SOLVER_PRIMAL, 60);
+    int rests = 0; /* the foot of the slope may slide once more */
+    for (int steps = 0; rests < 60; rests = step(world) == PBMPM_SOLVER_PRIMAL ? rests + 1 : 0) TEST_ASSERT_LESS_THAN_INT32(900, ++steps);
 }
 
 /* What creeps goes after 0.3 s at the latest. */

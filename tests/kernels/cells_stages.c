@@ -246,7 +246,19 @@ static double at_particle(const RefGrid *cells, const RefParticle *p, double *er
     return sum;
 }
 
-/* Liquids start from the mean of the cells and the share `fine` of what they have beside it, others from cells alone. */
+static bool is_sand(const DualStage *stage, uint32_t row) { return scene_particle(&stage->scene, row).material.yields == K_SAND; }
+
+/* The pressure that sand starts from. */
+static double borne_pressure(const DualStage *stage, uint32_t row)
+{
+    const int dimension = stage->scene.world->def.dimension;
+    double S[9], sum = 0.0;
+    dual_multiplier_before(stage, row, S);
+    for (int k = 0; k < dimension; k++) sum += S[k * 4];
+    return sum / dimension;
+}
+
+/* Liquids and sand start from the mean of the cells and the share `fine` of what they have beside it, others from cells alone. */
 void cells_check_carry(DualStage *stage, float fine)
 {
     Scene *scene = &stage->scene;
@@ -254,15 +266,20 @@ void cells_check_carry(DualStage *stage, float fine)
     KernelArgs *a = &world->args;
     const uint32_t count = world->particles.count;
     double *own = malloc(count * sizeof *own);
-    for (uint32_t i = 0; i < count; i++) own[i] = dual_first_pressure(stage, i, a->pressure[i]);
+    for (uint32_t i = 0; i < count; i++) own[i] = is_sand(stage, i) ? borne_pressure(stage, i) : dual_first_pressure(stage, i, a->pressure[i]);
     RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
-    a->fine_carried = fine;
+    a->fine_carried = a->grains_carried = fine;
     scene_run_particles(scene, scene->kernels->cells_carry);
     for (uint32_t i = 0; i < count; i++) {
         const RefParticle p = scene_particle(scene, i);
         double error;
-        if (p.material.kind != K_LIQUID) continue;
+        if (p.material.kind != K_LIQUID && !is_sand(stage, i)) continue;
         const double mean = at_particle(&pressure, &p, &error), expected = mean + (double)fine * (own[i] - mean);
+        if (is_sand(stage, i)) {
+            const double rounding = 2.0 * error + 16.0 * UNIT_ROUNDOFF * (fabs(own[i]) + mean);
+            check_near(fmax(0.0, expected), borne_pressure(stage, i), rounding, "what sand carries", (long)i);
+            continue;
+        }
         check_near(fmax(0.0, expected), (double)a->pressure[i], 2.0 * error + 8.0 * UNIT_ROUNDOFF * (own[i] + mean), "what is carried", (long)i);
         check_true(a->pressure[i] == a->pressure_old[i], "it is the one before as well", (long)i);
     }

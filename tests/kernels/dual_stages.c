@@ -115,13 +115,19 @@ void dual_multiplier(const DualStage *stage, uint32_t row, double S[9])
     read_multiplier(stage, row, a->pressure, a->stress, S);
 }
 
-void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9])
+void dual_multiplier_before(const DualStage *stage, uint32_t row, double S[9])
 {
     const KernelArgs *a = &stage->scene.world->args;
+    read_multiplier(stage, row, a->pressure_old, a->stress_old, S);
+}
+
+void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9])
+{
+    const double momentum = (double)stage->scene.world->args.momentum;
     double now[9], old[9];
-    read_multiplier(stage, row, a->pressure, a->stress, now);
-    read_multiplier(stage, row, a->pressure_old, a->stress_old, old);
-    for (int k = 0; k < 9; k++) Y[k] = now[k] + (double)a->momentum * (now[k] - old[k]);
+    dual_multiplier(stage, row, now);
+    dual_multiplier_before(stage, row, old);
+    for (int k = 0; k < 9; k++) Y[k] = now[k] + momentum * (now[k] - old[k]);
 }
 
 /* ---- Tiles ---- */

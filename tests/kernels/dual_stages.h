@@ -28,6 +28,7 @@ void dual_check_once(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32
 
 /* The multiplier of a particle, and Y = S + momentum (S - S_old). */
 void dual_multiplier(const DualStage *stage, uint32_t row, double S[9]);
+void dual_multiplier_before(const DualStage *stage, uint32_t row, double S[9]); /* the one before */
 void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9]);
 
 /* What a particle of this pressure [Pa] starts from: 4 dt^2 / (dx^2 density) times it, and the share that is carried, see dual_carried_share(). */

@@ -95,6 +95,8 @@ static void test_the_guess_is_added_to_what_particles_keep(void)
 {
     SceneSpec spec = liquid_scene("cells: kept pressures");
     dual_check_spec(&spec, 3, check_kept);
+    spec.material[0] = scene_material(PBMPM_SAND);
+    dual_check_spec(&spec, 1, check_kept);
     spec_crowded(&spec);
     dual_check_spec(&spec, 1, check_kept);
 }
