@@ -343,7 +343,7 @@ static void pool_stirs(Adviser *adviser)
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
                                .text = around ? "water goes on moving around what stands in it, at this rate"
                                               : "a pool this deep goes on circling slowly at this rate"};
-        by_substeps(adviser, cbrt(speed / CALM_SPEED), &advice); /* f falls with the square of the rate */
+        by_substeps(adviser, pow(speed / CALM_SPEED, 1.0 / 3.0), &advice); /* f falls with the square of the rate */
         give(adviser, advice);
     }
 }

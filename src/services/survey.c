@@ -314,7 +314,7 @@ static void measure_drops(const World *world, const Cells *cells, int axis, uint
 static bool has_room_below(const World *world, const Cells *cells, const Share *top, const double down[3], const double side[3])
 {
     enum { SIDE = 6, LOOKS = 4 * SIDE };
-    const double cell = (double)world->def.cell_size, deep = tan((double)world->materials.def[top->slot].friction_angle) * SIDE + 1.0;
+    const double cell = (double)world->def.cell_size, angle = (double)world->materials.def[top->slot].friction_angle, deep = sin(angle) / cos(angle) * SIDE + 1.0;
     int32_t among[3] = {0};
     for (int look = 1; look <= LOOKS; look++) {
         double point[3] = {0};
