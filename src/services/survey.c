@@ -179,11 +179,9 @@ static void measure_room(const World *world, Cells *cells, int axis, double narr
 
 /* ---- Crowding ---- */
 
-/* The filling of all groups in a cell, 0 if there is none. Sorted by cell. */
-static double filling_at(const Cells *cells, const int32_t cell[3])
+/* The first share at a place or behind it. Sorted by cell. */
+static uint32_t first_from(const Cells *cells, uint64_t place)
 {
-    const Share wanted = {.cell = {cell[0], cell[1], cell[2]}};
-    const uint64_t place = place_of(&wanted, 0, false);
     uint32_t low = 0, high = cells->count;
     while (low < high) {
         const uint32_t middle = low + (high - low) / 2;
@@ -192,6 +190,15 @@ static double filling_at(const Cells *cells, const int32_t cell[3])
         else
             high = middle;
     }
+    return low;
+}
+
+/* The filling of all groups in a cell, 0 if there is none. Sorted by cell. */
+static double filling_at(const Cells *cells, const int32_t cell[3])
+{
+    const Share wanted = {.cell = {cell[0], cell[1], cell[2]}};
+    const uint64_t place = place_of(&wanted, 0, false);
+    const uint32_t low = first_from(cells, place);
     double sum = 0.0;
     for (uint32_t i = low; i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++) sum += cells->share[i].filling;
     return sum;
@@ -436,14 +443,7 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
 
 static uint32_t find_share(const Cells *cells, uint64_t place)
 {
-    uint32_t low = 0, high = cells->count;
-    while (low < high) {
-        const uint32_t middle = low + (high - low) / 2;
-        if (cells->share[middle].place < place)
-            low = middle + 1;
-        else
-            high = middle;
-    }
+    const uint32_t low = first_from(cells, place);
     return low < cells->count && cells->share[low].place == place ? low : cells->count;
 }
 
