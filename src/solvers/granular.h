@@ -9,10 +9,11 @@
  * p = -K ln det F. J stands beside it and says the volume. `pressure` is p in pascals.
  *
  * The state is that of all sand of the islands with the same set of kinds. What sand does is measured against the speed v of a fall through one cell, v^2 = 2 g dx.
- * It begins at rest if no block moves at FALLS v. Blocks with few grains do not count. It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it
- * has not, or when an obstacle, a wall of the domain or a drain
- * beside it came, went or changed (world/stirred.h). It rests when none has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
- * alone gives it back. Without gravity sand that moves flows. In a world that is told to use the dual all sand does.
+ * Blocks with few grains do not count. It begins at rest if no block moves at FALLS v.
+ * It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it has not, or when an obstacle, a wall of the domain or
+ * a drain beside it came, went or changed (world/stirred.h). Without gravity sand that moves flows. In a world that is told to use the dual all sand does.
+ * It rests when no block has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
+ * alone gives it back.
  *
  * With the dual bodies sink into sand. So sand that they touch rests as soon as it is slow. Solids that the dual would hold softer than they are would spring up
  * when the primal takes over: the sand that touches them always rests. */
@@ -31,9 +32,9 @@ bool granular_goes_on(const World *world);
 pbmpm_result granular_prepare(World *world);
 void granular_free(World *world);
 
-/* Points the kernel arguments at the pressures where the primal solves sand that may come to flow, and says what the dual starts from: the means of cells, and a share of
- * what a grain has beside them, which ends after FORGETS. Where sand begins to flow its own pressures are in balance with what it bears; with means a bin sinks by 1.4 % at 49 mm/s. Where it flows they are
- * noise that friction finds: a heap below a funnel has 13.7 degrees, not 18. */
+/* Points the kernel arguments at the pressures where the primal solves sand that may come to flow, and says what the dual starts from: the means of cells, and a
+ * share of what a grain has beside them, which ends after FORGETS. Where sand begins to flow, what its grains bear is in balance; with means alone a bin sinks by
+ * 1.4 % at 49 mm/s. Where it flows, what grains bear beside the means is noise that friction finds: a heap below a funnel has 13.7 degrees, not 18. */
 void granular_bind(World *world);
 
 /* After the particles have moved: what their sand does. */
