@@ -20,15 +20,15 @@ static Vectors vectors_of(const Walls *walls)
 
 void walls_free(Walls *walls, Memory *memory)
 {
-    Array *arrays[] = {&walls->node,  &walls->motion, &walls->matrices, &walls->entry, &walls->link,
-                       &walls->place, &walls->marked, &walls->begin, &walls->bound, &walls->faced, &walls->vector};
+    Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->mirror, &walls->corner,
+                       &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->faced,  &walls->vector};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->entries = walls->links = 0;
+    walls->nodes = walls->frees = walls->moves = walls->entries = walls->mirrors = walls->corners = 0;
     walls->rubs = false;
 }
 
@@ -49,14 +49,6 @@ bool walls_hold(const Walls *walls, uint32_t node)
 }
 
 static Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
-
-/* What an entry takes from: the mean of its parents' u~. */
-static Four mean_of(const WallEntry *entry, const Four *free)
-{
-    Four mean = {0};
-    for (uint32_t k = 0; k < entry->corners; k++) mean += entry->weight[k] * free[entry->parent[k]];
-    return mean;
-}
 
 /* ---- Making motion admissible ---- */
 
@@ -81,6 +73,26 @@ static void store(Four u, float *node)
 /* p - m c0 */
 static Four rest_of(const ApplyJob *job, const WallMotion *n, Four p) { return p - job->shifted * (n->mass * n->shift); }
 
+/* What a node has itself of a vector. */
+static Four own_of(const ApplyJob *job, uint32_t i, Four v)
+{
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    if (n->own == OWN_ALL) return v;
+    if (n->own == OWN_NONE) return (Four){0};
+    const float *m = ((const WallNode *)job->walls->node.data)[i].own;
+    const Columns own = {{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}};
+    return times(&own, v);
+}
+
+/* What an entry takes from: the mean of its parents' u~. */
+static Four mean_of(const ApplyJob *job, const WallEntry *entry)
+{
+    const WallCorner *corner = job->walls->corner.data;
+    Four mean = {0};
+    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++) mean += corner[k].weight * job->v.free[corner[k].parent];
+    return mean;
+}
+
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
 {
@@ -90,19 +102,17 @@ static void send_back(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         const WallMotion *n = &motion[i];
         if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
-        const Four rest = rest_of(job, n, job->v.momentum[i]);
-        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) job->v.back[e] = times(&entry[e].matrix, rest);
+        if (n->entry != NO_ENTRY) job->v.back[n->entry] = times(&entry[n->entry].matrix, rest_of(job, n, job->v.momentum[i]));
     }
 }
 
-/* E^T (p - m c0) at one node. */
-static Four folded(const ApplyJob *job, uint32_t i)
+/* E^T (p - m c0) at one node, with its links. */
+static Four folded(const ApplyJob *job, uint32_t i, uint32_t link_begin, uint32_t link_moving)
 {
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
-    const WallMatrices *matrices = (const WallMatrices *)job->walls->matrices.data + i;
     const WallLink *link = job->walls->link.data;
-    Four sum = times(&matrices->own, rest_of(job, n, job->v.momentum[i]));
-    for (uint32_t l = n->link_begin; l < n->link_moving; l++) sum += link[l].weight * job->v.back[link[l].entry];
+    Four sum = own_of(job, i, rest_of(job, n, job->v.momentum[i]));
+    for (uint32_t l = link_begin; l < link_moving; l++) sum += link[l].weight * job->v.back[link[l].from];
     return sum;
 }
 
@@ -110,9 +120,10 @@ static void find_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallMotion *motion = job->walls->motion.data;
-    const WallMatrices *matrices = job->walls->matrices.data;
-    for (int32_t i = begin; i < end; i++) {
-        job->v.free[i] = times(&matrices[i].inverse, folded(job, (uint32_t)i));
+    const WallFree *free = job->walls->free.data;
+    for (int32_t f = begin; f < end; f++) {
+        const uint32_t i = free[f].place;
+        job->v.free[i] = job->v.moved[i] = times(&free[f].inverse, folded(job, i, free[f].link_begin, free[f].link_moving));
         store(job->v.free[i], node_at(job, motion[i].node));
     }
 }
@@ -122,20 +133,25 @@ static void take_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallMotion *motion = job->walls->motion.data;
-    for (int32_t i = begin; i < end; i++) job->v.free[i] = load(node_at(job, motion[i].node));
+    const WallFree *free = job->walls->free.data;
+    for (int32_t f = begin; f < end; f++) {
+        const uint32_t i = free[f].place;
+        job->v.free[i] = job->v.moved[i] = load(node_at(job, motion[i].node));
+    }
 }
 
-/* u = E u~ + c0 */
+/* u = E u~ + c0, where that is not u~ itself. */
 static void find_moved(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallMotion *motion = job->walls->motion.data;
-    const WallMatrices *matrices = job->walls->matrices.data;
     const WallEntry *entry = job->walls->entry.data;
-    for (int32_t i = begin; i < end; i++) {
+    const uint32_t *moved = job->walls->moved.data;
+    for (int32_t m = begin; m < end; m++) {
+        const uint32_t i = moved[m];
         const WallMotion *n = &motion[i];
-        Four u = times(&matrices[i].own, job->v.free[i]) + job->shifted * n->shift;
-        for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) u += times(&entry[e].matrix, mean_of(&entry[e], job->v.free));
+        Four u = own_of(job, i, job->v.free[i]) + job->shifted * n->shift;
+        if (n->entry != NO_ENTRY) u += times(&entry[n->entry].matrix, mean_of(job, &entry[n->entry]));
         job->v.moved[i] = u;
         store(u, node_at(job, n->node));
     }
@@ -146,17 +162,16 @@ static void find_moved(void *context, int32_t begin, int32_t end)
 static void given(const ApplyJob *job, uint32_t i, double sum[3])
 {
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
-    const WallEntry *entry = job->walls->entry.data;
     const Four p = job->v.momentum[i], u = job->v.moved[i];
-    const Columns *of_own = &((const WallMatrices *)job->walls->matrices.data)[i].own;
-    const Four own = times(of_own, rest_of(job, n, p)), still = times(of_own, job->v.free[i]);
+    const Four own = own_of(job, i, rest_of(job, n, p)), still = own_of(job, i, job->v.free[i]);
     for (int a = 0; a < 3; a++) sum[a] = (double)n->mass * ((double)u[a] - (double)still[a]) - (double)p[a] + (double)own[a];
-    for (uint32_t e = n->entry_begin; e < n->entry_moving; e++) {
-        const Four counted = times(&entry[e].matrix, times(&entry[e].matrix, mean_of(&entry[e], job->v.free)));
-        double weight = 0.0;
-        for (uint32_t k = 0; k < entry[e].corners; k++) weight += (double)entry[e].weight[k];
-        for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[e][a] - (double)n->mass * (double)counted[a];
-    }
+    if (n->entry == NO_ENTRY) return;
+    const WallEntry *entry = (const WallEntry *)job->walls->entry.data + n->entry;
+    const WallCorner *corner = job->walls->corner.data;
+    const Four counted = times(&entry->matrix, times(&entry->matrix, mean_of(job, entry)));
+    double weight = 0.0;
+    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++) weight += (double)corner[k].weight;
+    for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[n->entry][a] - (double)n->mass * (double)counted[a];
 }
 
 static void press(void *context, int32_t begin, int32_t end)
@@ -165,9 +180,11 @@ static void press(void *context, int32_t begin, int32_t end)
     const WallNode *node = job->walls->node.data;
     for (int32_t i = begin; i < end; i++) {
         double sum[3], along = 0.0;
+        job->v.moved[i][3] = 0.0f;
+        if (!node[i].follows) continue;
         given(job, (uint32_t)i, sum);
         for (int a = 0; a < 3; a++) along += sum[a] * (double)node[i].normal[0][a];
-        job->v.moved[i][3] = node[i].follows ? (float)along : 0.0f;
+        job->v.moved[i][3] = (float)along;
     }
 }
 
@@ -184,14 +201,16 @@ static void rub(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const WallNode *node = job->walls->node.data;
+    const WallFree *free = job->walls->free.data;
     const WallEntry *entry = job->walls->entry.data;
     const WallLink *link = job->walls->link.data;
-    for (int32_t i = begin; i < end; i++) {
+    for (int32_t f = begin; f < end; f++) {
+        const uint32_t i = free[f].place;
         const WallNode *n = &node[i];
         Four *u = &job->v.free[i];
         float v[3], impulse = 0.0f, along = 0.0f, size2 = 0.0f;
         if (n->coefficient == 0.0f) continue;
-        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].entry].follower][3];
+        for (uint32_t l = n->link_begin; l < n->link_moving; l++) impulse += link[l].weight * job->v.moved[entry[link[l].from].follower][3];
         const float trace = n->lump[0] + n->lump[3] + n->lump[5];
         if (!(impulse > 0.0f) || !(trace > 0.0f)) continue;
         for (int a = 0; a < 3; a++) along += ((*u)[a] - n->surface[a]) * n->normal[0][a];
@@ -205,6 +224,9 @@ static void rub(void *context, int32_t begin, int32_t end)
         const float mass = (m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) / size2; /* in the direction of motion */
         const float lost = mass > 0.0f ? n->coefficient * impulse / (mass * sqrtf(size2)) : 1.0f;
         for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
+        if (n->follows) continue; /* find_moved() comes after this */
+        job->v.moved[i] = *u;
+        store(*u, node_at(job, n->node));
     }
 }
 
@@ -221,21 +243,23 @@ static void obey(void *context, int32_t begin, int32_t end)
     }
 }
 
+static Span span_of(uint32_t count) { return (Span){(int32_t)count, GRAIN, (int64_t)count * WALL_NODE_NS}; }
+
 void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark)
 {
     const ApplyJob job = {walls, frame, vectors_of(walls), linear ? 0.0f : 1.0f, mark};
-    const Span all = {(int32_t)walls->nodes, GRAIN, (int64_t)walls->nodes * WALL_NODE_NS};
+    const Span all = span_of(walls->nodes), free = span_of(walls->frees), moved = span_of(walls->moves);
     LOOPS_ADD(loops, all, send_back, &job);
-    LOOPS_ADD(loops, all, find_free, &job);
+    LOOPS_ADD(loops, free, find_free, &job);
     if (frame->colliders->contacts > 0) {
         LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
-        LOOPS_ADD(loops, all, take_free, &job);
+        LOOPS_ADD(loops, free, take_free, &job);
     }
-    LOOPS_ADD(loops, all, find_moved, &job);
+    LOOPS_ADD(loops, moved, find_moved, &job);
     if (walls->rubs && !linear) {
         LOOPS_ADD(loops, all, press, &job);
-        LOOPS_ADD(loops, all, rub, &job);
-        LOOPS_ADD(loops, all, find_moved, &job);
+        LOOPS_ADD(loops, free, rub, &job);
+        LOOPS_ADD(loops, moved, find_moved, &job);
     }
 }
 
@@ -287,7 +311,7 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
         double sum[3], gained[3];
         float held[3];
         given(&job, i, sum);
-        const Four back = folded(&job, i), u = job.v.free[i];
+        const Four back = folded(&job, i, n->link_begin, n->link_moving), u = job.v.free[i];
         times_lump(n, (const float[]){u[0], u[1], u[2]}, held);
         for (int a = 0; a < 3; a++) sum[a] += (double)held[a] - (double)back[a];
         for (int j = 1; j < n->normals; j++) { /* along its own normal each wall, the rest the nearest one */
@@ -315,11 +339,10 @@ float walls_open_share(const Walls *walls, uint32_t node)
 static void fold_scalar(const Walls *walls, const float *from, float *to)
 {
     const WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
     const WallLink *link = walls->link.data;
     for (uint32_t i = 0; i < walls->nodes; i++) {
         float sum = node[i].own_mirror * from[node[i].node];
-        for (uint32_t l = node[i].link_moving; l < node[i].link_end; l++) sum += link[l].weight * from[node[entry[link[l].entry].follower].node];
+        for (uint32_t l = node[i].link_moving; l < node[i].link_end; l++) sum += link[l].weight * from[node[link[l].from].node];
         to[i] = sum;
     }
 }
@@ -328,7 +351,8 @@ void walls_fold_volume(const Walls *walls, float *volume, float *open)
 {
     static const float CLOSED = 1e-3f; /* less of a cell is rounding */
     const WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
+    const WallMirror *mirror = walls->mirror.data;
+    const WallCorner *corner = walls->corner.data;
     if (walls->nodes == 0) return;
     float *held = walls->vector.data, *room = held + walls->nodes;
     fold_scalar(walls, volume, held);
@@ -336,8 +360,8 @@ void walls_fold_volume(const Walls *walls, float *volume, float *open)
     for (uint32_t i = 0; i < walls->nodes; i++) held[i] = room[i] > CLOSED ? held[i] / room[i] : 0.0f;
     for (uint32_t i = 0; i < walls->nodes; i++) {
         float sum = node[i].own_mirror * held[i];
-        for (uint32_t e = node[i].entry_begin; e < node[i].entry_end; e++)
-            for (uint32_t k = 0; k < entry[e].corners && entry[e].mirrored; k++) sum += entry[e].weight[k] * held[entry[e].parent[k]];
+        for (uint32_t e = node[i].mirror_begin; e < node[i].mirror_end; e++)
+            for (uint32_t k = mirror[e].corner_begin; k < mirror[e].corner_end; k++) sum += corner[k].weight * held[corner[k].parent];
         if (volume[node[i].node] > 0.0f) volume[node[i].node] = sum; /* else nobody listens */
         open[node[i].node] = 1.0f;
     }

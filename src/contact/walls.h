@@ -24,9 +24,12 @@
 
 typedef struct Walls {
     Array node;       /* WallNode: nodes at walls, then those that they follow */
-    Array motion;     /* WallMotion of each, */
-    Array matrices;   /* and WallMatrices */
+    Array motion;     /* WallMotion of each */
+    Array free;       /* WallFree of those that are free */
+    Array moved;      /* uint32_t: the places of those that do not move as they are free to */
     Array entry;      /* WallEntry, in the order of the nodes that follow */
+    Array mirror;     /* WallMirror, likewise */
+    Array corner;     /* WallCorner of both */
     Array link;       /* WallLink: per node that is followed, who follows */
     Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */
     Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
@@ -34,7 +37,7 @@ typedef struct Walls {
     Array bound;      /* per such node: its faces */
     Array faced;      /* Bound * of those that have any */
     Array vector;     /* per node: what is passed between loops */
-    uint32_t nodes, entries, links;
+    uint32_t nodes, frees, moves, entries, mirrors, corners;
     bool rubs;        /* a wall has friction */
 } Walls;
 

@@ -24,6 +24,11 @@ static void add_product(float m[6], double scale, const double a[3])
 static void invert(const float m[6], float out[6])
 {
     static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
+    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) {
+        const float least_of_all = (float)LEAST * fmaxf(m[0] + m[3] + m[5], 0.0f);
+        for (int k = 0; k < 6; k++) out[k] = (k == 0 || k == 3 || k == 5) && m[k] > least_of_all ? 1.0f / m[k] : 0.0f;
+        return;
+    }
     double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}, inverse[3][3] = {{0}};
     const double least = LEAST * fmax(a[0][0] + a[1][1] + a[2][2], 0.0);
     int order[3], count = 0;
@@ -259,22 +264,9 @@ static uint32_t listed(Builder *b, int64_t node)
         return 0;
     }
     WallNode *added = (WallNode *)walls->node.data + walls->nodes;
-    *added = (WallNode){.node = (uint32_t)node, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f, .open = -1.0f};
+    *added = (WallNode){.node = (uint32_t)node, .entry = NO_ENTRY, .mass = mass_of(b->frame->grid, node), .own = {1, 0, 0, 1, 0, 1}, .own_mirror = 1.0f, .open = -1.0f};
     *place = ++walls->nodes;
     return *place - 1;
-}
-
-static WallEntry *new_entry(Builder *b)
-{
-    Walls *walls = b->walls;
-    const size_t kept = (size_t)walls->entries * sizeof(WallEntry);
-    if (!array_grow(b->memory, &walls->entry, (size_t)walls->entries + 1, sizeof(WallEntry), kept)) {
-        b->failed = true;
-        return NULL;
-    }
-    WallEntry *entry = (WallEntry *)walls->entry.data + walls->entries;
-    *entry = (WallEntry){0};
-    return entry;
 }
 
 /* A place whose nodes stand for a node at a wall. */
@@ -284,9 +276,11 @@ typedef struct Image {
     bool before; /* only nodes before all faces count */
 } Image;
 
-/* The nodes around an image, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are none. */
-static bool find_parents(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX], WallEntry *entry)
+/* Adds the nodes around an image to the corners, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are
+ * none. */
+static bool add_corners(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
 {
+    Walls *walls = b->walls;
     const int dimension = b->frame->grid->dimension, corners = 1 << dimension;
     int64_t node[CORNERS_MAX];
     double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
@@ -318,15 +312,16 @@ static bool find_parents(Builder *b, const Bound *bound, const Image *image, con
         sum += of_corner;
     }
     if (sum < 1e-3) return false;
-    int used = 0;
+    if (!array_grow(b->memory, &walls->corner, (size_t)walls->corners + CORNERS_MAX, sizeof(WallCorner), (size_t)walls->corners * sizeof(WallCorner))) {
+        b->failed = true;
+        return false;
+    }
     for (int j = 0; j < count; j++) distance[j] = 0.0;
     for (int k = 0; k < corners; k++) {
         if (share[k] == 0.0) continue;
         for (int j = 0; j < count; j++) distance[j] += share[k] / sum * off[k][j];
-        entry->parent[used] = listed(b, node[k]);
-        entry->weight[used++] = (float)(image->weight * share[k] / sum);
+        ((WallCorner *)walls->corner.data)[walls->corners++] = (WallCorner){listed(b, node[k]), (float)(image->weight * share[k] / sum)};
     }
-    entry->corners = (uint32_t)used;
     return true;
 }
 
@@ -369,14 +364,15 @@ static double motion_along(const Builder *b, uint32_t node, const Profile *profi
  * does. Where the node is nearer to the second, it is the pressure p before the wall that keeps matter there. By Bernoulli's law that turns what leaves no faster than
  * v^2 = 2 p / rho; a fall of one cell, the pressure that the grid does not see, counts as in clings(). Held, a sheet that slides over an edge, before whose other face
  * nothing is, would lose half of its speed there and creep round it. Let go, a box full of vortices, which has no pressures at first, would lose a third of its energy. */
-static bool leaves(const Builder *b, const Bound *bound, const WallEntry *entry, const Profile *profile, double scale)
+static bool leaves(const Builder *b, const Bound *bound, uint32_t corner_begin, const Profile *profile, double scale)
 {
     const WallNode *list = b->walls->node.data;
+    const WallCorner *corner = b->walls->corner.data;
     double before = 0.0, pressure = 0.0;
-    for (uint32_t k = 0; k < entry->corners; k++) before += (double)entry->weight[k] * motion_along(b, list[entry->parent[k]].node, profile);
+    for (uint32_t k = corner_begin; k < b->walls->corners; k++) before += (double)corner[k].weight * motion_along(b, list[corner[k].parent].node, profile);
     const double beyond = motion_along(b, bound->node, profile) - scale * before;
     if (beyond <= 0.5 * (1.0 - scale) * before || beyond <= 0.0 || beyond * beyond <= 2.0 * b->frame->fall) return false;
-    for (uint32_t k = 0; k < entry->corners; k++) pressure += (double)entry->weight[k] * pressure_at(b->frame, list[entry->parent[k]].node);
+    for (uint32_t k = corner_begin; k < b->walls->corners; k++) pressure += (double)corner[k].weight * pressure_at(b->frame, list[corner[k].parent].node);
     return beyond * beyond > 2.0 * (pressure + b->frame->fall);
 }
 
@@ -395,17 +391,16 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
 {
     Image image = {.weight = 1.0, .before = true};
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
+    const uint32_t corner_begin = b->walls->corners;
     way_out(profile, count, image.way);
-    WallEntry *entry = new_entry(b);
-    if (!entry) return;
-    const bool found = find_parents(b, bound, &image, profile, count, distance, entry);
+    const bool found = add_corners(b, bound, &image, profile, count, distance);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
     float matrix[6];
     memcpy(matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
-        if (found && leaves(b, bound, entry, &profile[j], scale[j])) scale[j] = 1.0;
+        if (found && leaves(b, bound, corner_begin, &profile[j], scale[j])) scale[j] = 1.0;
         add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
@@ -419,9 +414,8 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         memset(node->own, 0, sizeof node->own);
     }
     if (!found) return;
-    entry->matrix = columns_of(matrix);
-    entry->follower = index;
-    b->walls->entries++;
+    node->entry = b->walls->entries++;
+    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){columns_of(matrix), index, corner_begin, b->walls->corners};
 }
 
 /* Weights that are not worth a place. */
@@ -430,20 +424,18 @@ static const double LITTLE = 1e-6;
 /* The density is mirrored in each face by its share. */
 static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count)
 {
+    Walls *walls = b->walls;
     double unused[NORMALS_MAX];
     for (int set = 0; set < 1 << count; set++) {
         Image image = {.weight = share_of_set(profile, count, set)};
         if (image.weight < LITTLE) continue;
+        const uint32_t corner_begin = walls->corners;
         mirror(profile, count, set, image.way);
-        WallEntry *entry = set > 0 ? new_entry(b) : NULL;
-        if (set > 0 && !entry) return;
-        if (!entry || !find_parents(b, bound, &image, profile, count, unused, entry)) {
-            ((WallNode *)b->walls->node.data)[index].own_mirror += (float)image.weight;
+        if (set == 0 || !add_corners(b, bound, &image, profile, count, unused)) {
+            ((WallNode *)walls->node.data)[index].own_mirror += (float)image.weight;
             continue;
         }
-        entry->mirrored = true;
-        entry->follower = index;
-        b->walls->entries++;
+        ((WallMirror *)walls->mirror.data)[walls->mirrors++] = (WallMirror){index, corner_begin, walls->corners};
     }
 }
 
@@ -458,6 +450,7 @@ static void add_follower(Builder *b, uint32_t index)
     if (sticks) count = 1;
     WallNode *node = (WallNode *)walls->node.data + index;
     node->own_mirror = 0.0f;
+    node->follows = bound->both;
     node->open = bound->open;
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
@@ -472,7 +465,7 @@ static void add_follower(Builder *b, uint32_t index)
         add_product(rest, -1.0, profile[j].axis);
     }
     if (count == b->frame->grid->dimension) memset(rest, 0, sizeof rest); /* else rounding would be left */
-    node->entry_begin = node->entry_moving = walls->entries;
+    node->mirror_begin = node->mirror_end = walls->mirrors;
     if (node->follows) memset(node->own, 0, sizeof node->own);
     if (bound->both) { /* along the wall it is free */
         double along = 0.0;
@@ -480,13 +473,11 @@ static void add_follower(Builder *b, uint32_t index)
         for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
         if (!sticks) memcpy(node->own, rest, sizeof rest);
         node->own_mirror = 1.0f;
-        node->entry_end = walls->entries;
         return;
     }
     if (node->follows) add_motion(b, bound, index, profile, count, sticks, rest);
-    ((WallNode *)walls->node.data)[index].entry_moving = walls->entries;
     add_mirrors(b, bound, index, profile, count);
-    ((WallNode *)walls->node.data)[index].entry_end = walls->entries;
+    ((WallNode *)walls->node.data)[index].mirror_end = walls->mirrors; /* the list may have moved */
 }
 
 /* ---- Finding them ---- */
@@ -524,51 +515,51 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* Per node who follows it: first those whose motion does, then those whose density alone does. */
+/* Per node who follows it: first those whose motion does, then those whose density does. */
 static bool add_links(Walls *walls, Memory *memory)
 {
     WallNode *node = walls->node.data;
     const WallEntry *entry = walls->entry.data;
+    const WallMirror *mirror = walls->mirror.data;
+    const WallCorner *corner = walls->corner.data;
     uint32_t links = 0;
+    if (!array_reserve(memory, &walls->link, walls->corners, sizeof(WallLink))) return false;
+    WallLink *link = walls->link.data;
     for (uint32_t i = 0; i < walls->nodes; i++) node[i].link_moving = node[i].link_end = 0;
     for (uint32_t e = 0; e < walls->entries; e++)
-        for (uint32_t k = 0; k < entry[e].corners; k++) {
-            WallNode *parent = &node[entry[e].parent[k]];
-            parent->link_moving += !entry[e].mirrored;
-            parent->link_end++;
-        }
+        for (uint32_t k = entry[e].corner_begin; k < entry[e].corner_end; k++) node[corner[k].parent].link_moving++;
+    for (uint32_t e = 0; e < walls->mirrors; e++)
+        for (uint32_t k = mirror[e].corner_begin; k < mirror[e].corner_end; k++) node[corner[k].parent].link_end++;
     for (uint32_t i = 0; i < walls->nodes; i++) { /* ends become places to fill from */
-        const uint32_t moving = node[i].link_moving, all = node[i].link_end;
+        const uint32_t moving = node[i].link_moving, mirrored = node[i].link_end;
         node[i].link_begin = node[i].link_moving = links;
         node[i].link_end = links + moving;
-        links += all;
+        links += moving + mirrored;
     }
-    if (!array_reserve(memory, &walls->link, links, sizeof(WallLink))) return false;
-    WallLink *link = walls->link.data;
     for (uint32_t e = 0; e < walls->entries; e++)
-        for (uint32_t k = 0; k < entry[e].corners; k++) {
-            WallNode *parent = &node[entry[e].parent[k]];
-            link[entry[e].mirrored ? parent->link_end++ : parent->link_moving++] = (WallLink){e, entry[e].weight[k]};
-        }
-    walls->links = links;
+        for (uint32_t k = entry[e].corner_begin; k < entry[e].corner_end; k++) link[node[corner[k].parent].link_moving++] = (WallLink){e, corner[k].weight};
+    for (uint32_t e = 0; e < walls->mirrors; e++)
+        for (uint32_t k = mirror[e].corner_begin; k < mirror[e].corner_end; k++)
+            link[node[corner[k].parent].link_end++] = (WallLink){mirror[e].follower, corner[k].weight};
     return true;
 }
 
-/* Nodes that are only followed rub at the wall of who follows them. */
+/* Nodes that are only followed rub at the wall of the first one that follows them. */
 static void give_friction(Walls *walls)
 {
     WallNode *node = walls->node.data;
     const WallEntry *entry = walls->entry.data;
     const WallLink *link = walls->link.data;
-    for (uint32_t i = 0; i < walls->nodes; i++)
-        for (uint32_t l = node[i].link_begin; l < node[i].link_end && node[i].normals == 0; l++) {
-            const WallNode *from = &node[entry[link[l].entry].follower];
-            node[i].normals = 1;
-            node[i].obstacle[0] = from->obstacle[0];
-            node[i].coefficient = from->coefficient;
-            memcpy(node[i].surface, from->surface, sizeof from->surface);
-            memcpy(node[i].normal[0], from->normal[0], sizeof from->normal[0]);
-        }
+    for (uint32_t i = 0; i < walls->nodes; i++) {
+        if (node[i].normals > 0 || node[i].link_begin == node[i].link_end) continue;
+        const bool moving = node[i].link_moving > node[i].link_begin;
+        const WallNode *from = &node[moving ? entry[link[node[i].link_begin].from].follower : link[node[i].link_moving].from];
+        node[i].normals = 1;
+        node[i].obstacle[0] = from->obstacle[0];
+        node[i].coefficient = from->coefficient;
+        memcpy(node[i].surface, from->surface, sizeof from->surface);
+        memcpy(node[i].normal[0], from->normal[0], sizeof from->normal[0]);
+    }
 }
 
 static void square(const Columns *m, float out[6])
@@ -579,14 +570,27 @@ static void square(const Columns *m, float out[6])
         for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
 }
 
-static void set_motion(Walls *walls, uint32_t i)
+static WallOwn own_of(const float own[6], int dimension)
+{
+    static const float none[6] = {0};
+    const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
+    const int depth = dimension == 3 ? 6 : 5; /* a plane has no motion along the third axis */
+    if (memcmp(own, none, (size_t)depth * sizeof *own) == 0) return OWN_NONE;
+    return memcmp(own, all, (size_t)depth * sizeof *own) == 0 ? OWN_ALL : OWN_PART;
+}
+
+/* Lists node `i` for walls_apply(). */
+static void set_motion(Walls *walls, uint32_t i, int dimension)
 {
     const WallNode *node = (const WallNode *)walls->node.data + i;
+    const WallOwn own = own_of(node->own, dimension);
+    const Four shift = {node->shift[0], node->shift[1], node->shift[2]};
+    ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry, node->mass, own, shift};
+    if (node->follows) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
+    if (own == OWN_NONE && node->link_begin == node->link_moving) return;
     float inverse[6];
     invert(node->lump, inverse);
-    ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry_begin, node->entry_moving, node->link_begin, node->link_moving, node->mass,
-                                                         {node->shift[0], node->shift[1], node->shift[2]}};
-    ((WallMatrices *)walls->matrices.data)[i] = (WallMatrices){columns_of(node->own), columns_of(inverse)};
+    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){columns_of(inverse), i, node->link_begin, node->link_moving};
 }
 
 /* M = sum m W A^2, what a node has itself included. */
@@ -599,13 +603,13 @@ static void lump(Walls *walls, int dimension)
         float *m = node[i].lump, part[6];
         for (int k = 0; k < 6; k++) m[k] = node[i].mass * node[i].own[k];
         for (uint32_t l = node[i].link_begin; l < node[i].link_moving; l++) {
-            const WallEntry *e = &entry[link[l].entry];
+            const WallEntry *e = &entry[link[l].from];
             const float mass = node[e->follower].mass * link[l].weight;
             square(&e->matrix, part);
             for (int k = 0; k < 6; k++) m[k] += mass * part[k];
         }
         if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
-        set_motion(walls, i);
+        set_motion(walls, i, dimension);
     }
 }
 
@@ -719,6 +723,13 @@ static bool bind_nodes(Builder *b, Pool *pool)
     return !b->failed;
 }
 
+/* A node has one entry, and a mirror image for each set of its faces but the empty one. */
+static bool reserve_lists(Walls *walls, uint32_t bounds, int dimension, Memory *memory)
+{
+    const size_t images = ((size_t)1 << dimension) - 1;
+    return array_reserve(memory, &walls->entry, bounds, sizeof(WallEntry)) && array_reserve(memory, &walls->mirror, images * bounds, sizeof(WallMirror));
+}
+
 pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory, Pool *pool)
 {
     const Grid *grid = frame->grid;
@@ -729,17 +740,18 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
         if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        ok = bind_nodes(&builder, pool);
+        ok = bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
-             array_reserve(memory, &walls->matrices, walls->nodes, sizeof(WallMatrices)) &&
+             array_reserve(memory, &walls->free, walls->nodes, sizeof(WallFree)) && array_reserve(memory, &walls->moved, walls->nodes, sizeof(uint32_t)) &&
              array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
         walls_clear(walls);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes at walls of %d blocks", grid->node_blocks);
     }
+    if (walls->nodes > 0) memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
     lump(walls, grid->dimension);
     return PBMPM_OK;

@@ -6,6 +6,9 @@
 #include <stdint.h>
 
 enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
+
+#define NO_ENTRY UINT32_MAX
+
 enum { VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */
 
 /* Four floats that the CPU works on at once: a vector and one more, which means nothing. */
@@ -15,20 +18,31 @@ typedef struct Columns {
     Four column[3];
 } Columns;
 
-/* What a node takes from others: A u~ of a place between them. */
+/* Nodes of the list that stand for a place between them. */
+typedef struct WallCorner {
+    uint32_t parent;
+    float weight;
+} WallCorner;
+
+/* The motion that a node takes from others: A u~ of a place between them. */
 typedef struct WallEntry {
-    uint32_t parent[CORNERS_MAX]; /* nodes of the list */
-    float weight[CORNERS_MAX];
     Columns matrix; /* A */
-    uint32_t corners; /* parents */
-    uint32_t follower;
-    bool mirrored; /* for the density; else for the motion */
+    uint32_t follower, corner_begin, corner_end;
 } WallEntry;
 
+/* The same for the density. */
+typedef struct WallMirror {
+    uint32_t follower, corner_begin, corner_end;
+} WallMirror;
+
+/* What of u~ a node has itself. */
+typedef enum WallOwn { OWN_NONE, OWN_PART, OWN_ALL } WallOwn;
+
 typedef struct WallNode {
-    uint32_t node; /* of the grid */
-    uint32_t entry_begin, entry_moving, entry_end; /* those from entry_moving on are for the density alone */
-    uint32_t link_begin, link_moving, link_end; /* those from link_moving on are for the density alone */
+    uint32_t node;  /* of the grid */
+    uint32_t entry; /* or NO_ENTRY */
+    uint32_t mirror_begin, mirror_end;
+    uint32_t link_begin, link_moving, link_end; /* those from link_moving on are for the density */
     float mass;
     float own[6];      /* what of u~ it has itself: a symmetric matrix, the upper triangle row by row */
     float lump[6];     /* M, likewise */
@@ -43,19 +57,24 @@ typedef struct WallNode {
     float surface[3];  /* that wall's motion */
 } WallNode;
 
-/* Of a WallNode what each walls_apply() needs. */
+/* Of a WallNode what each walls_apply() needs: of all of them, */
 typedef struct WallMotion {
-    uint32_t node, entry_begin, entry_moving, link_begin, link_moving;
+    uint32_t node, entry;
     float mass;
-    Four shift; /* c0 */
+    uint32_t own; /* WallOwn */
+    Four shift;   /* c0 */
 } WallMotion;
 
-typedef struct WallMatrices {
-    Columns own, inverse; /* inverse: M^-1 */
-} WallMatrices;
+/* and of those that are free: they have something of u~ themselves, or are followed. */
+typedef struct WallFree {
+    Columns inverse; /* M^-1 */
+    uint32_t place;  /* in the list */
+    uint32_t link_begin, link_moving;
+} WallFree;
 
+/* Who follows a node: an entry, or for the density the node itself. */
 typedef struct WallLink {
-    uint32_t entry;
+    uint32_t from;
     float weight;
 } WallLink;
 
