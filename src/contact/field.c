@@ -11,16 +11,6 @@ static const double BEFORE = 0.1;
 /* Surfaces that are meant to meet differ by rounding: what is nearer than this [cells] is on a surface. And what is farther off than that is clear of it. */
 static const double ON_SURFACE = 1e-3, CLEAR_OF = 0.01;
 
-/* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
- * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
-static const double SAME_WAY = 0.95, SAME_WAY_BAKED = 0.7;
-
-bool field_same_way(const Face *a, const Face *b)
-{
-    const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
-    return dot3(a->normal, b->normal) > (guessed ? SAME_WAY_BAKED : SAME_WAY);
-}
-
 /* point + length [cells] * normal */
 static void ahead(const Near *near, const double point[3], double length, const double normal[3], double out[3])
 {
@@ -439,7 +429,7 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
     const int faces = box_faces(near, o, point, reach, all, 2 * near->dimension);
     for (int i = 0; i < faces; i++) {
         bool known = all[i].distance > 0.0 || count == near->dimension;
-        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > SAME_WAY;
+        for (int k = 0; k < count && !known; k++) known = fabs(dot3(all[i].normal, face[k].normal)) > FIELD_SAME_WAY;
         if (!known && bounds_space(near, &all[i])) face[count++] = all[i];
     }
     return count;

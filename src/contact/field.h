@@ -8,6 +8,7 @@
 
 #include <math.h>
 
+#include "base/vector.h"
 #include "contact/contacts.h"
 
 enum { FIELD_FACES = 3 };
@@ -39,9 +40,16 @@ void field_keep(Near *near, uint32_t groups);
 
 static inline const Solid *field_solid(const Near *near, const Obstacle *o) { return near->at_end ? &o->end : &o->start; }
 
+/* floor() of lengths, without a call. */
+static inline double field_whole(double value)
+{
+    const double whole = (double)(int64_t)value;
+    return whole > value ? whole - 1.0 : whole;
+}
+
 /* The same scene elsewhere has other roundings; they do not get past this. */
 static const double FIELD_ROUNDING = 1.0 / 4194304.0;
-static inline double field_rounded(double value) { return round(value / FIELD_ROUNDING) * FIELD_ROUNDING; }
+static inline double field_rounded(double value) { return field_whole(value / FIELD_ROUNDING + 0.5) * FIELD_ROUNDING; }
 
 /* How far [cells] the next surface is, negative inside of an obstacle: of the obstacle that the point is deepest in, which need not be the union's. */
 double field_distance(const Near *near, const double point[3]);
@@ -56,8 +64,16 @@ int field_other_faces(const Near *near, const double point[3], double reach, con
 /* The same where face[0] is given. */
 int field_faces_beside(const Near *near, const double point[3], double reach, Face face[FIELD_FACES]);
 
+/* Planes whose normals differ by less count as one: the nearest. Those of one baked solid are guesses and have to differ by 45 degrees, halfway to an edge; exact ones by
+ * 18: of a blunter inner edge the stretch where matter is close to both planes would be as long as a block. Blunter ones are rounded, see walls_find.c. */
+static const double FIELD_SAME_WAY = 0.95, FIELD_SAME_WAY_BAKED = 0.7;
+
 /* Whether two planes count as one. */
-bool field_same_way(const Face *a, const Face *b);
+static inline bool field_same_way(const Face *a, const Face *b)
+{
+    const bool guessed = a->obstacle == b->obstacle && a->obstacle->start.grid;
+    return dot3(a->normal, b->normal) > (guessed ? FIELD_SAME_WAY_BAKED : FIELD_SAME_WAY);
+}
 
 /* Of the obstacles that a point is in, the surface that is nearest, walls of the domain first: where they overlap too far for field_faces(). False: it is in none. */
 bool field_surface(const Near *near, const double point[3], Face *face);

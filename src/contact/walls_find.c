@@ -276,27 +276,32 @@ typedef struct Image {
     bool before; /* only nodes before all faces count */
 } Image;
 
+/* How far [cells] beside a node is on it. Weights that are less are not worth a place. */
+static const double ON_NODE = 1e-6;
+
 /* Adds the nodes around an image to the corners, by multilinear weights times its own. `distance`: their mean distances from the faces of `profile`. False: there are
  * none. */
 static bool add_corners(Builder *b, const Bound *bound, const Image *image, const Profile *profile, int count, double distance[NORMALS_MAX])
 {
     Walls *walls = b->walls;
-    const int dimension = b->frame->grid->dimension, corners = 1 << dimension;
+    const int dimension = b->frame->grid->dimension;
     int64_t node[CORNERS_MAX];
-    double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, low[3] = {0}, part[3] = {0};
+    int low[3] = {0}, corners = 1 << dimension;
+    double share[CORNERS_MAX], off[CORNERS_MAX][NORMALS_MAX], sum = 0.0, part[3] = {0};
     for (int a = 0; a < dimension; a++) {
-        low[a] = floor(image->way[a] + 1e-6);
+        low[a] = (int)field_whole(image->way[a] + ON_NODE);
         part[a] = fmax(image->way[a] - low[a], 0.0);
     }
+    if (part[0] <= ON_NODE && part[1] <= ON_NODE && part[2] <= ON_NODE) corners = 1; /* as at walls that lie on nodes */
     for (int k = 0; k < corners; k++) {
         int offset[3] = {0};
         double of_corner = 1.0;
         share[k] = 0.0;
         for (int a = 0; a < dimension; a++) {
-            offset[a] = (int)low[a] + (k >> a & 1);
+            offset[a] = low[a] + (k >> a & 1);
             of_corner *= k >> a & 1 ? part[a] : 1.0 - part[a];
         }
-        if (of_corner <= 1e-6) continue;
+        if (of_corner <= ON_NODE) continue;
         node[k] = grid_node_beside(b->frame->grid, bound->block, bound->local, offset);
         if (node[k] == GRID_NOWHERE) continue;
         const Bound *other = bound_at(b, node[k]);
@@ -382,7 +387,7 @@ static void way_out(const Profile *profile, int count, double way[3])
     for (int k = 0; k < count * count; k++) {
         const Profile *p = &profile[k % count];
         const double distance = p->distance + dot3(way, p->normal);
-        for (int a = 0; a < 3 && distance < WET_CLEAR; a++) way[a] += ceil(0.5 - distance - 1e-6) * p->normal[a];
+        for (int a = 0; a < 3 && distance < WET_CLEAR; a++) way[a] -= field_whole(distance - 0.5 + ON_NODE) * p->normal[a];
     }
 }
 
@@ -418,9 +423,6 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){columns_of(matrix), index, corner_begin, b->walls->corners};
 }
 
-/* Weights that are not worth a place. */
-static const double LITTLE = 1e-6;
-
 /* The density is mirrored in each face by its share. */
 static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count)
 {
@@ -428,7 +430,7 @@ static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Pr
     double unused[NORMALS_MAX];
     for (int set = 0; set < 1 << count; set++) {
         Image image = {.weight = share_of_set(profile, count, set)};
-        if (image.weight < LITTLE) continue;
+        if (image.weight < ON_NODE) continue;
         const uint32_t corner_begin = walls->corners;
         mirror(profile, count, set, image.way);
         if (set == 0 || !add_corners(b, bound, &image, profile, count, unused)) {

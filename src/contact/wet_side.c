@@ -14,7 +14,7 @@ static float wetness(const WetSite *site, const Face *face)
     float most = 0.0f;
     for (double before = 0.6; before < 1.5; before += 0.8) {
         int way[3];
-        for (int a = 0; a < 3; a++) way[a] = (int)floor((before - face->distance) * face->normal[a] + 0.5);
+        for (int a = 0; a < 3; a++) way[a] = (int)field_whole((before - face->distance) * face->normal[a] + 0.5);
         const int64_t there = grid_node_beside(grid, site->block, site->local, way);
         if (there >= 0) most = fmaxf(most, node[there * K_NODE_WIDTH + 3]);
     }
