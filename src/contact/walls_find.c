@@ -169,7 +169,8 @@ static Turn turn_of(const Builder *b, const Bound *bound)
     }
     for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
     length = sqrt(length);
-    for (int a = 0; a < 3; a++) turn.normal[a] = length > 0.5 ? slope[a] / length : face->normal[a];
+    const double inverse = length > 0.5 ? 1.0 / length : 0.0;
+    for (int a = 0; a < 3; a++) turn.normal[a] = length > 0.5 ? slope[a] * inverse : face->normal[a];
     return turn;
 }
 
@@ -219,7 +220,8 @@ static bool make_upright(Profile *profile, int i)
     }
     const double length = sqrt(dot3(axis, axis));
     if (length < LEAST_TURN) return false;
-    for (int a = 0; a < 3; a++) axis[a] /= length;
+    const double inverse = 1.0 / length;
+    for (int a = 0; a < 3; a++) axis[a] *= inverse;
     return true;
 }
 
@@ -324,8 +326,9 @@ static bool add_corners(Builder *b, const Bound *bound, const Image *image, cons
     for (int j = 0; j < count; j++) distance[j] = 0.0;
     for (int k = 0; k < corners; k++) {
         if (share[k] == 0.0) continue;
-        for (int j = 0; j < count; j++) distance[j] += share[k] / sum * off[k][j];
-        ((WallCorner *)walls->corner.data)[walls->corners++] = (WallCorner){listed(b, node[k]), (float)(image->weight * share[k] / sum)};
+        const double weight = share[k] / sum;
+        for (int j = 0; j < count; j++) distance[j] += weight * off[k][j];
+        ((WallCorner *)walls->corner.data)[walls->corners++] = (WallCorner){listed(b, node[k]), (float)(image->weight * weight)};
     }
     return true;
 }

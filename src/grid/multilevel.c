@@ -188,58 +188,68 @@ typedef struct TransferJob {
 
 /* What follows is written once for any width and compiled for each of the two that there are. */
 
-/* The part of the halo that a child fills along one axis: the one below lends its last node. */
+/* A block is summed from HALO finer nodes per axis: the last one of the child below, then all of the next two. First along the third axis, then along the second,
+ * whole lines of all three children at once; of the child below only the last node counts. */
+enum { LINE = 3 * K_BLOCK_AXIS, UNUSED = K_BLOCK_AXIS - 1 };
+
+/* The nodes of a child along one axis: the first that is in the halo, where it is there, and how many are. */
 typedef struct Part {
     int from, to, size;
 } Part;
 
 static const Part part_of[3] = {{K_BLOCK_AXIS - 1, 0, 1}, {0, 1, K_BLOCK_AXIS}, {0, 1 + K_BLOCK_AXIS, K_BLOCK_AXIS}};
 
-/* Shortens a line of the halo to K_BLOCK_AXIS elements of `width` floats: the last one of the child below, then all of the next two. */
-static inline void sum_line(const float *below, const float *left, const float *right, float *restrict to, int width)
+/* Sums the three children that are neighbours along the third axis to the lines of K_BLOCK_AXIS planes. */
+static inline void sum_children(const float *const child[3], Part y, float *restrict lines, int width)
 {
-    const float *before[K_BLOCK_AXIS] = {below + 3 * width, left + width, left + 3 * width, right + width};
-    const float *at[K_BLOCK_AXIS] = {left, left + 2 * width, right, right + 2 * width};
-    const float *behind[K_BLOCK_AXIS] = {left + width, left + 3 * width, right + width, right + 3 * width};
-    for (int j = 0; j < K_BLOCK_AXIS; j++)
-        for (int c = 0; c < width; c++) to[j * width + c] = 0.5f * (before[j][c] + behind[j][c]) + at[j][c];
+    const int length = K_BLOCK_AXIS * width, stride = LINE * width;
+    const float *plane[HALO];
+    for (int n = 0; n < 3; n++)
+        for (int k = 0; k < part_of[n].size; k++) plane[part_of[n].to + k] = child[n] + ((part_of[n].from + k) * K_BLOCK_AXIS + y.from) * length;
+    for (int k = 0; k < K_BLOCK_AXIS; k++) {
+        const float *before = plane[2 * k], *at = plane[2 * k + 1], *behind = plane[2 * k + 2];
+        float *restrict to = lines + (k * HALO + y.to) * stride;
+        for (int j = 0; j < y.size; j++)
+            for (int i = 0; i < length; i++) to[j * stride + i] = 0.5f * (before[j * length + i] + behind[j * length + i]) + at[j * length + i];
+    }
 }
 
-/* The lines through three children that are neighbours along x. */
-static inline void sum_children(const TransferJob *job, const int32_t child[3], Part y, Part z, float *flat, int width)
+static inline void copy_child(const float *child, Part y, float *restrict lines, int width)
 {
-    static const float none[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
-    const size_t floats = (size_t)(job->m->block_cells * width);
-    const float *of[3];
-    for (int n = 0; n < 3; n++) of[n] = child[n] < 0 ? none : job->from + (size_t)child[n] * floats;
-    for (int k = 0; k < z.size; k++)
-        for (int j = 0; j < y.size; j++) {
-            const int from = ((z.from + k) * K_BLOCK_AXIS + y.from + j) * K_BLOCK_AXIS * width;
-            float *to = flat + ((z.to + k) * HALO + y.to + j) * K_BLOCK_AXIS * width;
-            sum_line(of[0] + from, of[1] + from, of[2] + from, to, width);
-        }
+    const int length = K_BLOCK_AXIS * width, stride = LINE * width;
+    for (int j = 0; j < y.size; j++)
+        for (int i = 0; i < length; i++) lines[(y.to + j) * stride + i] = child[(y.from + j) * length + i];
 }
 
-/* Shortens one axis: `lines` lines of HALO elements become lines of K_BLOCK_AXIS. An element has `width` floats. */
-static inline void sum_axis(const float *restrict from, float *restrict to, int lines, int width)
+/* From HALO elements of `size` floats to K_BLOCK_AXIS. */
+static inline void sum_axis(const float *restrict from, float *restrict to, int size)
 {
-    for (int line = 0; line < lines; line++)
-        for (int j = 0; j < K_BLOCK_AXIS; j++) {
-            const float *f = from + (line * HALO + 2 * j) * width;
-            float *t = to + (line * K_BLOCK_AXIS + j) * width;
-            for (int c = 0; c < width; c++) t[c] = 0.5f * (f[c] + f[2 * width + c]) + f[width + c];
-        }
+    for (int j = 0; j < K_BLOCK_AXIS; j++) {
+        const float *f = from + 2 * j * size;
+        for (int c = 0; c < size; c++) to[j * size + c] = 0.5f * (f[c] + f[2 * size + c]) + f[size + c];
+    }
 }
 
 static inline void restrict_block(const TransferJob *job, int32_t block, int width)
 {
+    static const float none[K_BLOCK_AXIS * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
     const bool deep = job->m->dimension == 3;
-    float flat[HALO * HALO * K_BLOCK_AXIS * W], thin[HALO * K_BLOCK_AXIS * K_BLOCK_AXIS * W];
-    float *to = job->to + (size_t)block * (size_t)(job->m->block_cells * width);
+    const int floats = job->m->block_cells * width;
     const int32_t *child = (const int32_t *)job->level->child.data + block * children_of(job->m);
-    for (int n = 0; n < children_of(job->m); n += 3) sum_children(job, child + n, part_of[n / 3 % 3], deep ? part_of[n / 9] : (Part){0, 0, 1}, flat, width);
-    sum_axis(flat, deep ? thin : to, deep ? HALO : 1, K_BLOCK_AXIS * width);
-    if (deep) sum_axis(thin, to, 1, K_BLOCK_AXIS * K_BLOCK_AXIS * width);
+    float lines[K_BLOCK_AXIS * HALO * LINE * W], flat[K_BLOCK_AXIS * LINE * W], *to = job->to + (ptrdiff_t)block * floats;
+    for (int n = 0; n < 9; n++) {
+        const float *of[3] = {none, none, none};
+        for (int z = 0; z < (deep ? 3 : 1); z++)
+            if (child[9 * z + n] >= 0) of[z] = job->from + (ptrdiff_t)child[9 * z + n] * floats;
+        if (deep)
+            sum_children(of, part_of[n / 3], lines + n % 3 * K_BLOCK_AXIS * width, width);
+        else
+            copy_child(of[0], part_of[n / 3], lines + n % 3 * K_BLOCK_AXIS * width, width);
+    }
+    for (int k = 0; k < (deep ? K_BLOCK_AXIS : 1); k++) {
+        sum_axis(lines + k * HALO * LINE * width, flat, LINE * width);
+        for (int j = 0; j < K_BLOCK_AXIS; j++) sum_axis(flat + (j * LINE + UNUSED) * width, to + (k * K_BLOCK_AXIS + j) * K_BLOCK_AXIS * width, width);
+    }
 }
 
 static void scale_block(const TransferJob *job, int32_t block)

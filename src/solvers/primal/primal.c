@@ -609,8 +609,8 @@ static void write_motion(Primal *p, int32_t block, size_t begin, size_t end, dou
 {
     (void)block;
     (void)sum;
-    for (size_t i = begin; i < end; i++)
-        if (i % W != 3) p->node[i] = p->best[i];
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = i; c < i + 3; c++) p->node[c] = p->best[c];
 }
 
 /* First displacements: those of the predictor, or for a solid body that leans on something, without what gravity and forces add in the
