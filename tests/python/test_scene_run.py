@@ -18,6 +18,7 @@ from pbmpm.lab.errors import InputError
 from pbmpm.lab.scenes.preset import Preset, PresetSettings, load_preset, save_preset
 from pbmpm.lab.parsing import parse_scene
 from pbmpm.lab.simulation import RunSettings, Simulation
+from pbmpm.settings import DEFAULTS
 
 SCENE: dict[str, Any] = {
     "format": "pbmpm-scene",
@@ -129,7 +130,7 @@ def test_files(scene_file: Path, tmp_path: Path) -> None:
     assert [entry["time"] for entry in sidecar["frames"]] == pytest.approx([0, 1 / 6, 1 / 3, 0.5])
     assert sidecar["scene"]["name"] == "small" and sidecar["seeds"] == [1, 1]
     assert sidecar["materials"] == ["water", "jelly"]
-    assert sidecar["settings"].items() >= {"rate_hz": 60, "substeps": 1, "iterations": 3, "solver": "convergent"}.items()
+    assert sidecar["settings"].items() >= {"rate_hz": 60, "substeps": 1, "iterations": 3, "solver": DEFAULTS.solver.name.lower()}.items()
 
 
 def test_identities_last_over_a_run(scene_file: Path, tmp_path: Path) -> None:
