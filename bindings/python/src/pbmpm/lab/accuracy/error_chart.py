@@ -63,12 +63,18 @@ def _error_panel(axes: Axes, report: CaseReport, measure: ErrorMeasure) -> None:
     if shown[0] <= REAL_TIME_MS <= shown[1]:
         axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time")
     axes.set(xscale="log", yscale="log", xlim=shown, title=f"{name}, {measure.kind}", xlabel="ms per simulated second")
+    axes.xaxis.set_major_formatter(_plain)
+    axes.xaxis.set_minor_formatter(lambda value, place: _plain(value, place) if f"{value:e}"[0] in "25" else "")
     axes.set_ylabel(f"error [{measure.unit}]")
     if measure.unit == "%":
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
         axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}" if f"{value:e}"[0] in "25" else ""))
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
+
+
+def _plain(value: float, _: object) -> str:
+    return f"{value:g}"
 
 
 def _curve_panel(axes: Axes, report: CaseReport, panel: CurvePanel) -> None:
