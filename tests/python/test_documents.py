@@ -87,3 +87,30 @@ def test_sentences_are_short(path: Path) -> None:
 def test_the_page_of_constants_is_current() -> None:
     done = subprocess.run([sys.executable, str(ROOT / "tests" / "mutants" / "constants.py"), "--check"], check=False)
     assert done.returncode == 0, "run: python3 tests/mutants/constants.py"
+
+
+def named_after(command: str, text: str) -> set[str]:
+    """The names that follow a command wherever it stands in code, up to its options."""
+    found = [re.match(rf"[\w./ ]*{command}((?: \w[\w-]*)*)", " ".join(code.split())) for code in re.findall(r"`([^`]*)`", text)]
+    return {name for match in found if match for name in match[1].split()}
+
+
+@pytest.mark.parametrize("path", DOCUMENTS, ids=NAMES)
+def test_cases_that_commands_name_exist(path: Path) -> None:
+    from pbmpm.lab.accuracy.registry import all_cases
+    from pbmpm.lab.stability.cases import CASES
+
+    text = path.read_text(encoding="utf-8")
+    rooms = {room: (ROOT / "tests" / "field" / f"{room}.py").read_text(encoding="utf-8") for room in ("water", "solids", "sand", "mixed")}
+    field = {*rooms, *(name for room in rooms.values() for name in re.findall(r"^def ([a-z]\w*)", room, re.MULTILINE))}
+    known = {r"tests/field/run\.py": field, "accuracy": {case.name for case in all_cases()}, "stability": {case.id for case in CASES}}
+    for command, names in known.items():
+        assert sorted(name for name in named_after(command, text) - names if not name.isupper() or name[0] == "H") == []  # CASE stands for any
+
+
+def test_names_after_a_command() -> None:
+    """The test above sees names over line ends, with and without a path, and stops at options."""
+    text = "`build/venv/bin/python tests/field/run.py\n  still_pool trough --settings 60x5` and `pbmpm stability H03 H08 --dims 2`"
+    assert named_after(r"tests/field/run\.py", text) == {"still_pool", "trough"}
+    assert named_after("stability", text) == {"H03", "H08"}
+    assert named_after("accuracy", text) == set()
