@@ -1,4 +1,4 @@
-/* pbmpm: what the present scene and settings will not hold, what would help, and what that costs. */
+/* pbmpm: what will go wrong with the present scene and settings, what would help, and what that costs. */
 #ifndef PBMPM_ADVICE_H
 #define PBMPM_ADVICE_H
 
@@ -19,12 +19,12 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three */
-    PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed. By its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and beside liquid; else its mean
-                                            strain. Where it lands: figure its speed there [cells per substep]; the text tells which */
+    PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, by its weight or where it lands; the text tells which. Figure of the weight: g dt^2 depth / dx^2, dt the substep's, with the
+                                            dual solver and beside liquid; else its mean strain. Figure where it lands: its speed there [cells per substep] */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
-    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces: with the dual solver, and where bodies hit each other. Figure: how many substeps the contact of a ball as
-                                            thick as the body lasts (Hertz's theory) */
+    PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
+                                            ball lasts (Hertz's theory) */
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
@@ -56,7 +56,7 @@ typedef enum pbmpm_change {
     PBMPM_CHANGE_FORCE32 = 0x7fffffff
 } pbmpm_change;
 
-/** One thing that the present scene and settings do not hold. */
+/** One thing that goes wrong with the present scene and settings. */
 typedef struct pbmpm_advice {
     uint32_t size;               /**< sizeof(pbmpm_advice); set by the caller in the first element of an array */
     pbmpm_advice_code code;      /**< what */
@@ -71,12 +71,12 @@ typedef struct pbmpm_advice {
     const char *text;            /**< one sentence, constant, valid as long as the library; never null */
 } pbmpm_advice;
 
-/** What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
+/** What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. Also what came true in the steps so far. Changes nothing.
  *  What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
  *
  *  Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
- *  capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
- *  step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
+ *  capacity is 0; otherwise array[0].size must be set. Costs about half a step of five iterations, and only when called.
+ *  It takes memory to sort cells, and gives it back.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
  *  Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_advice(pbmpm_world_id world, float dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count);

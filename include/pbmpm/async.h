@@ -9,12 +9,12 @@
 extern "C" {
 #endif
 
-/* A step that was begun runs on a thread of the world's own, which shares its work with the world's threads or task hooks.
+/* A step that was begun runs on a thread of the world's own. That thread shares its work with the world's threads or task hooks.
  *
  * If the hooks nest (base.h) it is a task of the host instead, and the world has no such thread. pbmpm_world_step_begin() enqueues one task. That
  * task calls `enqueue` and `finish` for others. The thread in pbmpm_world_step_end() or pbmpm_world_destroy() calls `finish` for the first task.
  *
- * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until an end gives another
+ * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until pbmpm_world_step_end() gives another
  * result than BUSY the world takes these calls only, and answers all others with BUSY:
  *
  *   pbmpm_world_step_end()        waits, or ends the step if it is done;
@@ -34,7 +34,7 @@ extern "C" {
  * some milliseconds for a million particles.
  *
  * A published state stays readable for a renderer that is a frame late. Two sets of memory take turns. So a view of the state
- * that begin number n published stays whole, bit for bit, until begin number n + 2, or until the world is destroyed. Any thread may read it.
+ * that begin number n published stays whole until begin number n + 2. Destroying the world ends it, too. Any thread may read it.
  * When pbmpm_world_generation() has moved on, there is a newer state, and this one is still whole. A frame loop:
  *
  *   pbmpm_world_step_begin();          the state of now is published
@@ -45,15 +45,15 @@ extern "C" {
  * fields that are published unless told otherwise. It is taken by the first begin and kept, as is a thread. A world that never
  * begins a step has neither.
  *
- * The step calls the allocator, the task hooks and the log callback, in the floating-point mode of the thread that began it. One
+ * The step calls the allocator, the task hooks and the log callback. It does so in the floating-point mode of the thread that began it. One
  * thread at a time calls the allocator of a world. The same holds for its hooks, except that a thread may wait in `finish` for the step
  * itself. Threads of the library block all signals but faults.
  * After a fork a step, in the background or not, goes on in the parent. The child cannot know how far it was: there, destroying the
  * world gives no memory back. */
 
 /** Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
- *  MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
- *  memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+ *  MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) costs memory, too, though it cannot be
+ *  viewed. Takes effect, and memory, with the next pbmpm_world_step_begin().
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_world_publish(pbmpm_world_id world, const pbmpm_field *fields, uint32_t count);
 

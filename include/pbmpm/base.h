@@ -27,9 +27,9 @@ extern "C" {
 /* Threads. Any thread may call; different worlds know nothing of each other.
  *
  * Calls that only read share a world: any number of threads make them at once, and each gets what it would have got alone. They are
- *   those whose name has query, get, count, find, view, copy, impulse or is_valid,
- *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done(),
- *   pbmpm_world_debug_lines(), pbmpm_shape_mass(), pbmpm_rigid_begin(),
+ *   those whose name has query, get, count, find, view, copy, impulse or is_valid;
+ *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done();
+ *   pbmpm_world_debug_lines(), pbmpm_shape_mass(), pbmpm_rigid_begin();
  *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
  * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
  * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
@@ -62,7 +62,7 @@ PBMPM_API const char *pbmpm_result_name(pbmpm_result result);
 PBMPM_API const char *pbmpm_last_error(void);
 
 /** Identifiers are values of 8 bytes. All zero means "none". A generation is never used twice in a process (short
- *  of 2^32 objects), so a stale identifier or one of another world is refused and never mistaken for a live one. */
+ *  of 2^32 objects). So a stale identifier, or one of another world, is refused. */
 typedef struct pbmpm_world_id {
     uint32_t index;
     uint32_t generation;
@@ -94,16 +94,16 @@ typedef enum pbmpm_log_level {
     PBMPM_LOG_LEVEL_FORCE32 = 0x7fffffff
 } pbmpm_log_level;
 
-/** Receives one line per notable happening. May come from any thread that calls the
- *  library and from a step in the background, from several at once, never from a worker; must not call the library. */
+/** Receives one line per notable happening. Any thread that calls the library may call it, and a step in the background; several at once, too.
+ *  Workers never do. It must not call the library. */
 typedef void pbmpm_log_callback(pbmpm_log_level level, const char *message, void *user);
 
 /** Sets (or, with null, removes) the process-wide log callback. Any thread; not while another thread is inside the
  *  library. Bindings need not use it: everything it says can also be polled. */
 PBMPM_API pbmpm_result pbmpm_set_log_callback(pbmpm_log_callback *callback, void *user);
 
-/** Told of something inside of the library that does not hold: the condition, and where in its sources it stands. It returns 0 if the call is
- *  to go on, though its results mean nothing; with another number abort() is called. May come from any thread, workers too, from several at once; must
+/** Called where an assertion inside the library fails: with the condition, and its place in the sources. It returns 0 if the call is
+ *  to go on, though its results mean nothing; with another number abort() is called. Any thread may call it, workers too, and several at once. It must
  *  not call the library. */
 typedef int32_t pbmpm_assert_callback(const char *condition, const char *file, int32_t line, void *user);
 
@@ -125,15 +125,15 @@ typedef struct pbmpm_allocator {
 /** One share of parallel work; `index` counts from 0. */
 typedef void pbmpm_task(int32_t index, void *context);
 
-/** Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
- *  once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
- *  of them have returned. Read at the creation of a world.
+/** Lets the host's job system run the library's parallel work. `enqueue` shall have task(i, context) called
+ *  once for each i in [0, count), on any threads, in any order. It returns a handle. `finish` returns when all
+ *  of these calls have returned. Read at the creation of a world.
  *
  *  Tasks of one handle may wait for each other, for some milliseconds at most. While they wait they yield their core. None waits for a task that
  *  has not begun, so a host may also run them one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
  *  `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
  *
- *  A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
+ *  A substep of 5 iterations enqueues some 10 times with the paper's solver. With the dual it is 30, per group of islands. Loops of less than
  *  some 40 microseconds run on the caller.
  *
  *  One call at a time uses the hooks of a world; other calls that read the world meanwhile work on their own thread alone. There is one exception: the
@@ -146,8 +146,8 @@ typedef struct pbmpm_task_hooks {
     void *user;                                                                   /**< passed on unchanged */
 } pbmpm_task_hooks;
 
-/** Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
- *  it, lowers the choice (never raises it). */
+/** Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
+ *  read at the first call that needs it. */
 typedef enum pbmpm_isa {
     PBMPM_ISA_NONE = 0, /**< the CPU is not supported */
     PBMPM_ISA_SSE4 = 1,
@@ -171,7 +171,7 @@ PBMPM_API const char *pbmpm_isa_name(pbmpm_isa isa);
 /** 1 if this library was built with the CMake option PBMPM_STRICT: the same results with every instruction set, bit for bit; else 0. Any thread. */
 PBMPM_API int32_t pbmpm_build_is_strict(void);
 
-/** One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
+/** One line of the library's own table of layouts: a field of a public structure. With an empty field name it is the
  *  structure itself (offset 0, size of the whole). This structure and the identifiers never grow. */
 typedef struct pbmpm_layout_entry {
     const char *structure; /**< never null */
@@ -184,8 +184,8 @@ typedef struct pbmpm_layout_entry {
  *  mirror when it loads. The table is constant and lives as long as the library. Any thread. */
 PBMPM_API pbmpm_result pbmpm_layout_table(const pbmpm_layout_entry **entries, uint32_t *count);
 
-/** Destroys all worlds and joins all threads of the library. For hosts that unload the library: unloading alone does
- *  the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may
+/** Destroys all worlds and joins all threads of the library. For hosts that unload the library. Unloading alone does
+ *  the same, but leaks the memory of worlds with a host's allocator: that may be gone by then. No other call may
  *  be under way. Afterwards the library may be used again. */
 PBMPM_API pbmpm_result pbmpm_shutdown(void);
 

@@ -29,11 +29,9 @@ typedef struct pbmpm_collider_def {
     float friction_coefficient; /**< Coulomb coefficient, in [0, 100]; default 0.2 */
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
-    uint32_t meets;             /**< groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
-                                     one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-                                     pbmpm_collider_submerged() go by it, too; queries do not. But a node has one velocity. So matter that
-                                     passes is slowed within some 2.5 cells of matter that is held; within 1.5 cells it is held too.
-                                     This parts bodies from liquid, but not one liquid from another. */
+    uint32_t meets;             /**< bits of `groups` of the materials that it acts on; 0 (default): all. Other matter passes as if it were not there.
+                                     Fills, emitters, touches and pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes
+                                     is slowed within 2.5 cells of matter that is held, see docs/limits.md. */
     uint64_t key;       /**< how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
                              see snapshot.h */
     uint64_t user_data; /**< the host's own; the library only keeps it; default 0 */
@@ -52,7 +50,7 @@ PBMPM_API pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_c
 /** Takes an obstacle away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider);
 
-/** Whether an identifier is that of a collider of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of a collider of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_collider_is_valid(pbmpm_world_id world, pbmpm_collider_id collider, int32_t *valid);
 
@@ -134,7 +132,7 @@ typedef struct pbmpm_touch {
 
 /** Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
  *  that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
- *  seen, nor the end of the touches of a destroyed collider.
+ *  seen. Nor is the end of the touches of a destroyed collider.
  *  *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
  *  `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY. */

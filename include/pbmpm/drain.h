@@ -47,7 +47,7 @@ PBMPM_API pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drai
 /** Takes a drain away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain);
 
-/** Whether an identifier is that of a drain of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of a drain of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_drain_is_valid(pbmpm_world_id world, pbmpm_drain_id drain, int32_t *valid);
 
@@ -64,9 +64,8 @@ PBMPM_API pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drai
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_status *status);
 
-/** Matter that falls for ever keeps its capacity and costs time: these bounds take it out.
- *  The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
- *  PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls. */
+/** The box that particles live in. Those outside at the end of a substep are taken out, with one
+ *  PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls. Without it matter that falls for ever keeps its capacity and costs time. */
 typedef struct pbmpm_kill_bounds {
     uint32_t size;   /**< sizeof(pbmpm_kill_bounds), set by pbmpm_kill_bounds_init() */
     int32_t enabled; /**< 0 (default): no bounds; 1: bounds */

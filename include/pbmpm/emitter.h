@@ -29,14 +29,14 @@ typedef enum pbmpm_emitter_region {
 
 /** A source of particles. Fill it with pbmpm_emitter_def_init(), then change what differs.
  *
- *  With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
- *  (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
+ *  Let V be the rest volume of a particle, (cell_size / particles_per_axis)^d. The i-th particle (from 0) is due at the time
+ *  (i + 1/2) V / rate after the emitter began. So after a time T, T rate / V +- 1/2 particles were due, whatever the substeps.
  *  A particle appears at the end of the substep in which it is due. It is then where gravity has taken it since it was due, with the velocity of
  *  that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
  *  Places follow a sequence that fills the region evenly.
  *
- *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, when it would
- *  fill more than this share of a space that obstacles enclose around the emitter (up to about four cells away), when the budget is spent, or when
+ *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. So it is when it would
+ *  fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. It is refused, too, when the budget is spent or
  *  the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
 typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
@@ -85,7 +85,7 @@ PBMPM_API pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_em
 /** Takes an emitter away; its particles stay. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitter);
 
-/** Whether an identifier is that of an emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of an emitter of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_emitter_is_valid(pbmpm_world_id world, pbmpm_emitter_id emitter, int32_t *valid);
 
@@ -97,7 +97,7 @@ PBMPM_API pbmpm_result pbmpm_world_get_emitters(pbmpm_world_id world, pbmpm_emit
  *  UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def, pbmpm_shape *shape);
 
-/** Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
+/** Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The counts are kept, and so is the fraction of a particle that was due. A new pose is taken at once.
  *  Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY. */
 PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, const pbmpm_emitter_def *def,
                                          const pbmpm_shape *shape);

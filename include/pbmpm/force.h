@@ -43,11 +43,11 @@ typedef enum pbmpm_falloff {
 
 /** A force. Fill it with pbmpm_force_def_init(), then change what differs.
  *
- *  Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles, and only on blocks in range.
- *  A node with the velocity v after the transfer feels the sum a of gravity and of all accelerations, and the sum k of all drags
- *  with the mean w of their winds weighted by k. Its velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
+ *  Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. They act on blocks in range only.
+ *  Let v be a node's velocity after the transfer. a is the sum of gravity and all accelerations. k is that of all drags,
+ *  and w the mean of their winds, weighted by k. The velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
  *      v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
- *  so drag is stable for any k and dt, falling matter ends at exactly w + a / k, and the order of forces does not matter.
+ *  So drag is stable for any k and dt, and falling matter ends at exactly w + a / k. The order of forces does not matter.
  *  The impulse of each force is what it adds to the momentum of the nodes, see pbmpm_force_status. */
 typedef struct pbmpm_force_def {
     uint32_t size;         /**< sizeof(pbmpm_force_def), set by pbmpm_force_def_init() */
@@ -82,7 +82,7 @@ PBMPM_API pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_forc
 /** Takes a force away. Errors: INVALID_ID, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force);
 
-/** Whether an identifier is that of a force of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of a force of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_force_is_valid(pbmpm_world_id world, pbmpm_force_id force, int32_t *valid);
 

@@ -1,4 +1,4 @@
-/* pbmpm: materials.
+/* pbmpm: materials. J is volume over rest volume, F the deformation gradient. d is the dimension, N settings.iterations, dx the cell size, dt a substep.
  * Method: C. Lewin, "A Position Based Material Point Method", SIGGRAPH 2024 Talks, doi 10.1145/3641233.3664323. */
 #ifndef PBMPM_MATERIAL_H
 #define PBMPM_MATERIAL_H
@@ -25,12 +25,12 @@ typedef enum pbmpm_material_kind {
 /** What happens to an elastic particle that is strained beyond all measure. */
 typedef enum pbmpm_strain_policy {
     PBMPM_STRAIN_CLAMP = 0,  /**< singular values of F are kept in [strain_min, strain_max] */
-    PBMPM_STRAIN_DELETE = 1, /**< deleted, with an event, when the condition number of F exceeds condition_max (the paper's
-                                     rule), when F is a reflection, or when it stretches by 10,000 */
+    PBMPM_STRAIN_DELETE = 1, /**< deleted, with an event: when F has a condition number above condition_max (the paper's
+                                     rule), is a reflection, or stretches by 10,000 */
     PBMPM_STRAIN_POLICY_FORCE32 = 0x7fffffff
 } pbmpm_strain_policy;
 
-/** How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
+/** How the stress of an elastic body follows from F. Here mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
  *  Not used by the paper's solver; the dual solver takes every body as fixed corotated. */
 typedef enum pbmpm_elastic_model {
     PBMPM_FIXED_COROTATED = 0, /**< energy mu |F - R|^2 + lambda/2 (J - 1)^2, R the rotation of F */
@@ -39,32 +39,14 @@ typedef enum pbmpm_elastic_model {
     PBMPM_ELASTIC_MODEL_FORCE32 = 0x7fffffff
 } pbmpm_elastic_model;
 
-/** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
- *  Crushed liquid grows back no faster than the pressure of three times the matter's height, and of its motion, would let it. Where the grid
- *  holds more than 1.5 times the rest volume, J is at most what there is room for. Particles there are moved apart by up to 1/40 cell per
- *  substep, unless volume_feedback is 0. With the primal solver such liquid spreads no faster than its speed of sound.
+/** Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs. What solvers do with them: docs/method.md, "Matter".
  *
- *  Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
- *  takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
- *  Plastic flow happens once per substep; each iteration only bounds the stress. The primal solver takes the friction of sand
- *  from the pressure at the start of the substep. The yield limit is a strain. So visco yields at a lower stress where the iterations do not
- *  reach its modulus: see pbmpm_material_effective().
+ *  Sand and visco are elastic bodies with one more law. What is said of elastic ones holds for them, except elastic_model. Their elasticity_ratio is
+ *  at least 0.01.
  *
- *  With the dual solver sand keeps its stress from substep to substep. Its pressure resists compression with the bulk modulus. J follows the grid by
- *  volume_feedback, as a liquid's does. Compressed sand recovers a tenth of what is missing per 1/60 s. Deep sand takes up to 16 more iterations.
- *  With the convergent solver sand begins at rest, with the primal. It flows, with the dual, once some of it moves at half the speed of a fall through a
- *  cell, or for 0.3 s at 0.3 % of it. It rests once all of it was slower than 7 % of that speed for 0.3 s, and no more than 3 % of its volume is missing.
- *
- *  Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
- *  artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
- *
- *  The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
- *  The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
- *  the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
- *  density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
- *  from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once.
- *
- *  Particles of solids spin by at most 60 degrees per substep, with every solver: faster ones, which only fly by themselves, are slowed to that. */
+ *  With the paper's solver stiffness is no parameter: it follows from the rate. A liquid acts with the bulk modulus
+ *  density * relaxation * N * dx^2 / (4 d dt^2). An elastic body acts with the Young modulus density * relaxation * N * dx^2 / (4 dt^2).
+ *  The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio. All solvers take kinematic_viscosity. */
 typedef struct pbmpm_material_def {
     uint32_t size;              /**< sizeof(pbmpm_material_def), set by pbmpm_material_def_init() */
     pbmpm_material_kind kind;   /**< default PBMPM_LIQUID; cannot be changed later */
@@ -86,16 +68,16 @@ typedef struct pbmpm_material_def {
     float bulk_modulus;         /**< liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
                                      (default): incompressible */
     float kinematic_viscosity;  /**< liquid: nu [m^2/s], in [0, 1e6]; default 0. The paper's solver adds a share of 8 nu dt / (N dx^2) to
-                                     `viscosity`, and together they are at most 1: nu up to N dx^2 / (8 dt) */
+                                     `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt) */
     pbmpm_elastic_model elastic_model; /**< elastic, not the paper's solver; default PBMPM_FIXED_COROTATED */
     float young_modulus;        /**< elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5 */
     float poisson_ratio;        /**< elastic, not the paper's solver: nu, in [0, 0.495]; default 0.3 */
     float friction_angle;       /**< sand: phi [rad], in [0, 1.4]; default pi/6; tan(phi) is the friction coefficient. Mohr and Coulomb's law in 2D and
                                      3D: a shear stress is at most sin(phi) times the mean of the largest and the smallest pressure. */
     float cohesion;             /**< sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry */
-    uint32_t volume_correction; /**< sand: 1 (default): sand that has come apart, up to three times its volume (1.15 times with the dual solver), closes up again before it bears
-                                     pressure; 0: it does not, and a heap grows with each fall */
-    float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
+    uint32_t volume_correction; /**< sand: 1 (default): sand that came apart closes up again before it bears pressure, from up to three times its volume (dual solver: 1.15
+                                     times); 0: it does not, and a heap grows with each fall */
+    float yield_strain;         /**< visco: largest norm of the deviator of the logarithmic strain (ln of the stretches) that it bears, in
                                      [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain. */
     float flow_rate;            /**< visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
                                      Bingham fluid with the viscosity mu / flow_rate [Pa s]. */
@@ -109,13 +91,12 @@ typedef struct pbmpm_material_def {
 /** How stiff a material is with a world's settings and rate. */
 typedef struct pbmpm_effective {
     uint32_t size;       /**< sizeof(pbmpm_effective), set by the caller */
-    float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
+    float bulk_modulus;  /**< [Pa]; 0: incompressible. Paper's solver, liquid: density * relaxation * N * dx^2 / (4 d dt^2); elastic: a third (2D: half)
                               of young_modulus. Other solvers: the material's own. The primal solves an incompressible liquid as a
                               compressible one: then the modulus that it used in the last step. */
-    float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-                              what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: as the
-                              solver of the island that the particles are in now; of several islands the softest. In liquid, a pressure wave
-                              travels at most 4 N cells per substep. */
+    float young_modulus; /**< elastic [Pa]; 0 for a liquid. Paper's solver: density * relaxation * N * dx^2 / (4 dt^2). Dual: the material's own or
+                              what N iterations reach, whichever is less. Primal and explicit: the material's own. Convergent: as the
+                              solver of the island that the particles are in now; of several islands the softest. */
     float kinematic_viscosity; /**< liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
                                     N dx^2 / (8 dt); without what the transfers add */
     float courant;       /**< cells that its pressure wave travels per substep; 0: incompressible. Explicit: must stay below 1. */
@@ -126,7 +107,7 @@ PBMPM_API pbmpm_result pbmpm_material_def_init(pbmpm_material_def *def, size_t s
 
 /** Which kinds of materials this library was built with: bit k (1u << PBMPM_LIQUID, ...) is set for kind k. What the CMake option
  *  PBMPM_MATERIALS leaves out has no kernels in the library, and creating it is refused as UNSUPPORTED. All kinds but liquids
- *  share the code of the deformation gradient, which is left out when none of them is built. Any thread. */
+ *  share the code of the deformation gradient: without any of them it is left out, too. Any thread. */
 PBMPM_API uint32_t pbmpm_materials_built(void);
 
 /** Adds a material to a world. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED (kind or size unknown, or the kind is not built), CAPACITY,
@@ -147,7 +128,7 @@ PBMPM_API pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_i
 /** Removes a material that no particle uses. Errors: INVALID_ID, IN_USE, BUSY. */
 PBMPM_API pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material);
 
-/** Whether an identifier is that of a material of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+/** Whether an identifier is that of a material of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
  *  error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before. */
 PBMPM_API pbmpm_result pbmpm_material_is_valid(pbmpm_world_id world, pbmpm_material_id material, int32_t *valid);
 

@@ -41,13 +41,13 @@ PBMPM_API pbmpm_result pbmpm_fill_def_init(pbmpm_fill_def *def, size_t size);
 
 /** Adds particles. All of them or none. `ids`: null or room for def->count identifiers.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
- *  OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value makes room for user values). */
+ *  OUT_OF_MEMORY: the first particle that is not liquid makes room for F, the first user value for user values. */
 PBMPM_API pbmpm_result pbmpm_particles_add(pbmpm_world_id world, const pbmpm_particles_def *def, pbmpm_particle_id *ids);
 
 /** Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
- *  one lattice cell. Lattice points outside the domain box, or in an obstacle that acts on the material, where it stands now, are left out; with a CAPACITY error nothing is added and `added`
- *  says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
- *  domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
+ *  one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material. With a CAPACITY error nothing is added and `added`
+ *  says how many the shape needs. `added` may be null. Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are
+ *  around the shape in the domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above). */
 PBMPM_API pbmpm_result pbmpm_particles_fill(pbmpm_world_id world, const pbmpm_fill_def *def, const pbmpm_shape *shape, uint32_t *added);
 
 /** Removes particles by identifier. An unknown one: INVALID_ID and nothing is removed. */
@@ -65,9 +65,9 @@ typedef enum pbmpm_field {
     PBMPM_VELOCITY = 1,        /**< d floats [m/s] */
     PBMPM_AFFINE_VELOCITY = 2, /**< d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood */
     PBMPM_VOLUME_RATIO = 3,    /**< 1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step. Sand with the dual or
-                                    the convergent solver: its volume, J, which F does not tell */
+                                    the convergent solver: J, stored beside F */
     PBMPM_DEFORMATION = 4,     /**< d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid. Sand with the
-                                    dual or the convergent solver: the strain that bears its stress; det F its pressure p, as exp(-p / K) */
+                                    dual or the convergent solver: its shape tells the deviator of the stress, det F the pressure p, as exp(-p / K) */
     PBMPM_MATERIAL = 5,        /**< 1 uint32: index of the material's identifier */
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
@@ -79,9 +79,9 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that an
- *  expired view shows is an old or a present one of some particle, or 0; together they are no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
- *  are arbitrary. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows old and present values of
+ *  particles, or 0, in no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+ *  are arbitrary. Publish (async.h) or copy (pbmpm_particles_copy()) what is drawn later, or by another thread. Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {
     uint32_t size;             /**< sizeof(pbmpm_view), set by the caller */
@@ -120,7 +120,7 @@ PBMPM_API pbmpm_result pbmpm_copy_def_init(pbmpm_copy_def *def, size_t size);
  *  velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
  *  are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
  *
- *  A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
+ *  A host that steps at a fixed rate draws between two states: `alpha` is the share of the way to the present one. So motion is even on any display.
  *  Expires no view. While a step runs in the background it copies the published state, see async.h.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
  *  buffer is too small; nothing is written, *count is set); BUSY (also: a field that is not published, while a step runs). */

@@ -9,17 +9,17 @@ extern "C" {
 #endif
 
 /* Queries see the present state, after steps and after edits. They change nothing: no view expires, and no later result depends
- * on them. The first query after a change of the particles goes once over all of them (boxes around 64 neighbours in storage
- * order, and boxes around those); each query then looks only at what is near. That is fastest after a step, which
+ * on them. The first query after a change of the particles goes once over all of them. It puts boxes around 64 neighbours in storage
+ * order, and boxes around those. Each query then looks only at what is near. That is fastest after a step, which
  * stores neighbours side by side. A world takes 1/2 byte per particle for it with the first query. Answers do not depend on
  * the number of threads. Threads may ask at once: the first makes what all need.
  *
- * Fields between particles are sums over the particles p near a point x, with the weight of the solver's transfers,
+ * Fields between particles are sums over the particles p near a point x. The weight is that of the solver's transfers,
  *     W_p(x) = product over the axes a of w((x_a - x_pa) / dx),
  *     w(r) = 3/4 - r^2 for |r| < 1/2;  (3/2 - |r|)^2 / 2 for |r| < 3/2;  0 beyond,
- * and are computed in double precision. Of these the filling is the share of space that matter at rest volume takes,
- *     filling(x) = sum_p V_p W_p(x) / dx^d,    V_p: rest volume,
- * which is about 1 inside matter, 1/2 on its surface, and 0 farther than 3/2 cells from it. Near a wall it lacks what the wall's
+ * and the precision double. One field is the filling, the share of space that matter takes at rest volume.
+ *     filling(x) = sum_p V_p W_p(x) / dx^d,    V_p: rest volume.
+ * It is about 1 inside matter, 1/2 on its surface, and 0 farther than 3/2 cells from it. Near a wall it lacks what the wall's
  * other side would have: it is 1/2 there too. */
 
 /** What one material has in a region. */
@@ -47,9 +47,9 @@ PBMPM_API pbmpm_result pbmpm_query_region(pbmpm_world_id world, const pbmpm_shap
 PBMPM_API pbmpm_result pbmpm_query_points(pbmpm_world_id world, const float *points, uint32_t count, float *filling, float *density,
                                           float *velocity);
 
-/** The highest matter over (or under) points. "Up" is the unit vector u along `direction` (d floats, any length above 1e-6), or, if that
- *  is null, against gravity. On the line through a point x, take the samples x + k dx/4 u for all integers k: the highest one where the
- *  filling reaches `level`, moved up by 12 halvings of the way to the next sample, is the surface. heights[i] is its coordinate
+/** The highest matter over (or under) points. "Up" is the unit vector u along `direction` (d floats, any length above 1e-6). If that
+ *  is null, it is against gravity. On the line through a point x, take the samples x + k dx/4 u for all integers k. The surface is the highest one where the
+ *  filling reaches `level`, moved up by 12 halvings towards the next sample. heights[i] is its coordinate
  *  along u, u . x [m], so with u = +y it is its y; -infinity where the line meets no matter.
  *  `points`: count * d floats [m]; `level`: in (0, 100], 0.5 is the surface.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (also: null direction without gravity), OUT_OF_MEMORY, BUSY, FORKED. */

@@ -5,7 +5,7 @@
  *     pbmpm_rigid_advance(world, collider, &def, &state, dt);
  *     pbmpm_world_step(world, dt);
  *
- * gives the body what matter gave in the last step, gravity and the host's forces, and sends the obstacle where it will be. Bodies feel
+ * adds to the body what matter gave it in the last step, gravity and the host's forces. It sends the obstacle where it will be. Bodies feel
  * matter, the walls of the domain and their own joint. They feel neither each other nor other obstacles. A physics engine does that: it takes
  * pbmpm_collider_impulse() and pbmpm_collider_submerged() instead of these calls.
  *
@@ -13,8 +13,8 @@
  * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so no spin grows by itself. A step is turned in up to 64 parts
  * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
  *
- * Light bodies. Matter feels the body's velocity one step later than the body feels matter. If the matter that moves along weighs more
- * than the body, this delay makes it oscillate more and more, at any dt. So each change of velocity is smoothed:
+ * Light bodies. Matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that
+ * moves along would oscillate more and more, at any dt. So each change of velocity is smoothed:
  *
  *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume * share,
  *
@@ -68,9 +68,9 @@ typedef struct pbmpm_submersion {
 /** How much of an obstacle is under matter. The surface of the matter around it is continued through the obstacle as a plane; what lies on the
  *  matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
  *
- *  Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
+ *  Measured on a lattice of the world's cells around the obstacle. Where that is longer than 64 cells the lattice is wider. Matter at a node is the
  *  filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.
- *  The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
+ *  For obstacles 8 cells long the volume errs by less than 0.4 cells of depth. On a floor it errs by less than 0.8. A film or jet that touches one side counts for nothing.
  *  `submersion->size` must be set. The first call of a world takes memory, later ones that need no more take none.
  *  Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED. */
 PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id collider, const pbmpm_material_id *material,

@@ -1,22 +1,22 @@
 /* pbmpm: sleeping. Blocks of matter at rest take no part in a step until something wakes them.
  *
- * pbmpm_settings.sleeping switches it on. A block is 4^d cells. It falls asleep when the root mean square speed of its particles, and that of
- * each of its neighbours, has been below sleep_speed for sleep_time. Its particles then stay where they are, with a velocity of 0, and cost nothing;
+ * pbmpm_settings.sleeping switches it on. A block is 4^d cells. Its speed is the root mean square of its particles' speeds. It falls asleep when
+ * this, and that of each neighbour, has been below sleep_speed for sleep_time. Its particles then stay where they are, with a velocity of 0, and cost nothing;
  * views, queries, snapshots and statistics show them as ever. Blocks next to one that is awake are drowsy: they take part in the solution with
  * their mass and stress, but are not moved. Beyond them matter that sleeps holds like a wall.
  *
  * A block wakes when
  *   - a particle faster than sleep_speed enters it; or slower ones enter, more than a sixteenth of its own; or particles are added to it;
  *   - it is drowsy, and the solution would give one of its particles a speed above sleep_speed;
- *   - it is drowsy, and the solutions of the last 0.03 s would have given its matter as a whole a velocity above sleep_speed;
+ *   - it is drowsy, and by the solutions of the last 0.03 s its matter as a whole would exceed sleep_speed;
  *   - a collider that moves, turns, is teleported, created or destroyed is or was within two cells of it;
  *   - a force or a drain that reaches it is created, set or destroyed; a call sets or removes particles in it;
  *   - pbmpm_world_wake() says so.
  * All blocks wake when a material, the kill bounds, or a setting other than sleep_*, target_error and time_budget_ms changes. They also wake when
- * the length of substeps comes to differ by more than a tenth from that in which matter came to rest.
+ * the length of substeps has changed by more than a tenth since they came to rest.
  * Nothing else changes a block that sleeps, to the last bit. Blocks that touch a collider or a wall that measures impulses stay awake.
  *
- * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum, and matter that sleeps ignores accelerations
+ * What sleeping does to the result: motion slower than sleep_speed is taken away with its momentum. Matter that sleeps ignores accelerations
  * up to sleep_speed / 0.03 s. Results depend neither on the number of threads nor on when others look.
  * A snapshot holds who sleeps; one of a world without sleeping wakes all. */
 #ifndef PBMPM_SLEEP_H
@@ -28,8 +28,8 @@
 extern "C" {
 #endif
 
-/** Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
- *  sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
+/** Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null. They stay awake for another
+ *  sleep_time at least. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
  *  `shape->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world. */
 PBMPM_API pbmpm_result pbmpm_world_wake(pbmpm_world_id world, const pbmpm_shape *shape);
 

@@ -28,13 +28,13 @@ typedef enum pbmpm_restore_flags {
  * Materials, colliders, emitters, drains and forces are found again by the `key` of their definitions, whatever their order. One without a key is
  * found by its place: the index of its identifier. Things that a game destroys and makes again need keys.
  *
- * A world that was restored goes on bit for bit as the one that was saved, on the same library and instruction set, for any
- * number of threads. It need not be the same world: one that was made by the same calls will do, in another process too.
+ * A world that was restored goes on bit for bit as the one that was saved. Library and instruction set must be the same; the
+ * number of threads may differ. It need not be the same world: one that was made by the same calls will do, in another process too.
  *
  * Bytes per particle, in 2D / in 3D: 60 / 92. 16 / 36 more in a world that has or had a particle that is not liquid; 4 / 4 more once
  * the dual solver was used or PRESSURE was set; 52 / 100 more once the primal solver was used with BDF2. Beside them some hundred
- * bytes for the world and for each material, collider, emitter, drain and force, 4 per identifier that was used and is
- * free again, and with sleeping some bytes for each block. Little-endian; a snapshot may be stored and sent as it is. */
+ * bytes for the world and for each material, collider, emitter, drain and force. 4 bytes per identifier that was used and is
+ * free again; with sleeping some bytes for each block. Little-endian; a snapshot may be stored and sent as it is. */
 
 /** How large a snapshot is now. *bytes changes with the particles and their fields only. `bytes_per_particle` may be null.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY, FORKED. Any thread, together with others that read. */
@@ -55,8 +55,8 @@ PBMPM_API pbmpm_result pbmpm_snapshot_save(pbmpm_world_id world, void *buffer, u
  *  parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
  *  identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
  *
- *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
- *  (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, counts and which of them are enabled come
+ *  `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, walls of the domain, colliders, and materials
+ *  but for their kind and density; also the definitions of emitters, drains and forces. Poses, counts and which of them are enabled come
  *  from the snapshot. Objects that only the world has stay as they are. Objects that only the snapshot has are left out; a material that particles
  *  need must be there. All matter is awake.
  *

@@ -4,9 +4,9 @@
  * gives it an identifier, which any number of shapes of kind PBMPM_BAKED refer to: they share the memory, and move and turn
  * each for itself. Distances are interpolated; near edges and corners the surface is rounded by a part of a grid cell.
  *
- * Signs are winding numbers, counted exactly on a lattice of 2^-22 of the mesh's longest side to which its vertices are moved
+ * Signs are winding numbers, counted exactly: vertices are moved to a lattice of 2^-22 of the mesh's longest side.
  * (A. Jacobson, L. Kavan, O. Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding numbers", ACM TOG 32(4),
- * 2013, for closed meshes): solid is where the number is 1 or more. So parts may overlap, and holes are surfaces turned inward. */
+ * 2013, for closed meshes.) Solid is where the number is 1 or more. So parts may overlap, and holes are surfaces turned inward. */
 #ifndef PBMPM_SOLID_H
 #define PBMPM_SOLID_H
 
@@ -37,8 +37,8 @@ typedef struct pbmpm_mesh_def {
                                    throughout (inward or outward). Equal vertices count as one. pbmpm_bake_hull(): null. */
 } pbmpm_mesh_def;
 
-/** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
- *  the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). Let terrain reach some cells past the walls
+/** A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
+ *  j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
  *  of a domain. If its side is flush with a wall, matter slips down between the two. */
 typedef struct pbmpm_heights_def {
     uint32_t size;        /**< sizeof(pbmpm_heights_def), set by pbmpm_heights_def_init() */
@@ -56,8 +56,8 @@ typedef struct pbmpm_baked_info {
     uint32_t size;      /**< sizeof(pbmpm_baked_info), set by the caller */
     int32_t dimension;  /**< 2 or 3 */
     uint32_t count[3];  /**< values per axis */
-    float spacing;      /**< [m] width of a grid cell. Distances err by less than half of it, and by up to 0.87 of it (2D: 0.71) within a
-                             cell of points deep inside or far outside that are equally near to several parts of the surface. */
+    float spacing;      /**< [m] width of a grid cell. Distances err by less than half of it. Where several parts of the surface are equally near
+                             they err by up to 0.87 of it (2D: 0.71). */
     float minimum[3];   /**< lower corner of the grid [m], relative to the solid's own frame: that of the mesh */
     float maximum[3];   /**< upper corner; the surface lies two cells inside */
     uint64_t bytes;     /**< that it takes, stored or loaded */

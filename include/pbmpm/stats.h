@@ -60,7 +60,7 @@ typedef struct pbmpm_stats {
     uint32_t blocks_woken;         /**< blocks that woke in the last step, and by calls before it */
 } pbmpm_stats;
 
-/** All figures: of the last step, and of the present state, for which it makes a pass over the particles on the world's threads. Sums do not
+/** All figures, of the last step and of the present state. The latter take a pass over the particles on the world's threads. Sums do not
  *  depend on the number of threads. Before the first step times and step counts are 0. `stats->size` must be set.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read. */
 PBMPM_API pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats);

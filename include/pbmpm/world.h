@@ -27,8 +27,8 @@ typedef struct pbmpm_world_def {
     uint32_t particle_capacity; /**< hard limit, 1 to PBMPM_MAX_PARTICLES; default 65536. Memory is taken at creation: some 230 bytes per particle in 3D,
                                      and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
                                      blocks take theirs when they come. */
-    double origin[3];           /**< what positions are relative to [m]; default 0. Used by nothing but the caller's own
-                                     conversion, so a scene far from zero loses no precision. pbmpm_world_shift_origin() moves it. */
+    double origin[3];           /**< what positions are relative to [m]; default 0. The library does not compute with it, so a scene far from
+                                     zero loses no precision; the host adds it. pbmpm_world_shift_origin() moves it. */
     uint64_t memory_budget;     /**< bytes that the world may hold at once; 0 (default): no limit */
     int32_t thread_count;       /**< 1 to 256, counting the caller; 0 (default): one per core. Results do not depend on it.
                                      With task hooks: how many shares the work is cut into. */
@@ -46,31 +46,21 @@ typedef struct pbmpm_world_def {
 /** How the equations of a substep are solved. */
 typedef enum pbmpm_solver {
     PBMPM_SOLVER_PAPER = 0,      /**< the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt */
-    PBMPM_SOLVER_DUAL = 1,       /**< backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
-                                      liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
-                                      Crushed liquid grows back by at most 0.3 of its volume per 1/60 s, or per substep if that is longer; faster below
-                                      denser liquid. */
-    PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
-                                      preconditioner and a check that no body gains energy. A liquid takes part as a
-                                      compressible one. Energy that its unfinished solution gains is taken from its speed. So a liquid far
-                                      stiffer than the iterations can solve hardly moves: leave its bulk modulus at 0. */
+    PBMPM_SOLVER_DUAL = 1,       /**< backward Euler with the materials' own moduli; unknown: one stress per particle. For liquids, sand, and bodies in
+                                      liquids. Accelerated proximal gradients (FISTA) with restart */
+    PBMPM_SOLVER_PRIMAL = 2,     /**< the same equations; unknown: the displacements of the nodes. For elastic bodies. L-BFGS with a multilevel
+                                      preconditioner; no body gains energy. Leave the bulk modulus of its liquids at 0: stiff ones hardly move */
     PBMPM_SOLVER_EXPLICIT = 3,   /**< explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
                                       substep. Liquids need a bulk modulus. */
-    PBMPM_SOLVER_CONVERGENT = 4, /**< default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
-                                      share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand and liquid.
-                                      Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
-                                      takes 1.5 times as long. Sand without liquid: the primal while it rests, the dual while it flows. Solids that touch it and
-                                      are stiffer than the dual holds keep it with the primal. Islands of the same kinds are solved together, as if nothing
-                                      else were there. With a single iteration the primal solves liquids, too. While matter sleeps (settings.sleeping) all of
-                                      the world is one island. */
+    PBMPM_SOLVER_CONVERGENT = 4, /**< default: the dual, the primal or both for each island of touching matter, see docs/method.md */
     PBMPM_SOLVER_FORCE32 = 0x7fffffff
 } pbmpm_solver;
 
 /** Where the dual solver keeps the pressure of a liquid. */
 typedef enum pbmpm_pressure {
     PBMPM_PRESSURE_PARTICLES = 0, /**< calm: each particle keeps its volume; the better it is solved, the more it damps fine motion */
-    PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
-                                       PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it. */
+    PBMPM_PRESSURE_CELLS = 1,     /**< lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Where
+                                       PBMPM_SOLVER_CONVERGENT solves solids with liquid, particles keep it. */
     PBMPM_PRESSURE_FORCE32 = 0x7fffffff
 } pbmpm_pressure;
 
@@ -89,12 +79,11 @@ typedef enum pbmpm_stop {
     PBMPM_STOP_FORCE32 = 0x7fffffff
 } pbmpm_stop;
 
-/** What may change between steps. State is kept in physical units, so a change of rate changes nothing in flight. */
+/** What may change between steps. State is kept in physical units, so a change of rate changes no motion. */
 typedef struct pbmpm_settings {
     uint32_t size;          /**< sizeof(pbmpm_settings), set by pbmpm_settings_init() */
     int32_t substeps;       /**< equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1 */
-    int32_t iterations;     /**< N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5.
-                                 Ignored by PBMPM_SOLVER_EXPLICIT. */
+    int32_t iterations;     /**< N: of the solver, per substep, 1 to PBMPM_MAX_ITERATIONS; default 5. Ignored by PBMPM_SOLVER_EXPLICIT. */
     float gravity[3];       /**< acceleration [m/s^2]; default 0 */
     float max_displacement; /**< largest particle displacement per substep [cells], in [0.1, PBMPM_MAX_CELLS_PER_SUBSTEP];
                                  default 32. Faster particles are slowed to it; each time is counted in the events. */
@@ -138,7 +127,7 @@ PBMPM_API pbmpm_result pbmpm_world_is_valid(pbmpm_world_id world, int32_t *valid
  *  capacity of 0. Another thread may have destroyed one before the call returns. Errors: INVALID_ARGUMENT (null). Any thread. */
 PBMPM_API pbmpm_result pbmpm_get_worlds(pbmpm_world_id *worlds, uint32_t capacity, uint32_t *count);
 
-/** The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them; its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
+/** The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them. Its pointers are to copies that live as long as the world. `def->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_def(pbmpm_world_id world, pbmpm_world_def *def);
 
 /** Reads the settings. `settings->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.
@@ -151,16 +140,16 @@ PBMPM_API pbmpm_result pbmpm_world_set_settings(pbmpm_world_id world, const pbmp
 /** Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
  *  of occupied blocks has stopped growing. `dt` must be in (0, 10]. A
  *  substep lasts at least 1e-25 s, and at least 1e-25 s per metre of the cell size.
- *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
- *  needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
+ *  Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow. Then the substep that
+ *  needed it is not done, earlier ones of the call stay done. Particles may be stored in another order. An F that
  *  was set from outside is brought into its material's range. With PBMPM_SOLVER_CONVERGENT islands that were solved before
  *  those that lacked memory stay where they went. With sleeping, what was at rest may have fallen asleep.
  *  Any thread, alone in its world; different worlds step at the same time. */
 PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
 
-/** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
+/** Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes that to `moved`. For scenes so large that a float
  *  is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
- *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, except where it
+ *  domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have. The exception is where it
  *  meets obstacles, walls, emitters, drains, forces or bounds: their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
  *  `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed. */

@@ -21,8 +21,8 @@ PAGE = ROOT / "docs/constants.md"
 VERDICTS = Path(__file__).with_name("constants.json")
 HEAD = """# Constants
 
-Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value, what it is for, and the test that turns red
-when the number is halved or doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
+Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
+when the number is halved, and when it is doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
 A dash means that nobody has tried yet. The full reason stands above each constant in its file.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.

@@ -45,11 +45,7 @@ def test_settings_may_change_at_any_time(world: pbmpm.World) -> None:
 
 
 def test_the_solver_may_change_at_any_time(pool: pbmpm.World) -> None:
-    assert (pool.solver, pool.pressure, pool.integrator) == (
-        pbmpm.Solver.CONVERGENT,
-        pbmpm.Pressure.PARTICLES,
-        pbmpm.Integrator.EULER,
-    )
+    assert (pool.pressure, pool.integrator) == (pbmpm.Pressure.PARTICLES, pbmpm.Integrator.EULER)  # for the solver see test_defaults.py
     assert (pool.flip, pool.target_error, pool.time_budget_ms) == (0, 0, 0)
     pool.solver, pool.pressure, pool.integrator = pbmpm.Solver.DUAL, pbmpm.Pressure.CELLS, pbmpm.Integrator.BDF2
     pool.flip, pool.target_error, pool.time_budget_ms = 0.9, 0.01, 2.5

@@ -452,7 +452,7 @@ def test_advice() -> None:
     assert (advice["off_saves_percent"], advice["off_saves_bytes_per_particle"]) == (24.0, 2.0)
     text = advice_text(advice)
     assert "calls for: liquid, emitters" in text and "leave out elastic: no particles; saves 8.0 %" in text
-    assert "no effect that is on costs accuracy" in text
+    assert "none of the 3 effects that are on and were measured costs accuracy" in text
     assert "the 4 effects that are off cost nothing; together they would cost 24 % of a step" in text
 
 
@@ -464,7 +464,20 @@ def test_advice_names_what_costs_accuracy() -> None:
     assert [(hurt["effect"], hurt["error"]) for hurt in advice["hurts_accuracy"]] == [("flip", "predicted_error"), ("elastic", "volume_error")]
     text = advice_text(advice)
     assert "flip costs accuracy: predicted error 0.05 cells, without it 0.02 cells" in text
-    assert "elastic costs accuracy: volume error 20 %, without it 10 %" in text and "no effect that is on" not in text
+    assert "elastic costs accuracy: volume error 20 %, without it 10 %" in text and "none of the" not in text
+
+
+@pytest.mark.parametrize(
+    ("on", "off", "said"),
+    [
+        (0, 1, "accuracy: no effect that is on was measured\nthe effect that is off costs nothing; it would cost 4 % of a step"),
+        (1, 0, "the effect that was measured costs no accuracy"),
+        (2, 0, "none of the 2 effects that are on and were measured costs accuracy"),
+    ],
+)
+def test_advice_speaks_of_what_was_measured(on: int, off: int, said: str) -> None:
+    rows = [row("flip", True, 4.0)] * on + [row("queries", False, 4.0)] * off
+    assert said in advice_text(advice_of(["liquid"], rows))
 
 
 # The command

@@ -78,18 +78,8 @@ GOALS = {
 }
 
 
-KNOWN_MISSES = {
-    ("H13", "spinning disc, BDF2", "primal", "elastic", 2): "the first step, which has no past, now keeps its spin: 5.6 % more than the law of BDF2 says",
-    ("H13", "spinning disc, BDF2", "primal", "elastic", 3): "the same in 3D",
-}
-"""What is open, with its reason; README names them."""
-
-
 @pytest.mark.parametrize(("case", "setting"), [*_all_settings(), *_other_settings()])
-def test_hard_case(request: pytest.FixtureRequest, case: HardCase, setting: Setting) -> None:
-    known = KNOWN_MISSES.get((case.id, setting.variant, setting.solver, setting.material, setting.dimension))
-    if known:
-        request.applymarker(pytest.mark.xfail(reason=known, strict=False))
+def test_hard_case(case: HardCase, setting: Setting) -> None:
     outcome = case.run(setting)
     assert outcome.passed, outcome.description
     goals = {check.name.partition(" (")[0] for check in outcome.checks if check.kind is Kind.GOAL}

@@ -15,7 +15,7 @@ from pbmpm._library import library_path
 from pbmpm.lab.report.accuracy_page import save_accuracy_page
 from pbmpm.lab.report.build import compilers
 from pbmpm.lab.report.case_chart import accuracy_figure
-from pbmpm.lab.report.pareto import Point, cost_of, front_of
+from pbmpm.lab.report.pareto import Point, axis_span, cost_of, front_of
 from pbmpm.lab.report.rows import cases_of, verdicts_of
 from pbmpm.lab.report.verdict import GOOD, LEVELS, judge, round_levels
 from pbmpm.lab.report.words import error_text, shortfalls, verdict_table
@@ -338,6 +338,29 @@ def test_points_of_fronts_carry_rate_and_iterations(report: dict[str, Any]) -> N
     figure = accuracy_figure(cases_of(report)[0])
     front = next(trace for trace in figure.data if trace.name == "front at 10 cells")
     assert front.text[0] == "60 x 2 x 5" and set(front.text[1:]) == {"60 x 5"}
+
+
+@pytest.mark.parametrize(
+    ("costs", "mark", "span"),
+    [
+        ([5.0, 80.0], 1000.0, (5.0, 1000.0)),  # as far off as the data are wide
+        ([5.0, 20.0], 1000.0, (5.0, 20.0)),
+        ([50.0, 80.0], 0.05, (50.0, 80.0)),
+        ([50.0], 100.0, (50.0, 100.0)),
+        ([5.0, 2000.0], 1000.0, (5.0, 2000.0)),
+        ([], 4.0, (4.0, 4.0)),
+    ],
+)
+def test_an_axis_fits_its_data(costs: list[float], mark: float, span: tuple[float, float]) -> None:
+    low, high = axis_span(costs, mark)
+    assert (1.25 * low, high / 1.25) == pytest.approx(span)
+
+
+def test_the_axis_of_a_page_fits_its_data(report: dict[str, Any]) -> None:
+    case = cases_of(report)[0]
+    costs = [item["ms_per_simulated_second"] for item in case.rows if item["ms_per_simulated_second"] is not None]
+    low, high = accuracy_figure(case).layout.xaxis.range
+    assert (10**low, 10**high) == pytest.approx(axis_span(costs, 1000.0))
 
 
 def test_another_solver_that_does_not_get_there_is_told_how_far_it_gets(report: dict[str, Any]) -> None:

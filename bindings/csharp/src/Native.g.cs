@@ -99,8 +99,8 @@ namespace Pbmpm
         Info = 3,
     }
 
-    /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment, read at the first call that needs
-    /// it, lowers the choice (never raises it).</summary>
+    /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
+    /// read at the first call that needs it.</summary>
     public enum Isa : int
     {
         /// <summary>the CPU is not supported</summary>
@@ -128,12 +128,12 @@ namespace Pbmpm
     {
         /// <summary>singular values of F are kept in [strain_min, strain_max]</summary>
         Clamp = 0,
-        /// <summary>deleted, with an event, when the condition number of F exceeds condition_max (the paper's
-        /// rule), when F is a reflection, or when it stretches by 10,000</summary>
+        /// <summary>deleted, with an event: when F has a condition number above condition_max (the paper's
+        /// rule), is a reflection, or stretches by 10,000</summary>
         Delete = 1,
     }
 
-    /// <summary>How the stress of an elastic body follows from F, with mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
+    /// <summary>How the stress of an elastic body follows from F. Here mu = E / (2 (1 + nu)) and lambda = E nu / ((1 + nu) (1 - 2 nu)).
     /// Not used by the paper's solver; the dual solver takes every body as fixed corotated.</summary>
     public enum ElasticModel : int
     {
@@ -164,26 +164,16 @@ namespace Pbmpm
     {
         /// <summary>the paper's: the projections of all particles, transferred N times; its stiffness follows from N and dt</summary>
         Paper = 0,
-        /// <summary>backward Euler with the materials' own moduli; unknown: one stress per particle; for liquids, and for
-        /// liquids and elastic bodies together. Accelerated proximal gradients (FISTA) with restart.
-        /// Crushed liquid grows back by at most 0.3 of its volume per 1/60 s, or per substep if that is longer; faster below
-        /// denser liquid.</summary>
+        /// <summary>backward Euler with the materials' own moduli; unknown: one stress per particle. For liquids, sand, and bodies in
+        /// liquids. Accelerated proximal gradients (FISTA) with restart</summary>
         Dual = 1,
-        /// <summary>the same equations; unknown: the displacement of the nodes; for elastic bodies. L-BFGS with a multilevel
-        /// preconditioner and a check that no body gains energy. A liquid takes part as a
-        /// compressible one. Energy that its unfinished solution gains is taken from its speed. So a liquid far
-        /// stiffer than the iterations can solve hardly moves: leave its bulk modulus at 0.</summary>
+        /// <summary>the same equations; unknown: the displacements of the nodes. For elastic bodies. L-BFGS with a multilevel
+        /// preconditioner; no body gains energy. Leave the bulk modulus of its liquids at 0: stiff ones hardly move</summary>
         Primal = 2,
         /// <summary>explicit MLS-MPM, to compare with: one pass, stable only while sound travels less than a cell per
         /// substep. Liquids need a bulk modulus.</summary>
         Explicit = 3,
-        /// <summary>default: chooses per island of touching matter. Particles touch whose cells are at most two apart along every axis: they
-        /// share nodes. The primal solves islands of solids alone; the dual those of liquid alone, and all with sand and liquid.
-        /// Both solve islands of solids with liquid: the dual finds the pressures, the primal moves solids under them. That
-        /// takes 1.5 times as long. Sand without liquid: the primal while it rests, the dual while it flows. Solids that touch it and
-        /// are stiffer than the dual holds keep it with the primal. Islands of the same kinds are solved together, as if nothing
-        /// else were there. With a single iteration the primal solves liquids, too. While matter sleeps (settings.sleeping) all of
-        /// the world is one island.</summary>
+        /// <summary>default: the dual, the primal or both for each island of touching matter, see docs/method.md</summary>
         Convergent = 4,
     }
 
@@ -192,8 +182,8 @@ namespace Pbmpm
     {
         /// <summary>calm: each particle keeps its volume; the better it is solved, the more it damps fine motion</summary>
         Particles = 0,
-        /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Not where
-        /// PBMPM_SOLVER_CONVERGENT solves solids with liquid: there particles keep it.</summary>
+        /// <summary>lively: each cell keeps the volume of its particles; costs more, and pools stay restless. Where
+        /// PBMPM_SOLVER_CONVERGENT solves solids with liquid, particles keep it.</summary>
         Cells = 1,
     }
 
@@ -227,10 +217,10 @@ namespace Pbmpm
         /// <summary>d*d floats [1/s], row-major: velocity gradient of the particle's neighbourhood</summary>
         AffineVelocity = 2,
         /// <summary>1 float: J of a liquid particle, in [0.05, 1.2]; det F of an elastic one as of its last step. Sand with the dual or
-        /// the convergent solver: its volume, J, which F does not tell</summary>
+        /// the convergent solver: J, stored beside F</summary>
         VolumeRatio = 3,
         /// <summary>d*d floats, row-major F; identity for liquids; only once the world had a particle that is not liquid. Sand with the
-        /// dual or the convergent solver: the strain that bears its stress; det F its pressure p, as exp(-p / K)</summary>
+        /// dual or the convergent solver: its shape tells the deviator of the stress, det F the pressure p, as exp(-p / K)</summary>
         Deformation = 4,
         /// <summary>1 uint32: index of the material's identifier</summary>
         Material = 5,
@@ -284,15 +274,15 @@ namespace Pbmpm
         PoolTooDeep = 4,
         /// <summary>dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three</summary>
         PoolStirs = 5,
-        /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
+        /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is crushed. By its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and beside liquid; else its mean
-        /// strain. Where it lands: figure its speed there [cells per substep]; the text tells which</summary>
+        /// <summary>sand is crushed, by its weight or where it lands; the text tells which. Figure of the weight: g dt^2 depth / dx^2, dt the substep's, with the
+        /// dual solver and beside liquid; else its mean strain. Figure where it lands: its speed there [cells per substep]</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
-        /// <summary>the time step damps what bounces: with the dual solver, and where bodies hit each other. Figure: how many substeps the contact of a ball as
-        /// thick as the body lasts (Hertz's theory)</summary>
+        /// <summary>the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
+        /// ball lasts (Hertz's theory)</summary>
         BounceDamped = 9,
         /// <summary>a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells]</summary>
         RollingBraked = 10,
@@ -562,7 +552,7 @@ namespace Pbmpm
     }
 
     /// <summary>Identifiers are values of 8 bytes. All zero means "none". A generation is never used twice in a process (short
-    /// of 2^32 objects), so a stale identifier or one of another world is refused and never mistaken for a live one.</summary>
+    /// of 2^32 objects). So a stale identifier, or one of another world, is refused.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public partial struct WorldId
     {
@@ -594,32 +584,14 @@ namespace Pbmpm
         public uint Generation;
     }
 
-    /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs.
-    /// Crushed liquid grows back no faster than the pressure of three times the matter's height, and of its motion, would let it. Where the grid
-    /// holds more than 1.5 times the rest volume, J is at most what there is room for. Particles there are moved apart by up to 1/40 cell per
-    /// substep, unless volume_feedback is 0. With the primal solver such liquid spreads no faster than its speed of sound.
+    /// <summary>Parameters of one material. Fill it with pbmpm_material_def_init(), then change what differs. What solvers do with them: docs/method.md, "Matter".
     ///
-    /// Sand and visco are elastic bodies with one more law, so what is said of elastic ones holds for them, but for elastic_model: the dual solver
-    /// takes them as fixed corotated, primal and explicit take Hencky's law, of logarithmic strain. Their elasticity_ratio is at least 0.01.
-    /// Plastic flow happens once per substep; each iteration only bounds the stress. The primal solver takes the friction of sand
-    /// from the pressure at the start of the substep. The yield limit is a strain. So visco yields at a lower stress where the iterations do not
-    /// reach its modulus: see pbmpm_material_effective().
+    /// Sand and visco are elastic bodies with one more law. What is said of elastic ones holds for them, except elastic_model. Their elasticity_ratio is
+    /// at least 0.01.
     ///
-    /// With the dual solver sand keeps its stress from substep to substep. Its pressure resists compression with the bulk modulus. J follows the grid by
-    /// volume_feedback, as a liquid's does. Compressed sand recovers a tenth of what is missing per 1/60 s. Deep sand takes up to 16 more iterations.
-    /// With the convergent solver sand begins at rest, with the primal. It flows, with the dual, once some of it moves at half the speed of a fall through a
-    /// cell, or for 0.3 s at 0.3 % of it. It rests once all of it was slower than 7 % of that speed for 0.3 s, and no more than 3 % of its volume is missing.
-    ///
-    /// Elastic bodies that close by more than a tenth per substep in some direction are braked there with the dual and the primal solver, by the
-    /// artificial viscosity of von Neumann and Richtmyer (1950); without it they would pass through themselves. Sand and visco are not.
-    ///
-    /// The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio; all take kinematic_viscosity.
-    /// The stiffness of the paper's solver is not a parameter of the material but follows from the rate: a liquid acts with
-    /// the bulk modulus density * relaxation * N * dx^2 / (4 * dimension * dt^2), an elastic body with the Young modulus
-    /// density * relaxation * N * dx^2 / (4 dt^2), with dt the length of a substep. When dt drops
-    /// from one step to the next, the stiffness follows by a factor of at most 1.56 per substep; when dt grows, at once.
-    ///
-    /// Particles of solids spin by at most 60 degrees per substep, with every solver: faster ones, which only fly by themselves, are slowed to that.</summary>
+    /// With the paper's solver stiffness is no parameter: it follows from the rate. A liquid acts with the bulk modulus
+    /// density * relaxation * N * dx^2 / (4 d dt^2). An elastic body acts with the Young modulus density * relaxation * N * dx^2 / (4 dt^2).
+    /// The other solvers take bulk_modulus, elastic_model, young_modulus and poisson_ratio. All solvers take kinematic_viscosity.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct MaterialDef
     {
@@ -656,7 +628,7 @@ namespace Pbmpm
         /// (default): incompressible</summary>
         public float BulkModulus;
         /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. The paper's solver adds a share of 8 nu dt / (N dx^2) to
-        /// `viscosity`, and together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
+        /// `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>
         public ElasticModel ElasticModel;
@@ -669,10 +641,10 @@ namespace Pbmpm
         public float FrictionAngle;
         /// <summary>sand: ln of the volume ratio J up to which it bears tension, in [0, 0.5]; default 0: dry</summary>
         public float Cohesion;
-        /// <summary>sand: 1 (default): sand that has come apart, up to three times its volume (1.15 times with the dual solver), closes up again before it bears
-        /// pressure; 0: it does not, and a heap grows with each fall</summary>
+        /// <summary>sand: 1 (default): sand that came apart closes up again before it bears pressure, from up to three times its volume (dual solver: 1.15
+        /// times); 0: it does not, and a heap grows with each fall</summary>
         public uint VolumeCorrection;
-        /// <summary>visco: largest norm of the deviator of the logarithmic strain, ln of the stretches, that is borne, in
+        /// <summary>visco: largest norm of the deviator of the logarithmic strain (ln of the stretches) that it bears, in
         /// [0, 10]; default 0.05. The yield stress in shear is sqrt(2) mu yield_strain.</summary>
         public float YieldStrain;
         /// <summary>visco [1/s]: strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9]; default 100. Flows like a
@@ -707,14 +679,13 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_effective), set by the caller</summary>
         public uint Size;
-        /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density w N dx^2 / (4 d dt^2); elastic: a third (2D: half)
+        /// <summary>[Pa]; 0: incompressible. Paper's solver, liquid: density * relaxation * N * dx^2 / (4 d dt^2); elastic: a third (2D: half)
         /// of young_modulus. Other solvers: the material's own. The primal solves an incompressible liquid as a
         /// compressible one: then the modulus that it used in the last step.</summary>
         public float BulkModulus;
-        /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density w N dx^2 / (4 dt^2). Dual: the material's own or
-        /// what N iterations can hold, whichever is less. Primal and explicit: the material's own. Convergent: as the
-        /// solver of the island that the particles are in now; of several islands the softest. In liquid, a pressure wave
-        /// travels at most 4 N cells per substep.</summary>
+        /// <summary>elastic [Pa]; 0 for a liquid. Paper's solver: density * relaxation * N * dx^2 / (4 dt^2). Dual: the material's own or
+        /// what N iterations reach, whichever is less. Primal and explicit: the material's own. Convergent: as the
+        /// solver of the island that the particles are in now; of several islands the softest.</summary>
         public float YoungModulus;
         /// <summary>liquid [m^2/s]: the material's own; paper's solver: with N viscosity dx^2 / (8 dt) added, and at most
         /// N dx^2 / (8 dt); without what the transfers add</summary>
@@ -733,8 +704,8 @@ namespace Pbmpm
         public int Dimension;
         /// <summary>values per axis</summary>
         public Uint3 Count;
-        /// <summary>[m] width of a grid cell. Distances err by less than half of it, and by up to 0.87 of it (2D: 0.71) within a
-        /// cell of points deep inside or far outside that are equally near to several parts of the surface.</summary>
+        /// <summary>[m] width of a grid cell. Distances err by less than half of it. Where several parts of the surface are equally near
+        /// they err by up to 0.87 of it (2D: 0.71).</summary>
         public float Spacing;
         /// <summary>lower corner of the grid [m], relative to the solid's own frame: that of the mesh</summary>
         public Float3 Minimum;
@@ -801,8 +772,8 @@ namespace Pbmpm
         /// and 0.12 MB for the tables of 256 materials and 1024 events. Fields that a solver needs, colliders and
         /// blocks take theirs when they come.</summary>
         public uint ParticleCapacity;
-        /// <summary>what positions are relative to [m]; default 0. Used by nothing but the caller's own
-        /// conversion, so a scene far from zero loses no precision. pbmpm_world_shift_origin() moves it.</summary>
+        /// <summary>what positions are relative to [m]; default 0. The library does not compute with it, so a scene far from
+        /// zero loses no precision; the host adds it. pbmpm_world_shift_origin() moves it.</summary>
         public Double3 Origin;
         /// <summary>bytes that the world may hold at once; 0 (default): no limit</summary>
         public ulong MemoryBudget;
@@ -840,7 +811,7 @@ namespace Pbmpm
         }
     }
 
-    /// <summary>What may change between steps. State is kept in physical units, so a change of rate changes nothing in flight.</summary>
+    /// <summary>What may change between steps. State is kept in physical units, so a change of rate changes no motion.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Settings
     {
@@ -848,8 +819,7 @@ namespace Pbmpm
         public uint Size;
         /// <summary>equal parts that a step is cut into, 1 to PBMPM_MAX_SUBSTEPS; default 1</summary>
         public int Substeps;
-        /// <summary>N: complete rounds of projection and transfer per substep, 1 to PBMPM_MAX_ITERATIONS; default 5.
-        /// Ignored by PBMPM_SOLVER_EXPLICIT.</summary>
+        /// <summary>N: of the solver, per substep, 1 to PBMPM_MAX_ITERATIONS; default 5. Ignored by PBMPM_SOLVER_EXPLICIT.</summary>
         public int Iterations;
         /// <summary>acceleration [m/s^2]; default 0</summary>
         public Float3 Gravity;
@@ -939,11 +909,9 @@ namespace Pbmpm
         public int Kinematic;
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
-        /// <summary>groups of materials that it acts on, bit by bit; 0 (default): all. It acts on a material whose `groups` have
-        /// one of these bits. Other matter passes as if it were not there. Fills, emitters, touches and
-        /// pbmpm_collider_submerged() go by it, too; queries do not. But a node has one velocity. So matter that
-        /// passes is slowed within some 2.5 cells of matter that is held; within 1.5 cells it is held too.
-        /// This parts bodies from liquid, but not one liquid from another.</summary>
+        /// <summary>bits of `groups` of the materials that it acts on; 0 (default): all. Other matter passes as if it were not there.
+        /// Fills, emitters, touches and pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes
+        /// is slowed within 2.5 cells of matter that is held, see docs/limits.md.</summary>
         public uint Meets;
         /// <summary>how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
         /// see snapshot.h</summary>
@@ -1081,9 +1049,8 @@ namespace Pbmpm
         public double DrainedMass;
     }
 
-    /// <summary>Matter that falls for ever keeps its capacity and costs time: these bounds take it out.
-    /// The box that particles live in: one that is outside at the end of a substep is taken out, which is told by one
-    /// PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls.</summary>
+    /// <summary>The box that particles live in. Those outside at the end of a substep are taken out, with one
+    /// PBMPM_EVENT_KILLED per substep. Unlike the domain it has no walls. Without it matter that falls for ever keeps its capacity and costs time.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct KillBounds
     {
@@ -1144,14 +1111,14 @@ namespace Pbmpm
 
     /// <summary>A source of particles. Fill it with pbmpm_emitter_def_init(), then change what differs.
     ///
-    /// With V the rest volume of a particle, (cell_size / particles_per_axis)^d, the i-th particle (from 0) is due at the time
-    /// (i + 1/2) V / rate after the emitter began: after a time T, T rate / V +- 1/2 particles were due, whatever T was cut into.
+    /// Let V be the rest volume of a particle, (cell_size / particles_per_axis)^d. The i-th particle (from 0) is due at the time
+    /// (i + 1/2) V / rate after the emitter began. So after a time T, T rate / V +- 1/2 particles were due, whatever the substeps.
     /// A particle appears at the end of the substep in which it is due. It is then where gravity has taken it since it was due, with the velocity of
     /// that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
-    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, when it would
-    /// fill more than this share of a space that obstacles enclose around the emitter (up to about four cells away), when the budget is spent, or when
+    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. So it is when it would
+    /// fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. It is refused, too, when the budget is spent or
     /// the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct EmitterDef
@@ -1237,11 +1204,11 @@ namespace Pbmpm
 
     /// <summary>A force. Fill it with pbmpm_force_def_init(), then change what differs.
     ///
-    /// Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles, and only on blocks in range.
-    /// A node with the velocity v after the transfer feels the sum a of gravity and of all accelerations, and the sum k of all drags
-    /// with the mean w of their winds weighted by k. Its velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
+    /// Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. They act on blocks in range only.
+    /// Let v be a node's velocity after the transfer. a is the sum of gravity and all accelerations. k is that of all drags,
+    /// and w the mean of their winds, weighted by k. The velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
     /// v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
-    /// so drag is stable for any k and dt, falling matter ends at exactly w + a / k, and the order of forces does not matter.
+    /// So drag is stable for any k and dt, and falling matter ends at exactly w + a / k. The order of forces does not matter.
     /// The impulse of each force is what it adds to the momentum of the nodes, see pbmpm_force_status.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct ForceDef
@@ -1603,15 +1570,15 @@ namespace Pbmpm.Native
         public IntPtr User;
     }
 
-    /// <summary>Lets the host's job system run the library's parallel work. `enqueue` shall cause task(i, context) to be called
-    /// once for each i in [0, count), on any threads and in any order, and returns a handle; `finish` returns when all
-    /// of them have returned. Read at the creation of a world.
+    /// <summary>Lets the host's job system run the library's parallel work. `enqueue` shall have task(i, context) called
+    /// once for each i in [0, count), on any threads, in any order. It returns a handle. `finish` returns when all
+    /// of these calls have returned. Read at the creation of a world.
     ///
     /// Tasks of one handle may wait for each other, for some milliseconds at most. While they wait they yield their core. None waits for a task that
     /// has not begun, so a host may also run them one after another. Only a step in the background, see `nests`, calls enqueue and finish from a task. There
     /// `finish` shall run other tasks while it waits, or leave a worker free that does: else all workers may wait for each other.
     ///
-    /// A step with 5 iterations enqueues some 10 times with the paper's solver and 30 with the dual, per substep and group of islands. Loops of less than
+    /// A substep of 5 iterations enqueues some 10 times with the paper's solver. With the dual it is 30, per group of islands. Loops of less than
     /// some 40 microseconds run on the caller.
     ///
     /// One call at a time uses the hooks of a world; other calls that read the world meanwhile work on their own thread alone. There is one exception: the
@@ -1631,7 +1598,7 @@ namespace Pbmpm.Native
         public IntPtr User;
     }
 
-    /// <summary>One line of the library's own table of layouts: a field of a public structure, or, with an empty field name, the
+    /// <summary>One line of the library's own table of layouts: a field of a public structure. With an empty field name it is the
     /// structure itself (offset 0, size of the whole). This structure and the identifiers never grow.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct LayoutEntry
@@ -1679,8 +1646,8 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] along
-    /// the first of the axes that are not `up`, and at j * spacing[1] along the second (3D only). Let terrain reach some cells past the walls
+    /// <summary>A surface given by heights over a regular lattice, solid from there down to its base. Sample (i, j) stands at i * spacing[0] and
+    /// j * spacing[1] along the axes other than `up` (2D: i alone). Let terrain reach some cells past the walls
     /// of a domain. If its side is flush with a wall, matter slips down between the two.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct HeightsDef
@@ -1749,9 +1716,9 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Each value that an
-    /// expired view shows is an old or a present one of some particle, or 0; together they are no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
-    /// are arbitrary. What is drawn later, or by another thread, is to be published (async.h) or copied (pbmpm_particles_copy()). Element (i, c) of the field is at
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows old and present values of
+    /// particles, or 0, in no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+    /// are arbitrary. Publish (async.h) or copy (pbmpm_particles_copy()) what is drawn later, or by another thread. Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct View
@@ -1806,7 +1773,7 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>One thing that the present scene and settings do not hold.</summary>
+    /// <summary>One thing that goes wrong with the present scene and settings.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct Advice
     {
@@ -1834,13 +1801,13 @@ namespace Pbmpm.Native
         public IntPtr Text;
     }
 
-    /// <summary>Receives one line per notable happening. May come from any thread that calls the
-    /// library and from a step in the background, from several at once, never from a worker; must not call the library.</summary>
+    /// <summary>Receives one line per notable happening. Any thread that calls the library may call it, and a step in the background; several at once, too.
+    /// Workers never do. It must not call the library.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate void LogCallback(LogLevel level, IntPtr message, IntPtr user);
 
-    /// <summary>Told of something inside of the library that does not hold: the condition, and where in its sources it stands. It returns 0 if the call is
-    /// to go on, though its results mean nothing; with another number abort() is called. May come from any thread, workers too, from several at once; must
+    /// <summary>Called where an assertion inside the library fails: with the condition, and its place in the sources. It returns 0 if the call is
+    /// to go on, though its results mean nothing; with another number abort() is called. Any thread may call it, workers too, and several at once. It must
     /// not call the library.</summary>
     [UnmanagedFunctionPointer(CallingConvention.Cdecl)]
     public unsafe delegate int AssertCallback(IntPtr condition, IntPtr file, int line, IntPtr user);
@@ -1920,8 +1887,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_layout_table(LayoutEntry** entries, uint* count);
 
-        /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library: unloading alone does
-        /// the same, but leaks the memory of worlds with an allocator of the host's, which may be gone by then. No other call may
+        /// <summary>Destroys all worlds and joins all threads of the library. For hosts that unload the library. Unloading alone does
+        /// the same, but leaks the memory of worlds with a host's allocator: that may be gone by then. No other call may
         /// be under way. Afterwards the library may be used again.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_shutdown();
@@ -1932,7 +1899,7 @@ namespace Pbmpm.Native
 
         /// <summary>Which kinds of materials this library was built with: bit k (1u &lt;&lt; PBMPM_LIQUID, ...) is set for kind k. What the CMake option
         /// PBMPM_MATERIALS leaves out has no kernels in the library, and creating it is refused as UNSUPPORTED. All kinds but liquids
-        /// share the code of the deformation gradient, which is left out when none of them is built. Any thread.</summary>
+        /// share the code of the deformation gradient: without any of them it is left out, too. Any thread.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern uint pbmpm_materials_built();
 
@@ -1959,7 +1926,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_destroy(WorldId world, MaterialId material);
 
-        /// <summary>Whether an identifier is that of a material of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of a material of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_material_is_valid(WorldId world, MaterialId material, int* valid);
@@ -2042,7 +2009,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_get_worlds(WorldId* worlds, uint capacity, uint* count);
 
-        /// <summary>The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them; its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
+        /// <summary>The definition the world was made from, with origin and domain where pbmpm_world_shift_origin() left them. Its pointers are to copies that live as long as the world. `def-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_def(WorldId world, WorldDef* def);
 
@@ -2058,17 +2025,17 @@ namespace Pbmpm.Native
         /// <summary>Advances the world by `dt` seconds in `substeps` equal parts. Expires all views. Allocates nothing once the number
         /// of occupied blocks has stopped growing. `dt` must be in (0, 10]. A
         /// substep lasts at least 1e-25 s, and at least 1e-25 s per metre of the cell size.
-        /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow: the substep that
-        /// needed it is not done, earlier ones of the call stay done; particles may be stored in another order, and an F that
+        /// Errors: INVALID_ID, INVALID_ARGUMENT, BUSY, FORKED; OUT_OF_MEMORY when the grid cannot grow. Then the substep that
+        /// needed it is not done, earlier ones of the call stay done. Particles may be stored in another order. An F that
         /// was set from outside is brought into its material's range. With PBMPM_SOLVER_CONVERGENT islands that were solved before
         /// those that lacked memory stay where they went. With sleeping, what was at rest may have fallen asleep.
         /// Any thread, alone in its world; different worlds step at the same time.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_step(WorldId world, float dt);
 
-        /// <summary>Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes what it was to `moved`: for scenes so large that a float
+        /// <summary>Moves the origin by the multiple of 4 cells that is nearest to `wanted` [m], and writes that to `moved`. For scenes so large that a float
         /// is too coarse for positions. All positions are then relative to the new origin: those of particles, obstacles, emitters, drains and forces, the
-        /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have, except where it
+        /// domain and the kill bounds. world_def.origin grows by `moved`. Matter goes on bit for bit as it would have. The exception is where it
         /// meets obstacles, walls, emitters, drains, forces or bounds: their positions are rounded to floats. Nothing wakes. Expires all views. In 2D moved[2] is 0. What the host keeps, it moves itself: the
         /// `position` and `point` of a pbmpm_rigid_state. A snapshot from before brings its origin back, but not into a world with a domain: that is FOREIGN.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed.</summary>
@@ -2097,14 +2064,14 @@ namespace Pbmpm.Native
 
         /// <summary>Adds particles. All of them or none. `ids`: null or room for def-&gt;count identifiers.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (also NaN, infinity or a position outside the domain in any element), CAPACITY, BUSY;
-        /// OUT_OF_MEMORY (the first particle that is not liquid makes room for F, the first user value makes room for user values).</summary>
+        /// OUT_OF_MEMORY: the first particle that is not liquid makes room for F, the first user value for user values.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_add(WorldId world, ParticlesDef* def, ParticleId* ids);
 
         /// <summary>Fills a shape (any kind but PBMPM_PLANE) with a lattice of spacing dx / particles_per_axis that is centred on it; each particle has the rest volume of
-        /// one lattice cell. Lattice points outside the domain box, or in an obstacle that acts on the material, where it stands now, are left out; with a CAPACITY error nothing is added and `added`
-        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID, INVALID_ARGUMENT (also: no lattice point is inside of the shape and of the
-        /// domain and outside of all obstacles, or more than 2^30 are around the shape in the domain), CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
+        /// one lattice cell. Lattice points outside the domain box are left out, and those in an obstacle that acts on the material. With a CAPACITY error nothing is added and `added`
+        /// says how many the shape needs. `added` may be null. Errors: INVALID_ID; INVALID_ARGUMENT, also where no lattice point is left, or more than 2^30 are
+        /// around the shape in the domain; CAPACITY, BUSY; OUT_OF_MEMORY (as above).</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_particles_fill(WorldId world, FillDef* def, Shape* shape, uint* added);
 
@@ -2136,7 +2103,7 @@ namespace Pbmpm.Native
         /// velocity (3 floats), index of the material (uint32). So a structured buffer of HLSL has them. Fields POSITION, MATERIAL, VELOCITY with stride 32
         /// are {vec3, uint, vec3} of GLSL's std430. What is before `offset` and behind the last field of a record stays the host's.
         ///
-        /// A host that steps at a fixed rate draws at the share `alpha` of the way from the state before to that of now: motion is even on any display.
+        /// A host that steps at a fixed rate draws between two states: `alpha` is the share of the way to the present one. So motion is even on any display.
         /// Expires no view. While a step runs in the background it copies the published state, see async.h.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, a value out of range); UNSUPPORTED (size; a field that the world does not have); CAPACITY (the
         /// buffer is too small; nothing is written, *count is set); BUSY (also: a field that is not published, while a step runs).</summary>
@@ -2174,7 +2141,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_destroy(WorldId world, ColliderId collider);
 
-        /// <summary>Whether an identifier is that of a collider of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of a collider of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_is_valid(WorldId world, ColliderId collider, int* valid);
@@ -2227,7 +2194,7 @@ namespace Pbmpm.Native
 
         /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
         /// that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
-        /// seen, nor the end of the touches of a destroyed collider.
+        /// seen. Nor is the end of the touches of a destroyed collider.
         /// *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
         /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
@@ -2238,12 +2205,12 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
 
-        /// <summary>What the present scene and settings will not hold when the world is stepped by `dt` [s], and what came true in the steps so far. Changes nothing.
+        /// <summary>What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. Also what came true in the steps so far. Changes nothing.
         /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
-        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
-        /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
+        /// capacity is 0; otherwise array[0].size must be set. Costs about half a step of five iterations, and only when called.
+        /// It takes memory to sort cells, and gives it back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
         /// Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2258,8 +2225,8 @@ namespace Pbmpm.Native
         public static extern IntPtr pbmpm_advice_unit(AdviceCode code);
 
         /// <summary>Which fields can be viewed while a step runs: `count` of them, each once; 0: none. Until this is called: POSITION, VELOCITY,
-        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) cannot be viewed, and costs
-        /// memory all the same. Takes effect, and memory, with the next pbmpm_world_step_begin().
+        /// MATERIAL and PARTICLE. A published field that the world does not have yet (PRESSURE, DEFORMATION) costs memory, too, though it cannot be
+        /// viewed. Takes effect, and memory, with the next pbmpm_world_step_begin().
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null with a count, unknown or repeated field), BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_publish(WorldId world, Field* fields, uint count);
@@ -2303,7 +2270,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_destroy(WorldId world, DrainId drain);
 
-        /// <summary>Whether an identifier is that of a drain of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of a drain of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_is_valid(WorldId world, DrainId drain, int* valid);
@@ -2355,7 +2322,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_destroy(WorldId world, EmitterId emitter);
 
-        /// <summary>Whether an identifier is that of an emitter of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of an emitter of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_is_valid(WorldId world, EmitterId emitter, int* valid);
@@ -2370,7 +2337,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
-        /// <summary>Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The fraction of a particle that was due and the counts are kept, the pose is taken at once.
+        /// <summary>Changes an emitter. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The counts are kept, and so is the fraction of a particle that was due. A new pose is taken at once.
         /// Errors as pbmpm_emitter_create(), but CAPACITY and OUT_OF_MEMORY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
@@ -2396,7 +2363,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_destroy(WorldId world, ForceId force);
 
-        /// <summary>Whether an identifier is that of a force of the world: *valid is then 1, else 0 (null, stale, foreign, or the world is gone), which is no
+        /// <summary>Whether an identifier is that of a force of the world: *valid is then 1, else 0: null, stale, foreign, or the world is gone. That is no
         /// error and leaves no message. Errors: INVALID_ARGUMENT (null), BUSY, FORKED: *valid is as before.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_is_valid(WorldId world, ForceId force, int* valid);
@@ -2435,9 +2402,9 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_points(WorldId world, float* points, uint count, float* filling, float* density, float* velocity);
 
-        /// <summary>The highest matter over (or under) points. "Up" is the unit vector u along `direction` (d floats, any length above 1e-6), or, if that
-        /// is null, against gravity. On the line through a point x, take the samples x + k dx/4 u for all integers k: the highest one where the
-        /// filling reaches `level`, moved up by 12 halvings of the way to the next sample, is the surface. heights[i] is its coordinate
+        /// <summary>The highest matter over (or under) points. "Up" is the unit vector u along `direction` (d floats, any length above 1e-6). If that
+        /// is null, it is against gravity. On the line through a point x, take the samples x + k dx/4 u for all integers k. The surface is the highest one where the
+        /// filling reaches `level`, moved up by 12 halvings towards the next sample. heights[i] is its coordinate
         /// along u, u . x [m], so with u = +y it is its y; -infinity where the line meets no matter.
         /// `points`: count * d floats [m]; `level`: in (0, 100], 0.5 is the surface.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (also: null direction without gravity), OUT_OF_MEMORY, BUSY, FORKED.</summary>
@@ -2464,9 +2431,9 @@ namespace Pbmpm.Native
         /// <summary>How much of an obstacle is under matter. The surface of the matter around it is continued through the obstacle as a plane; what lies on the
         /// matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
         ///
-        /// Measured on a lattice of the world's cells around the obstacle, or of wider ones where it is longer than 64 cells. Matter at a node is the
+        /// Measured on a lattice of the world's cells around the obstacle. Where that is longer than 64 cells the lattice is wider. Matter at a node is the
         /// filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.
-        /// The volume errs by less than 0.4 cells of depth for obstacles 8 cells long, by less than 0.8 where one stands on a floor. A film or jet that touches one side counts for nothing.
+        /// For obstacles 8 cells long the volume errs by less than 0.4 cells of depth. On a floor it errs by less than 0.8. A film or jet that touches one side counts for nothing.
         /// `submersion-&gt;size` must be set. The first call of a world takes memory, later ones that need no more take none.
         /// Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2487,8 +2454,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_rigid_advance(WorldId world, ColliderId collider, RigidDef* def, RigidState* state, float dt);
 
-        /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null, and keeps those that are awake so for another
-        /// sleep_time. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
+        /// <summary>Wakes all blocks within two cells of a shape, or all blocks of the world if `shape` is null. They stay awake for another
+        /// sleep_time at least. Needed only where something happens that the library cannot know of. Does nothing in a world that does not sleep.
         /// `shape-&gt;size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT, UNSUPPORTED, BUSY. Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_wake(WorldId world, Shape* shape);
@@ -2514,8 +2481,8 @@ namespace Pbmpm.Native
         /// parameters; colliders of the same shape, friction and kind; as many emitters, drains and forces; and room for the particles and their
         /// identifiers. Settings are the snapshot's: read them before and set them again to keep one's own.
         ///
-        /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, the walls of the domain, materials
-        /// (not their kind and density), colliders, and what emitters, drains and forces are defined by. Poses, counts and which of them are enabled come
+        /// `flags`: 0, or PBMPM_RESTORE_KEEP_PARAMETERS. Then these may differ and stay the world's: settings, kill bounds, walls of the domain, colliders, and materials
+        /// but for their kind and density; also the definitions of emitters, drains and forces. Poses, counts and which of them are enabled come
         /// from the snapshot. Objects that only the world has stay as they are. Objects that only the snapshot has are left out; a material that particles
         /// need must be there. All matter is awake.
         ///
@@ -2525,7 +2492,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_snapshot_restore(WorldId world, IntPtr snapshot, ulong bytes, uint flags);
 
-        /// <summary>All figures: of the last step, and of the present state, for which it makes a pass over the particles on the world's threads. Sums do not
+        /// <summary>All figures, of the last step and of the present state. The latter take a pass over the particles on the world's threads. Sums do not
         /// depend on the number of threads. Before the first step times and step counts are 0. `stats-&gt;size` must be set.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY, FORKED. Any thread, together with others that read.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]

@@ -3,14 +3,34 @@
 from __future__ import annotations
 
 import difflib
+import functools
+import inspect
 from collections.abc import Iterable
-from typing import Any, ClassVar, NoReturn
+from typing import Any, ClassVar, NoReturn, TypeVar
+
+Anything = TypeVar("Anything")
 
 
 def nearest(name: str, names: Iterable[str]) -> str:
     """The end of a message about a name that does not exist: which of some others it may stand for, if any is like it."""
     alike = difflib.get_close_matches(name, names, 1)
     return f"; did you mean '{alike[0]}'?" if alike else ""
+
+
+def tells_names(kind: type[Anything]) -> type[Anything]:
+    """A class whose constructor names the parameter that a wrong one may stand for."""
+    plain = vars(kind)["__init__"]
+    known = [name for name in inspect.signature(plain).parameters if name != "self"]
+
+    @functools.wraps(plain)
+    def made(self: Any, *values: Any, **named: Any) -> None:
+        for name in named:
+            if name not in known:
+                raise TypeError(f"{type(self).__name__} has no parameter '{name}'{nearest(name, known)}")
+        plain(self, *values, **named)
+
+    setattr(kind, "__init__", made)
+    return kind
 
 
 class Fixed:

@@ -8,6 +8,7 @@ from typing import Any
 from ._choice import Choice
 from ._convert import assign, initialised, shortest, sized
 from ._ffi import ffi
+from ._fixed import tells_names
 from ._library import lib
 from ._member import Member
 
@@ -36,6 +37,7 @@ _CHOICES: dict[str, type[Choice]] = {"strain_policy": StrainPolicy, "elastic_mod
 _DECODED = {**_CHOICES, "volume_correction": bool, "groups": int}
 
 
+@tells_names
 @dataclass(frozen=True)
 class Liquid:
     """Keeps its volume. Defaults are those of the C library.
@@ -100,6 +102,7 @@ class Solid:
                 object.__setattr__(self, item.name, _CHOICES[item.name](getattr(self, item.name)))
 
 
+@tells_names
 @dataclass(frozen=True)
 class Elastic(Solid):
     """Keeps its shape and its volume, with the parameters of all `Solid` matter. Defaults are those of the C library.
@@ -111,6 +114,7 @@ class Elastic(Solid):
     elastic_model: ElasticModel = ElasticModel(_DEFAULTS.elastic_model)
 
 
+@tells_names
 @dataclass(frozen=True)
 class Sand(Solid):
     """Shears as far as friction lets it and bears no tension beyond its cohesion.
@@ -128,6 +132,7 @@ class Sand(Solid):
     volume_correction: bool = bool(_DEFAULTS.volume_correction)
 
 
+@tells_names
 @dataclass(frozen=True)
 class Visco(Solid):
     """Flows where it is strained too far, at constant volume: clay, dough, mud.

@@ -8,9 +8,11 @@ from typing import Any
 
 from ._convert import Rotation, Vector, assign, assign_vector, initialised, plain, quaternion, shortest
 from ._ffi import ffi
+from ._fixed import tells_names
 from .solids import LoadedSolid
 
 
+@tells_names
 @dataclass(frozen=True)
 class Plane:
     """The half space behind a plane.
@@ -26,6 +28,7 @@ class Plane:
     rotation: Rotation = 0.0
 
 
+@tells_names
 @dataclass(frozen=True)
 class Box:
     """A box.
@@ -41,6 +44,7 @@ class Box:
     rotation: Rotation = 0.0
 
 
+@tells_names
 @dataclass(frozen=True)
 class Sphere:
     """A ball.
@@ -54,6 +58,7 @@ class Sphere:
     radius: float
 
 
+@tells_names
 @dataclass(frozen=True)
 class Capsule:
     """All points within a distance of a segment.
@@ -71,6 +76,7 @@ class Capsule:
     rotation: Rotation = 0.0
 
 
+@tells_names
 @dataclass(frozen=True)
 class Baked:
     """A solid of any form, see `bake_mesh()`, `bake_hull()` and `bake_heights()`.

@@ -11,6 +11,7 @@ import numpy.typing as npt
 from . import colliders, materials, shapes
 from ._convert import Vector, assign, assign_vector, floats, identifiers, initialised, integers, plain, pointer, shortest, sized, sized_array
 from ._ffi import ffi
+from ._fixed import tells_names
 from ._handle import WorldHandle
 from ._library import lib
 from ._member import Member
@@ -37,6 +38,7 @@ Found = TypeVar("Found", bound=Member)
 Ids = npt.NDArray[np.uint32]
 
 
+@tells_names
 class World(
     WorldSettings,
     WorldFlow,

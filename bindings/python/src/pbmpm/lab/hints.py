@@ -11,3 +11,9 @@ def did_you_mean(word: object, words: Iterable[str]) -> str:
     near = difflib.get_close_matches(str(word).lower(), [known.lower() for known in words], 1)
     meant = [known for known in words if near and known.lower() == near[0]]
     return f"; did you mean '{meant[0]}'?" if meant else ""
+
+
+def not_one_of(word: object, words: Iterable[str]) -> str:
+    """What is wrong with a word that is none of some, and which of them it may have meant."""
+    known = list(words)
+    return f"'{word}' is not one of {', '.join(known)}{did_you_mean(word, known)}"

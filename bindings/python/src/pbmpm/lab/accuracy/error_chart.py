@@ -10,6 +10,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from ..files import save_figure
+from ..report.pareto import axis_span
 from .case import CurvePanel, ErrorMeasure
 from .sweep import CaseReport
 
@@ -58,14 +59,22 @@ def _error_panel(axes: Axes, report: CaseReport, measure: ErrorMeasure) -> None:
                 axes.annotate(text, (cost, error), textcoords="offset points", xytext=(4, 4), fontsize=6, color=colour)
     if measure.tolerance is not None:
         axes.axhline(measure.tolerance, color="#444444", linewidth=0.8, linestyle="--")
-    axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time")
-    axes.set(xscale="log", yscale="log", title=f"{name}, {measure.kind}", xlabel="ms per simulated second")
+    shown = axis_span((row["ms_per_simulated_second"] for rows in groups.values() for row in rows), REAL_TIME_MS)
+    if shown[0] <= REAL_TIME_MS <= shown[1]:
+        axes.axvline(REAL_TIME_MS, color="#b03a48", linewidth=1, linestyle=":", label="real time")
+    axes.set(xscale="log", yscale="log", xlim=shown, title=f"{name}, {measure.kind}", xlabel="ms per simulated second")
+    axes.xaxis.set_major_formatter(_plain)
+    axes.xaxis.set_minor_formatter(lambda value, place: _plain(value, place) if f"{value:e}"[0] in "25" else "")
     axes.set_ylabel(f"error [{measure.unit}]")
     if measure.unit == "%":
         axes.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}"))
         axes.yaxis.set_minor_formatter(FuncFormatter(lambda value, _: f"{100 * value:g}" if f"{value:e}"[0] in "25" else ""))
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
+
+
+def _plain(value: float, _: object) -> str:
+    return f"{value:g}"
 
 
 def _curve_panel(axes: Axes, report: CaseReport, panel: CurvePanel) -> None:

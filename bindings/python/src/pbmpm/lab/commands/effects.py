@@ -10,6 +10,7 @@ from typing import Any
 import click
 
 from ..errors import InputError
+from ..hints import not_one_of
 from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, emit_json, run_settings, solver_options
 
 DEFAULT_SCENE = "workshop_2d.json"
@@ -32,7 +33,7 @@ LONGEST_SETTLING = 2.0
 @solver_options
 @click.option("--threads", type=click.IntRange(1, 256), default=1, show_default=True, help="Threads.")
 @click.option("--list", "only_list", is_flag=True, help="List the effects, with those of the scene marked, and end.")
-@click.option("--chart", type=click.Path(path_type=Path, dir_okay=False), help="Write a bar chart (PNG).")
+@click.option("--chart", type=OutputFile(), metavar="FILE", help="Write a bar chart (PNG).")
 @click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
 def effects(
     scene_file: Path | None, at: float | None, rounds: int, only: str | None, only_list: bool, **options: Any
@@ -56,7 +57,7 @@ def effects(
     wanted = None if only is None else [word.strip() for word in only.split(",")]
     unknown = sorted(set(wanted or ()) - set(names()))
     if unknown:
-        raise InputError(f"--only: '{unknown[0]}' is not one of {', '.join(names())}")
+        raise InputError(f"--only: {not_one_of(unknown[0], names())}")
     if only_list:
         on = effects_on(scene)
         click.echo("\n".join(f"{'*' if name in on else ' '} {name}" for name in names()))

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, get_args
 import click
 
 from ..errors import InputError
-from ..hints import did_you_mean
+from ..hints import not_one_of
 from ..names import IntegratorName, PressureName, SolverName
 
 if TYPE_CHECKING:
@@ -54,6 +54,9 @@ def emit_json(data: dict[str, Any], target: str | None) -> None:
 
 def ready_folder(folder: Path) -> None:
     """Makes a folder that is missing; InputError where files cannot be written to it."""
+    in_the_way = next((part for part in (folder, *folder.parents) if part.exists() and not part.is_dir()), None)
+    if in_the_way is not None:
+        raise InputError(f"{in_the_way}: is a file, not a folder")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -114,7 +117,7 @@ class NameList(click.ParamType):
         wanted = {part.strip() for part in str(value).split(",")}
         unknown = sorted(wanted - set(self._words))
         if unknown:
-            self.fail(f"'{unknown[0]}' is not one of {', '.join(self._words)}{did_you_mean(unknown[0], self._words)}", param, ctx)
+            self.fail(not_one_of(unknown[0], self._words), param, ctx)
         return tuple(word for word in self._words if word in wanted)
 
 
@@ -148,7 +151,7 @@ class Word(click.Choice):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         if value not in self.choices:
-            self.fail(f"'{value}' is not one of {', '.join(self.choices)}{did_you_mean(value, self.choices)}", param, ctx)
+            self.fail(not_one_of(value, self.choices), param, ctx)
         return super().convert(value, param, ctx)
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from ..errors import InputError
-from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, run_settings, solver_options
+from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, ready_folder, run_settings, solver_options
 
 
 @click.command()
@@ -94,6 +94,7 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
     if options["output"] is None and not (options["ply"] or options["vtk"] or wanted):
         return OutputOptions(video=options["video"])
     folder = options["output"] or Path(f"{scene.name}-output")
+    ready_folder(folder)
     times = scene.picture_times(seconds) if wanted is None else wanted
     late = [time for time in times if time > seconds]
     if late:

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, OutputFolder, emit_json
+from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, OutputFolder, emit_json, ready_folder
 
 _PERCENTILES = {"median": 50.0, "p99": 99.0}
 
@@ -80,10 +80,11 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
         reference_substeps=options["reference_substeps"],
         reference_iterations=options["reference_iterations"],
     )
+    folder = output or Path(f"{scene.name}-tune")
+    ready_folder(folder)
     tuning = sweep(scene, plan)
     report = report_of(tuning)
     made = presets(tuning, report["machine"])
-    folder = output or Path(f"{scene.name}-tune")
     paths = save_presets(made, folder)
     save_chart(tuning, report["machine"], folder / "chart.png")
     emit_json(

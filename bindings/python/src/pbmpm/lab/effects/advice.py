@@ -32,6 +32,7 @@ def advice_of(called_for: Sequence[str], rows: Sequence[dict[str, Any]]) -> dict
         "leave_out": [{"effect": row["effect"], "why": row["idle"], **_saving(row)} for row in idle],
         "leave_out_saves_percent": sum(_saving(row)["saves_percent"] for row in idle),
         "hurts_accuracy": [hurt for row in rows if row["on"] for hurt in _hurts(row)],
+        "on": [row["effect"] for row in rows if row["on"]],
         "off": [row["effect"] for row in off],
         "off_saves_percent": sum(_saving(row)["saves_percent"] for row in off),
         "off_saves_bytes_per_particle": sum(_saving(row)["saves_bytes_per_particle"] for row in off),
@@ -67,10 +68,19 @@ def advice_text(advice: dict[str, Any]) -> str:
             f"leave out {item['effect']}: {item['why']}; saves {item['saves_percent']:.1f} % of the step and"
             f" {item['saves_bytes_per_particle']:.0f} bytes per particle"
         )
-    lines += [_hurt_text(hurt) for hurt in advice["hurts_accuracy"]] or ["no effect that is on costs accuracy"]
+    lines += [_hurt_text(hurt) for hurt in advice["hurts_accuracy"]] or [_harmless_text(len(advice["on"]))]
     if advice["off"]:
+        count = len(advice["off"])
+        said = "the effect that is off costs nothing; it" if count == 1 else f"the {count} effects that are off cost nothing; together they"
         lines.append(
-            f"the {len(advice['off'])} effects that are off cost nothing; together they would cost {advice['off_saves_percent']:.0f} % of a step"
+            f"{said} would cost {advice['off_saves_percent']:.0f} % of a step"
             f" and {advice['off_saves_bytes_per_particle']:.0f} bytes per particle more"
         )
     return "\n".join(lines)
+
+
+def _harmless_text(count: int) -> str:
+    """With --only few are measured: of the others nothing is known."""
+    if count == 0:
+        return "accuracy: no effect that is on was measured"
+    return "the effect that was measured costs no accuracy" if count == 1 else f"none of the {count} effects that are on and were measured costs accuracy"

@@ -8,7 +8,7 @@ from typing import Any
 
 import plotly.graph_objects as go
 
-from .pareto import Point
+from .pareto import Point, axis_span
 from .rows import SMALLEST_ERROR, CaseRows, setting_of
 from .views import View, views_of
 from .words import error_text
@@ -49,7 +49,8 @@ def accuracy_figure(case: CaseRows) -> go.Figure:
         updatemenus=[_menu(views, [len(group) for group in traces])] if len(views) > 1 else [],
         **_layout(views[0]),
     )
-    figure.update_xaxes(title="milliseconds per simulated second", **_AXIS)
+    shown = axis_span((row["ms_per_simulated_second"] for row in case.rows if row["ms_per_simulated_second"] is not None), REAL_TIME_MS)
+    figure.update_xaxes(title="milliseconds per simulated second", range=[math.log10(end) for end in shown], **_AXIS)
     figure.update_yaxes(**_AXIS)
     return figure
 

@@ -32,6 +32,20 @@ class Point:
     pace: str = ""  #: Hz x iterations, for labels
 
 
+_MARGIN = 1.25
+_LEAST_SPAN = 3.0
+
+
+def axis_span(costs: Iterable[float], mark: float) -> tuple[float, float]:
+    """From where to where a logarithmic axis of costs goes: over all of them, and over a mark while at least half of the axis is data."""
+    known = [cost for cost in costs if cost > 0.0] or [mark]
+    low, high = min(known), max(known)
+    span = max(high / low, _LEAST_SPAN)
+    if low / span <= mark <= high * span:
+        low, high = min(low, mark), max(high, mark)
+    return low / _MARGIN, high * _MARGIN
+
+
 def front_of(points: Iterable[AnyPriced]) -> list[AnyPriced]:
     """The points that no other beats in both cost and error, cheap ones first."""
     front: list[AnyPriced] = []

@@ -48,7 +48,9 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
         if item["type"] == "extra_forbidden":
             message = f"unknown field{_meant(item['loc'][-1])}"
         elif item["type"] == "literal_error":
-            message += did_you_mean(item["input"], re.findall(r"'(\w+)'", item["ctx"]["expected"]))
+            expected = item["ctx"]["expected"]
+            message = f"{item['input']!r} is not one of {expected}"
+            message += did_you_mean(item["input"], re.findall(r"'(\w+)'", expected))
         elif item["type"] == "union_tag_invalid":
             message = f"'{item['ctx']['tag']}' is not one of {item['ctx']['expected_tags']}"
             message += did_you_mean(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))

@@ -62,6 +62,8 @@ def _read_mesh(path: str, dimension: int) -> tuple[np.ndarray, np.ndarray]:
     """The triangles (2D: edges) of a file in a format that meshio knows (OBJ, STL, PLY, ...)."""
     import meshio
 
+    if not Path(path).exists():  # of which meshio's words leave out the folder
+        raise InputError(f"{path}: there is no such file")
     try:
         mesh = meshio.read(path)
     except (OSError, meshio.ReadError, ValueError, SystemExit) as problem:

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter
 
 from ..files import save_figure
+from ..report.pareto import axis_span
 from ..simulation import RunSettings
 from .sweep import Result, Tuning
 
@@ -40,7 +41,10 @@ def save_chart(tuning: Tuning, machine: dict[str, Any], path: Path) -> None:
     given up have no error; they are in the table only."""
     figure = Figure(figsize=(10, 7), layout="constrained")
     axes = figure.add_subplot()
-    _draw_settings(axes, [result for result in tuning.results if not result.too_dear])
+    drawn = [result for result in tuning.results if not result.too_dear]
+    _draw_settings(axes, drawn)
+    if not drawn:
+        axes.text(0.5, 0.5, "no setting was measured to its end: all are far too dear", transform=axes.transAxes, ha="center")
     _draw_front(axes, tuning.front())
     axes.axvline(tuning.plan.budget_ms, color="#b03a48", linestyle=":", label=f"budget: {tuning.plan.budget_ms:g} ms")
     if tuning.reference.floor > 0:
@@ -52,7 +56,7 @@ def save_chart(tuning: Tuning, machine: dict[str, Any], path: Path) -> None:
     )
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-    axes.margins(x=0.12)
+    axes.set_xlim(axis_span((result.cost for result in drawn), tuning.plan.budget_ms))
     axes.legend(fontsize=8)
     axes.grid(True, which="both", linewidth=0.3)
     axes.set_title(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from . import bad_input, changes, contrast, energy, impact, ladder, overfull, rate, rest, shape, strain, volume
 from ...hints import did_you_mean
 from .case import HardCase
@@ -11,9 +13,10 @@ CASES: tuple[HardCase, ...] = tuple(sorted((case for module in _MODULES for case
 
 
 def find_case(identifier: str) -> HardCase:
-    """The case with this number ("H03"); ValueError with the list of all when there is none."""
+    """The case with this number ("H03" or "h3"); ValueError with the list of all when there is none."""
+    wanted = re.sub(r"^H(\d)$", r"H0\1", identifier.upper())
     for case in CASES:
-        if case.id == identifier.upper():
+        if case.id == wanted:
             return case
     known = [case.id for case in CASES]
     raise ValueError(f"there is no hard case '{identifier}'; there are {', '.join(known)}{did_you_mean(identifier, known)}")

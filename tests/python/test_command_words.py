@@ -1,0 +1,124 @@
+"""What a person who mistypes is told: by the command, and by the binding."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+
+import pbmpm
+from pbmpm.lab.commands.cli import cli
+from pbmpm.lab.errors import InputError
+from pbmpm.lab.stability.cases import find_case
+
+
+def said(*words: object) -> str:
+    """What `pbmpm` says to a command line that it cannot use."""
+    result = CliRunner().invoke(cli, [str(word) for word in words])
+    assert result.exit_code != 0
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        assert isinstance(result.exception, InputError), result.exception
+        return str(result.exception)
+    return result.output
+
+
+@pytest.fixture
+def scene(root: Path, tmp_path: Path) -> Callable[[Callable[[Any], None]], Path]:
+    """A scene file that somebody has changed."""
+
+    def changed(change: Callable[[Any], None]) -> Path:
+        data = json.loads((root / "samples" / "scenes" / "column_2d.json").read_text(encoding="utf-8"))
+        change(data)
+        path = tmp_path / "mine.json"
+        path.write_text(json.dumps(data), encoding="utf-8")
+        return path
+
+    return changed
+
+
+WRONG_WORDS: dict[str, tuple[Callable[[Any], None], str]] = {
+    "solver": (lambda data: data.update(solver="duel"), "solver: 'duel' is not one of 'paper', 'dual', 'primal', 'explicit' or 'convergent'; did you mean 'dual'?"),
+    "field": (lambda data: data.update(gravtiy=[0, -9]), "gravtiy: unknown field; did you mean 'gravity'?"),
+    "kind": (lambda data: data["materials"]["water"].update(kind="liqid"), "did you mean 'liquid'?"),
+    "parameter": (lambda data: data["materials"]["water"].update(denisty=3), "materials.water.denisty: unknown field; did you mean 'density'?"),
+    "material": (lambda data: data["fills"][0].update(material="watr"), "no material is called 'watr' (there are: water); did you mean 'water'?"),
+    "effect": (lambda data: data.update(effects=["emiters"]), "did you mean 'emitters'?"),
+    "dimension": (lambda data: data.update(dimension=4), "dimension: 4 is not one of 2 or 3"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_WORDS)
+def test_a_misspelt_word_of_a_scene_gets_a_suggestion(scene: Callable[..., Path], name: str) -> None:
+    change, text = WRONG_WORDS[name]
+    heard = said("run", scene(change))
+    assert text in heard and "Input should be" not in heard
+
+
+def test_a_mesh_that_is_not_there_is_said_in_plain_words(scene: Callable[..., Path], tmp_path: Path) -> None:
+    mesh = {"kind": "mesh", "position": [0, 0], "file": "boat.obj"}
+    heard = said("run", scene(lambda data: data.update(colliders=[{"shape": mesh}])))
+    assert f"{tmp_path / 'boat.obj'}: there is no such file" in heard
+
+
+def test_an_effect_that_is_not_there_gets_a_suggestion(root: Path) -> None:
+    assert "did you mean 'emitters'?" in said("effects", root / "samples" / "scenes" / "column_2d.json", "--only", "emiters")
+
+
+@pytest.mark.parametrize("word", ["H3", "h03", "H03"])
+def test_a_hard_case_needs_no_zero(word: str) -> None:
+    assert find_case(word).id == "H03"
+
+
+@pytest.mark.parametrize(
+    ("words", "what"),
+    [
+        (("run", "--json"), "mine/figures.json"),
+        (("run", "--video"), "mine/run.gif"),
+        (("run", "--output"), "mine/files"),
+        (("effects", "--chart"), "mine/chart.png"),
+        (("effects", "--json"), "mine/figures.json"),
+        (("tune", "--budget-ms", "4", "--output"), "mine/tuned"),
+    ],
+    ids=lambda value: "-".join(value) if isinstance(value, tuple) else "",
+)
+def test_output_paths_are_tried_before_any_work(root: Path, tmp_path: Path, words: tuple[str, ...], what: str) -> None:
+    """Where a file is in the way of a folder, its name is said and no step is made."""
+    (tmp_path / "mine").write_text("a file")
+    command, *options = words
+    heard = said(command, root / "samples" / "scenes" / "column_2d.json", *options, tmp_path / what)
+    assert f"{tmp_path / 'mine'}: is a file, not a folder" in heard
+    assert ".part" not in heard
+
+
+def test_the_default_folder_of_presets_is_tried_before_any_work(root: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("column_2d-tune").write_text("a file")
+    assert "column_2d-tune: is a file, not a folder" in said("tune", root / "samples" / "scenes" / "column_2d.json", "--budget-ms", "4")
+
+
+@pytest.mark.parametrize(
+    ("make", "text"),
+    [
+        (lambda: pbmpm.Elastic(youngs_modulus=1e5), "Elastic has no parameter 'youngs_modulus'; did you mean 'young_modulus'?"),
+        (lambda: pbmpm.Liquid(denisty=1e3), "Liquid has no parameter 'denisty'; did you mean 'density'?"),
+        (lambda: pbmpm.Sand(friction=0.5), "Sand has no parameter 'friction'; did you mean 'friction_angle'?"),
+        (lambda: pbmpm.Box((0, 0), half_extent=(1, 1)), "Box has no parameter 'half_extent'; did you mean 'half_extents'?"),
+        (lambda: pbmpm.World(2, 0.1, gravtiy=(0, -9.81)), "World has no parameter 'gravtiy'; did you mean 'gravity'?"),
+    ],
+    ids=["Elastic", "Liquid", "Sand", "Box", "World"],
+)
+def test_a_misspelt_parameter_gets_a_suggestion(make: Callable[[], object], text: str) -> None:
+    with pytest.raises(TypeError) as caught:
+        make()
+    assert str(caught.value) == text
+
+
+def test_what_is_spelt_right_is_as_before() -> None:
+    assert pbmpm.Elastic(young_modulus=2e5).young_modulus == 2e5
+    assert pbmpm.Box((0, 0), (1, 1)) == pbmpm.Box(position=(0, 0), half_extents=(1, 1))
+    with pytest.raises(TypeError, match="positional"):
+        pbmpm.Box()  # type: ignore[call-arg]
