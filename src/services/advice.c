@@ -5,6 +5,7 @@
 
 #include "base/sized.h"
 #include "services/effective.h"
+#include "services/way.h"
 #include "services/survey.h"
 #include "solvers/dual/dual.h"
 #include "solvers/passes.h"
@@ -130,25 +131,13 @@ static void no_gravity(Adviser *adviser)
     give(adviser, advice);
 }
 
-/* Whether something stands below a point, by spheres that no obstacle reaches into. */
+/* Whether an obstacle stands below a point. */
 static bool lands(const World *world, uint32_t material, const double from[3])
 {
-    enum { SPHERES = 256 };
-    const double strength = gravity_strength(world), cell = (double)world->def.cell_size, far = PBMPM_MAX_CELL * cell;
-    double way = 0.0;
-    for (int i = 0; i < SPHERES && way < far; i++) {
-        double nearest = INFINITY, at[3] = {0};
-        for (int a = 0; a < world->def.dimension; a++) at[a] = from[a] + way * (double)world->settings.gravity[a] / strength;
-        for (uint32_t c = 0; c < world->colliders.used; c++) {
-            const Collider *collider = &world->colliders.slot[c];
-            if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[material].groups)) continue;
-            const Solid solid = solid_among(&world->colliders.slot[c].shape, world->def.dimension, &world->baked);
-            nearest = fmin(nearest, solid_least(&solid, at));
-        }
-        if (nearest < 0.01 * cell) return true;
-        way += nearest;
-    }
-    return way < far; /* it comes close to something for long: along a wall, which leads to what holds it or does not */
+    const double strength = gravity_strength(world);
+    double along[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) along[a] = (double)world->settings.gravity[a] / strength;
+    return way_to_obstacle(world, material, from, along, PBMPM_MAX_CELL * (double)world->def.cell_size) < INFINITY;
 }
 
 /* A wall of the domain where gravity leads, or NULL. */

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 
 #include "base/result.h"
-#include "contact/domain.h"
+#include "services/way.h"
 #include "world/depth.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
@@ -59,7 +59,16 @@ static bool near_first(const Particles *p, uint32_t row, int32_t cell[3])
     return near;
 }
 
-/* One share per particle, then per cell and group. Particles that are 2^18 cells from the first are left out. */
+/* Adds a share to the last one if that has the same place, else behind it. */
+static void put_share(Cells *cells, uint32_t *count, const Share *share)
+{
+    if (*count > 0 && cells->share[*count - 1].place == share->place)
+        cells->share[*count - 1].filling += share->filling;
+    else
+        cells->share[(*count)++] = *share;
+}
+
+/* One share per cell and group. Particles that are 2^18 cells from the first are left out. Most of those in a cell are stored together: few are left to sort. */
 static void find_cells(const World *world, Cells *cells)
 {
     const Particles *p = &world->particles;
@@ -68,16 +77,12 @@ static void find_cells(const World *world, Cells *cells)
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
         const bool near = near_first(p, row, share.cell);
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
-        if (near) cells->share[cells->count++] = share;
+        share.place = place_of(&share, 0, true);
+        if (near) put_share(cells, &cells->count, &share);
     }
     sort_along(cells, 0, true);
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        if (kept > 0 && cells->share[kept - 1].place == cells->share[i].place)
-            cells->share[kept - 1].filling += cells->share[i].filling;
-        else
-            cells->share[kept++] = cells->share[i];
-    }
+    for (uint32_t i = 0; i < cells->count; i++) put_share(cells, &kept, &cells->share[i]);
     cells->count = kept;
 }
 
@@ -125,38 +130,26 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
 /* Cells beside a run in which an obstacle counts as near, and runs that are looked at, along an axis. */
 enum { ROOM = 5, LOOKED_AT = 64 };
 
-static bool is_open_at(const World *world, uint32_t slot, const double point[3])
+static double middle_of(const World *world, const Share *share, int axis)
 {
-    for (int a = 0; a < world->def.dimension; a++)
-        for (int upper = 0; upper < 2 && world->def.domain_enabled; upper++)
-            if (!world->domain.wall[domain_place(a, upper)].open && (upper ? point[a] > (double)world->def.domain_max[a] : point[a] < (double)world->def.domain_min[a])) return false;
-    for (uint32_t c = 0; c < world->colliders.used; c++) {
-        const Collider *collider = &world->colliders.slot[c];
-        if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[slot].groups)) continue;
-        const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (solid_gap(&solid, point) < 0.0) return false;
-    }
-    return true;
+    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
 }
 
-/* At the upper corner of a cell, which is all around its node. */
-static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+/* Cells from the middle of a cell to the first obstacle, or infinitely many if there is none within `far`. `along`: of length 1. */
+static double cells_to_obstacle(const World *world, const Share *share, const double along[3], double far)
 {
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
-    return is_open_at(world, slot, point);
+    const double cell = (double)world->def.cell_size;
+    double from[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) from[a] = middle_of(world, share, a);
+    return fmin(way_to_obstacle(world, share->slot, from, along, far * cell), way_to_wall(world, from, along, far * cell)) / cell;
 }
 
-/* Whether an obstacle stands within ROOM cells of an end of a run. */
+/* Whether an obstacle stands within ROOM cells of an end of a run, which reaches to the end of its cell. */
 static bool is_shut(const World *world, const Share *end, int axis, int way)
 {
-    int32_t cell[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) cell[a] = end->cell[a] + world->particles.cell[a][0] - HALF;
-    for (int step = 0; step < ROOM; step++) {
-        cell[axis] += way;
-        if (!is_open(world, end->slot, cell)) return true;
-    }
-    return false;
+    double along[3] = {0};
+    along[axis] = way;
+    return cells_to_obstacle(world, end, along, ROOM + 0.5) < INFINITY;
 }
 
 /* Which share of each solid stands between obstacles along an axis. */
@@ -257,30 +250,76 @@ static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MA
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(volume[group], 1e-300);
 }
 
-/* ---- Falling, sliding ---- */
+/* ---- Bodies ---- */
 
-static double middle_of(const World *world, const Share *share, int axis)
+static uint32_t find_share(const Cells *cells, uint64_t place)
 {
-    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
+    const uint32_t low = first_from(cells, place);
+    return low < cells->count && cells->share[low].place == place ? low : cells->count;
 }
 
-/* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. Tells if it is matter. */
-static double drop_of(const World *world, const Cells *cells, const Share *bottom, int axis, bool *on_matter)
+static uint32_t body_of(Cells *cells, uint32_t i)
+{
+    while (cells->share[i].body != i) {
+        cells->share[i].body = cells->share[cells->share[i].body].body;
+        i = cells->share[i].body;
+    }
+    return i;
+}
+
+/* Joins cells of a solid that share a face, in 2D an edge. Sorted by cell. */
+static void find_bodies(Cells *cells)
+{
+    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        if (cells->share[i].group == 0) continue;
+        for (int a = 0; a < cells->dimension; a++) {
+            Share next = cells->share[i];
+            next.cell[a]++;
+            const uint32_t other = find_share(cells, place_of(&next, 0, false));
+            if (other == cells->count) continue;
+            const uint32_t one = body_of(cells, i), two = body_of(cells, other);
+            cells->share[one > two ? one : two].body = one > two ? two : one;
+        }
+    }
+}
+
+/* ---- Falling, sliding ---- */
+
+/* Whether any share of a cell is of the same group, and whether any is of another body. Sorted by cell. */
+static bool any_of_group(const Cells *cells, const int32_t cell[3], uint32_t group)
+{
+    Share wanted = {.cell = {cell[0], cell[1], cell[2]}, .group = group};
+    return find_share(cells, place_of(&wanted, 0, false)) < cells->count;
+}
+
+static bool any_other_body(Cells *cells, const int32_t cell[3], uint32_t body)
+{
+    const Share wanted = {.cell = {cell[0], cell[1], cell[2]}};
+    const uint64_t place = place_of(&wanted, 0, false);
+    for (uint32_t i = first_from(cells, place); i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++)
+        if (body_of(cells, i) != body) return true;
+    return false;
+}
+
+/* Cells of free way along gravity's axis from the end of a body until other matter or an obstacle; 0 if there is none within FAR. Tells if it is matter. */
+static double drop_of(const World *world, Cells *cells, uint32_t bottom, int axis, bool *on_matter)
 {
     enum { FAR = 256 };
+    const Share *share = &cells->share[bottom];
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    int32_t cell[3] = {bottom->cell[0], bottom->cell[1], bottom->cell[2]};
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, bottom, a);
-    for (int step = 0; step < FAR; step++) {
+    const uint32_t body = body_of(cells, bottom);
+    int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+    double along[3] = {0};
+    along[axis] = way;
+    const double room = fmax(0.0, cells_to_obstacle(world, share, along, FAR) - 0.5); /* matter reaches to the end of its cell */
+    for (int step = 0; step < FAR && step <= room; step++) {
         cell[axis] += way;
-        point[axis] += way * (double)world->def.cell_size;
-        const bool matter = filling_at(cells, cell) > 0.0;
-        if (!matter && is_open_at(world, bottom->slot, point)) continue;
-        *on_matter = *on_matter || matter;
+        if (!any_other_body(cells, cell, body)) continue;
+        *on_matter = true;
         return step;
     }
-    return 0.0;
+    return room < FAR ? room : 0.0;
 }
 
 static int by_size(const void *a, const void *b)
@@ -289,26 +328,32 @@ static int by_size(const void *a, const void *b)
     return one < other ? -1 : one > other;
 }
 
+/* Whether its own matter ends there, whatever lies beside it. */
 static bool is_end(const Cells *cells, const Share *share, int axis, int way)
 {
     int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
     next[axis] += way;
-    return filling_at(cells, next) == 0.0;
+    return !any_of_group(cells, next, share->group);
 }
 
-/* Sorted by cell. */
-static void measure_drops(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
+/* So that about LOOKED_AT ends of a solid are looked at: one cell in eight is one. */
+static uint32_t stride_of(const Cells *cells, uint32_t slot)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < cells->count; i++) count += cells->share[i].group == slot + 1;
+    return 1 + count / (8 * LOOKED_AT);
+}
+
+/* Sorted by cell, bodies are found. */
+static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    const uint32_t stride = stride_of(cells, slot);
     double drops[2 * LOOKED_AT];
-    uint32_t ends = 0, number = 0, count = 0;
-    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1;
-    const uint32_t stride = 1 + ends / (8 * LOOKED_AT); /* about one cell in eight is at the lower end */
+    uint32_t number = 0, count = 0;
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
-        const Share *share = &cells->share[i];
-        if (share->group != slot + 1) continue;
-        const bool looked = number++ % stride == 0;
-        if (looked && is_end(cells, share, axis, way)) drops[count++] = drop_of(world, cells, share, axis, &heap->on_matter);
+        if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
+        if (is_end(cells, &cells->share[i], axis, way)) drops[count++] = drop_of(world, cells, i, axis, &heap->on_matter);
     }
     if (count == 0) return;
     qsort(drops, count, sizeof *drops, by_size);
@@ -317,22 +362,19 @@ static void measure_drops(const World *world, const Cells *cells, int axis, uint
     heap->drop_most = drops[count - 1];
 }
 
-/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, and no wall between. */
+/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, and no obstacle between. */
 static bool has_room_below(const World *world, const Cells *cells, const Share *top, const double down[3], const double side[3])
 {
-    enum { SIDE = 6, LOOKS = 4 * SIDE };
-    const double cell = (double)world->def.cell_size, angle = (double)world->materials.def[top->slot].friction_angle, deep = sin(angle) / cos(angle) * SIDE + 1.0;
+    enum { SIDE = 6 };
+    const double angle = (double)world->materials.def[top->slot].friction_angle, deep = sin(angle) / cos(angle) * SIDE + 1.0, length = sqrt(SIDE * SIDE + deep * deep);
+    double along[3] = {0};
     int32_t among[3] = {0};
-    for (int look = 1; look <= LOOKS; look++) {
-        double point[3] = {0};
-        for (int a = 0; a < world->def.dimension; a++) {
-            const double way = (SIDE * side[a] + deep * down[a]) * look / LOOKS;
-            among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
-            point[a] = middle_of(world, top, a) + way * cell;
-        }
-        if (!is_open_at(world, top->slot, point)) return false;
+    for (int a = 0; a < world->def.dimension; a++) {
+        const double way = SIDE * side[a] + deep * down[a];
+        along[a] = way / length;
+        among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
     }
-    return filling_at(cells, among) == 0.0;
+    return cells_to_obstacle(world, top, along, length) == INFINITY && filling_at(cells, among) == 0.0;
 }
 
 /* Whether what is below a cell stands on an obstacle, within two cells of its own. */
@@ -340,36 +382,42 @@ static bool is_borne(const World *world, const Cells *cells, const Share *top, i
 {
     enum { GAP = 2 };
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    int32_t cell[3] = {top->cell[0], top->cell[1], top->cell[2]};
-    double point[3] = {0};
-    int steps = 0;
-    for (; filling_at(cells, cell) > 0.0; steps++) cell[axis] += way;
-    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, top, a);
-    point[axis] += way * (steps - 1 + GAP) * (double)world->def.cell_size;
-    return !is_open_at(world, top->slot, point);
+    Share last = *top;
+    int32_t next[3] = {top->cell[0], top->cell[1], top->cell[2]};
+    double along[3] = {0};
+    along[axis] = way;
+    for (next[axis] += way; filling_at(cells, next) > 0.0; next[axis] += way) last.cell[axis] = next[axis];
+    return cells_to_obstacle(world, &last, along, GAP) < INFINITY;
+}
+
+/* Whether a cell at the surface has room below in any direction along the grid. */
+static bool is_steep(const World *world, const Cells *cells, const Share *top, int axis, const double down[3])
+{
+    for (int a = 0; a < world->def.dimension; a++)
+        for (int sign = -1; sign <= 1 && a != axis; sign += 2) {
+            double side[3] = {0}, length = 0.0;
+            for (int b = 0; b < world->def.dimension; b++) side[b] = sign * ((a == b ? 1.0 : 0.0) - down[a] * down[b]);
+            for (int b = 0; b < world->def.dimension; b++) length += side[b] * side[b];
+            for (int b = 0; b < world->def.dimension; b++) side[b] /= sqrt(length);
+            if (has_room_below(world, cells, top, down, side)) return true;
+        }
+    return false;
 }
 
 /* Of the surface of what does not fall. Sorted by cell. */
 static double share_of_steep(const World *world, const Cells *cells, int axis, uint32_t slot)
 {
     const double strength = gravity_strength(world);
-    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1, d = world->def.dimension;
+    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1;
+    const uint32_t stride = stride_of(cells, slot);
     double looked = 0.0, steep = 0.0, down[3] = {0};
-    for (int a = 0; a < d; a++) down[a] = (double)world->settings.gravity[a] / strength;
+    uint32_t number = 0;
+    for (int a = 0; a < world->def.dimension; a++) down[a] = (double)world->settings.gravity[a] / strength;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
-        bool found = false;
-        for (int a = 0; a < d && !found; a++)
-            for (int sign = -1; sign <= 1 && a != axis && !found; sign += 2) {
-                double side[3] = {0}, length = 0.0;
-                for (int b = 0; b < d; b++) side[b] = sign * ((a == b ? 1.0 : 0.0) - down[a] * down[b]);
-                for (int b = 0; b < d; b++) length += side[b] * side[b];
-                for (int b = 0; b < d; b++) side[b] /= sqrt(length);
-                found = has_room_below(world, cells, share, down, side);
-            }
+        if (share->group != slot + 1 || number++ % stride != 0 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
         looked += 1.0;
-        steep += found;
+        steep += is_steep(world, cells, share, axis, down);
     }
     return looked > 0.0 ? steep / looked : 0.0;
 }
@@ -392,43 +440,40 @@ static double bulge_at(const Solid *solid, const double point[3], int dimension,
     return 4.0 * sum / cell;
 }
 
-/* How high the highest cell of liquid is, times |g|; minus infinity where there is none. */
-static double top_of_liquid(const World *world, const Cells *cells)
+/* Whether liquid is above a ball or a capsule, or beside it within two cells: it flows around it, or will. */
+static bool is_ball_below(const World *world, const Cells *cells, const Solid *solid, int axis)
 {
-    double top = -INFINITY;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        double up = 0.0;
-        for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
-        if (cells->share[i].group == 0) top = fmax(top, up);
-    }
-    return top;
-}
-
-/* Whether a ball or a capsule reaches below a height: liquid that is higher will flow around it. */
-static bool is_ball_below(const World *world, const Solid *solid, double top)
-{
-    double lowest = 0.0, low[3] = {0}, high[3] = {0};
-    if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
+    const double beside = 2.0 * (double)world->def.cell_size;
+    const bool up = axis >= 0 && world->settings.gravity[axis] < 0.0f;
+    double low[3] = {0}, high[3] = {0};
+    if (axis < 0 || (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE)) return false;
     solid_bounds(solid, low, high);
     for (int a = 0; a < world->def.dimension; a++) {
-        const double pull = (double)world->settings.gravity[a];
-        lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
+        low[a] -= a == axis && !up ? INFINITY : beside;
+        high[a] += a == axis && up ? INFINITY : beside;
     }
-    return lowest < top;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        bool within = cells->share[i].group == 0;
+        for (int a = 0; a < world->def.dimension && within; a++) {
+            const double at = middle_of(world, &cells->share[i], a);
+            within = at > low[a] && at < high[a];
+        }
+        if (within) return true;
+    }
+    return false;
 }
 
 /* Rigid bodies are left out: they float. */
-static bool stands_in_liquid(const World *world, const Cells *cells)
+static bool stands_in_liquid(const World *world, const Cells *cells, int axis)
 {
     static const double BULGES = 0.1; /* a ball of ten cells */
     enum { MOST = 1 << 16 };
-    const double top = top_of_liquid(world, cells);
     const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_ball_below(world, &solid, top)) return true;
+        if (is_ball_below(world, cells, &solid, axis)) return true;
         for (uint32_t i = 0; i < cells->count; i += stride) {
             if (cells->share[i].group != 0) continue;
             double point[3] = {0};
@@ -439,39 +484,7 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
     return false;
 }
 
-/* ---- Bodies ---- */
-
-static uint32_t find_share(const Cells *cells, uint64_t place)
-{
-    const uint32_t low = first_from(cells, place);
-    return low < cells->count && cells->share[low].place == place ? low : cells->count;
-}
-
-static uint32_t body_of(Cells *cells, uint32_t i)
-{
-    while (cells->share[i].body != i) {
-        cells->share[i].body = cells->share[cells->share[i].body].body;
-        i = cells->share[i].body;
-    }
-    return i;
-}
-
-/* Joins cells that share a face, in 2D an edge. Sorted by cell. */
-static void find_bodies(Cells *cells)
-{
-    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        if (cells->share[i].group == 0) continue;
-        for (int a = 0; a < cells->dimension; a++) {
-            Share next = cells->share[i];
-            next.cell[a]++;
-            const uint32_t other = find_share(cells, place_of(&next, 0, false));
-            if (other == cells->count) continue;
-            const uint32_t one = body_of(cells, i), two = body_of(cells, other);
-            cells->share[one > two ? one : two].body = one > two ? two : one;
-        }
-    }
-}
+/* ---- What is round ---- */
 
 typedef struct Extent {
     uint64_t particles;
@@ -488,7 +501,6 @@ static pbmpm_result find_round(World *world, Cells *cells, Survey *survey)
     Extent *extent = memory_take(&world->memory, bytes);
     if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
     for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
-    find_bodies(cells);
     double round[PBMPM_MAX_MATERIALS] = {0};
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t row = 0; row < p->count; row++) {
@@ -591,7 +603,8 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
     measure_filling(cells, filling);
     measure_overlaps(cells, overlapping);
-    survey->obstructed = stands_in_liquid(world, cells);
+    survey->obstructed = stands_in_liquid(world, cells, down);
+    find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];
         if (heap->particles == 0 || !material_is_solid(&world->materials, slot)) continue;
