@@ -15,6 +15,7 @@ typedef struct Share {
     uint32_t group;
     uint32_t slot;    /* a material of the group */
     double filling;   /* rest volume over cell volume */
+    double falling;   /* the same times its speed along gravity [m^2/s^3] */
     double thickness; /* least so far */
     uint32_t body;    /* an earlier share of the same body, or itself */
     bool held;        /* an obstacle is where it ends, or other matter below */
@@ -63,10 +64,13 @@ static bool near_first(const Particles *p, uint32_t row, int32_t cell[3])
 /* Adds a share to the last one if that has the same place, else behind it. */
 static void put_share(Cells *cells, uint32_t *count, const Share *share)
 {
-    if (*count > 0 && cells->share[*count - 1].place == share->place)
-        cells->share[*count - 1].filling += share->filling;
-    else
+    Share *last = *count > 0 ? &cells->share[*count - 1] : NULL;
+    if (!last || last->place != share->place) {
         cells->share[(*count)++] = *share;
+        return;
+    }
+    last->filling += share->filling;
+    last->falling += share->falling;
 }
 
 /* One share per cell and group. Particles that are 2^18 cells from the first are left out. Most of those in a cell are stored together: few are left to sort. */
@@ -78,6 +82,7 @@ static void find_cells(const World *world, Cells *cells)
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
         const bool near = near_first(p, row, share.cell);
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
+        for (int a = 0; a < p->dimension; a++) share.falling += share.filling * (double)(p->velocity[a][row] * world->settings.gravity[a]);
         share.place = place_of(&share, 0, true);
         if (near) put_share(cells, &cells->count, &share);
     }
@@ -146,12 +151,12 @@ static double cells_to_obstacle(const World *world, const Share *share, const do
     return fmin(way_to_obstacle(world, share->slot, from, along, far * cell), way_to_wall(world, from, along, far * cell)) / cell;
 }
 
-/* Whether an obstacle stands within ROOM cells of an end of a run, which reaches to the end of its cell. */
+/* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
 static bool is_shut(const World *world, const Share *end, int axis, int way)
 {
     double along[3] = {0};
     along[axis] = way;
-    return cells_to_obstacle(world, end, along, ROOM + 0.5) < INFINITY;
+    return cells_to_obstacle(world, end, along, ROOM - 0.5) < INFINITY;
 }
 
 /* Which share of each solid stands between obstacles along an axis. */
@@ -442,6 +447,13 @@ static unsigned steep_sides(const World *world, const Cells *cells, const Share 
     return sides;
 }
 
+/* Whether it is faster than after a free fall through a cell: a stream is no slope, however it stands. */
+static bool is_falling(const World *world, const Share *share)
+{
+    const double strength = gravity_strength(world), speed = share->falling / (share->filling * strength);
+    return speed > 0.0 && speed * speed > 2.0 * strength * (double)world->def.cell_size;
+}
+
 /* Which share of the surface of what does not fall is too steep, and whether it is to both sides along any axis. Sorted by cell. */
 static void measure_slopes(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
@@ -454,7 +466,8 @@ static void measure_slopes(const World *world, const Cells *cells, int axis, uin
     for (int a = 0; a < world->def.dimension; a++) down[a] = (double)world->settings.gravity[a] / strength;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || number++ % stride != 0 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
+        if (share->group != slot + 1 || number++ % stride != 0 || is_falling(world, share)) continue;
+        if (!is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
         const unsigned found = steep_sides(world, cells, share, axis, down, &heap->slide);
         looked += 1.0;
         steep += found != 0;
