@@ -286,8 +286,9 @@ namespace Pbmpm
         PoolStirs = 5,
         /// <summary>the iterations hold less than the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is crushed. By its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and beside liquid; else its mean
-        /// strain. Where it lands: figure its speed there [cells per substep]; the text tells which</summary>
+        /// <summary>sand is crushed, or comes to rest too flat. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's, with the dual solver and
+        /// beside liquid; else its mean strain. Crushed where it lands, or too flat: figure its speed there [cells per substep]; the text
+        /// tells which</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
@@ -309,7 +310,7 @@ namespace Pbmpm
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient</summary>
         NoFriction = 19,
-        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
+        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost at least, by two standard errors of what cells hold</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
         StrainClamped = 15,
@@ -2242,7 +2243,7 @@ namespace Pbmpm.Native
         /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
-        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, about half a
+        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, 0.4 to 0.8 of a
         /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
         /// Any thread, alone in its world.</summary>
