@@ -564,16 +564,18 @@ typedef struct Extent {
 /* A ball's farthest point is 1.29 as far from its middle as the root of its mean square distance, a disc's 1.41, a cylinder's as long as it is wide 1.55; that of a cube or a square 1.73. */
 static const double ROUNDEST = 1.6;
 
-/* Sorted by cell, bodies are found. */
+/* Sorted by cell, bodies are found. Most particles lie in the cell of the one before. */
 static void measure_extents(const World *world, Cells *cells, Extent *extent)
 {
     const Particles *p = &world->particles;
+    uint32_t found = cells->count;
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t row = 0; row < p->count; row++) {
             const uint32_t slot = p->material[row];
-            if (!material_is_solid(&world->materials, slot)) continue;
             Share share = {.group = slot + 1};
-            const uint32_t found = near_first(p, row, share.cell) ? find_share(cells, place_of(&share, 0, false)) : cells->count;
+            if (!material_is_solid(&world->materials, slot) || !near_first(p, row, share.cell)) continue;
+            const uint64_t place = place_of(&share, 0, false);
+            if (found == cells->count || cells->share[found].place != place) found = find_share(cells, place);
             if (found == cells->count) continue;
             Extent *of = &extent[body_of(cells, found)];
             double square = 0.0;
@@ -724,6 +726,16 @@ static void look_at_particles(const World *world, Survey *survey)
         if (survey->heap[slot].particles > 0) survey->heap[slot].clamped /= survey->heap[slot].particles;
 }
 
+/* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
+static bool may_float(const World *world, const Cells *cells)
+{
+    bool liquid = false, solid = false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    for (uint32_t i = 0; i < cells->count && !solid; i++) solid = cells->share[i].group > 0;
+    return liquid && solid;
+}
+
 /* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
 static const double THICKEST = 4.0;
 
@@ -732,12 +744,13 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     double runs[3][PBMPM_MAX_MATERIALS + 1], filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
     double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1], error[PBMPM_MAX_MATERIALS + 1];
     const int down = axis_of_gravity(world);
-    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = 1.0;
-    for (int a = 0; a < cells->dimension; a++)
+    const bool floats = may_float(world, cells);
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = floats ? 1.0 : 0.0;
+    for (int a = 0; a < cells->dimension && floats; a++)
         if (a != down) measure_room(world, cells, a, narrow);
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
     measure_filling(cells, filling, error);
-    measure_overlaps(cells, overlapping);
+    if (world->step_count == 0) measure_overlaps(cells, overlapping);
     survey->obstructed = stands_in_liquid(world, cells);
     find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {

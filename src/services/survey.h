@@ -13,7 +13,7 @@ typedef struct Heap {
     double thickness;  /* the least over the axes, where it is thickest */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
     double filling_error; /* standard error of that mean */
-    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
+    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter; before the first step */
     bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
     double lever;      /* the least [cells] by which the weight of a body lies beyond all that holds it; 0: of none does, or nothing holds it; elastic, not round */
     double steep;      /* share of its surface that has room below, at more than a solid's angle of friction; sand */
