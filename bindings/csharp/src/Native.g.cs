@@ -2243,8 +2243,8 @@ namespace Pbmpm.Native
         /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
-        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, 0.4 to 0.8 of a
-        /// step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
+        /// capacity is 0; otherwise array[0].size must be set. Costs a few passes over the particles and sorts of the cells that they are in, a quarter to a half
+        /// of a step of five iterations, and only when called; what has to be sorted is the only memory, which is given back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
         /// Any thread, alone in its world.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
