@@ -31,6 +31,7 @@ CODES = {
     "grains at rest": {"SAND_NOT_HELD"},
     "flow": {"SAND_NOT_HELD"},
     "slope": set(),
+    "start": set(),
     "on sand": set(),
     "rolling": {"ROLLING_BRAKED", "MODULUS_NOT_HELD"},
     "contact": {"MODULUS_NOT_HELD", "BODY_TOO_THIN", "STRAIN_CLAMPED"},
@@ -43,13 +44,14 @@ CODES = {
 LIMITS = {
     "grains": "volume|sand in liquid does not settle",
     "grains at rest": "stirring",
-    "slope": "too flat",
+    "start": "too steep",
+    "contact": "tips",
     "on sand": "on sand",
     "calm": "goes on|go on",
     "afloat": "in a liquid",
     "modulus": "stays more strained",
 }
-"""What the text of a KNOWN_LIMIT says if it speaks of a subject."""
+"""What the text of a KNOWN_LIMIT says if it speaks of a subject. That of SAND_NOT_HELD tells if it speaks of slopes."""
 
 SUBJECTS = (
     (r"^far_away", "modulus"),
@@ -58,6 +60,7 @@ SUBJECTS = (
     (r"^(all_in_a_tank|jelly_in_a_glass).*level", "afloat"),
     (r"discharge", "jet"),
     (r"^silo.*(flow over|flow later|flow at|seconds)", "flow"),
+    (r"^tilted_tray.*angle at which", "start"),
     (r"^(pile|tilted_tray|layer|column|funnel|heap|sand_column)[^:]*: .*(slope|steepness|angle at|angle of|run-out|way of its centre|front along)", "slope"),
     (r"^(silo|sand|bin|pile|layer|column|poured|falls|hourglass|funnel|tilted_tray)[^:]*: .*(rms speed|creep)", "grains at rest"),
     (r"^sand_in_water[^:]*: level", "volume"),
@@ -81,6 +84,8 @@ def subject_of(case: str, check: str) -> str:
 
 def speaks(subject: str, item: Any) -> bool:
     name = item.code.name
+    if name == "SAND_NOT_HELD" and "too flat" in item.text:
+        return subject == "slope"
     return name in CODES[subject] or (name == "KNOWN_LIMIT" and subject in LIMITS and re.search(LIMITS[subject], item.text) is not None)
 
 

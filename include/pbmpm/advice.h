@@ -20,8 +20,9 @@ typedef enum pbmpm_advice_code {
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, by its weight or where it lands; the text tells which. Figure of the weight: g dt^2 depth / dx^2, dt the substep's, with the
-                                            dual solver and beside liquid; else its mean strain. Figure where it lands: its speed there [cells per substep] */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, or comes to rest too flat; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+                                            with the dual solver and beside liquid; else its mean strain. Crushed where it lands, or too flat: its speed there [cells per
+                                            substep] */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
     PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
                                             ball lasts (Hertz's theory) */
@@ -34,7 +35,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient */
     /* Came true: measured in the present state. */
-    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost */
+    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost at least, by two standard errors of what cells hold */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
     PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
     PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
@@ -75,7 +76,7 @@ typedef struct pbmpm_advice {
  *  What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
  *
  *  Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
- *  capacity is 0; otherwise array[0].size must be set. Costs about half a step of five iterations, and only when called.
+ *  capacity is 0; otherwise array[0].size must be set. Costs a quarter to a half of a step of five iterations, and only when called.
  *  It takes memory to sort cells, and gives it back.
  *  Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
  *  Any thread, alone in its world. */

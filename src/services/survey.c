@@ -2,9 +2,10 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "base/result.h"
-#include "contact/domain.h"
+#include "services/way.h"
 #include "world/depth.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
@@ -14,9 +15,10 @@ typedef struct Share {
     uint32_t group;
     uint32_t slot;    /* a material of the group */
     double filling;   /* rest volume over cell volume */
-    double all;       /* the same of all groups; 0 where a neighbour is empty */
+    double falling;   /* the same times its speed along gravity [m^2/s^3] */
     double thickness; /* least so far */
     uint32_t body;    /* an earlier share of the same body, or itself */
+    bool held;        /* an obstacle is where it ends, or other matter below */
 } Share;
 
 enum { AXIS_BITS = 18, GROUP_BITS = 9, FEW = 8, HALF = 1 << (AXIS_BITS - 1) };
@@ -59,7 +61,19 @@ static bool near_first(const Particles *p, uint32_t row, int32_t cell[3])
     return near;
 }
 
-/* One share per particle, then per cell and group. Particles that are 2^18 cells from the first are left out. */
+/* Adds a share to the last one if that has the same place, else behind it. */
+static void put_share(Cells *cells, uint32_t *count, const Share *share)
+{
+    Share *last = *count > 0 ? &cells->share[*count - 1] : NULL;
+    if (!last || last->place != share->place) {
+        cells->share[(*count)++] = *share;
+        return;
+    }
+    last->filling += share->filling;
+    last->falling += share->falling;
+}
+
+/* One share per cell and group. Particles that are 2^18 cells from the first are left out. Most of those in a cell are stored together: few are left to sort. */
 static void find_cells(const World *world, Cells *cells)
 {
     const Particles *p = &world->particles;
@@ -68,16 +82,13 @@ static void find_cells(const World *world, Cells *cells)
         Share share = {.slot = slot, .group = material_is_solid(&world->materials, slot) ? slot + 1 : 0, .thickness = INFINITY};
         const bool near = near_first(p, row, share.cell);
         share.filling = (double)p->mass[row] / (double)world->materials.def[slot].density;
-        if (near) cells->share[cells->count++] = share;
+        for (int a = 0; a < p->dimension; a++) share.falling += share.filling * (double)(p->velocity[a][row] * world->settings.gravity[a]);
+        share.place = place_of(&share, 0, true);
+        if (near) put_share(cells, &cells->count, &share);
     }
     sort_along(cells, 0, true);
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        if (kept > 0 && cells->share[kept - 1].place == cells->share[i].place)
-            cells->share[kept - 1].filling += cells->share[i].filling;
-        else
-            cells->share[kept++] = cells->share[i];
-    }
+    for (uint32_t i = 0; i < cells->count; i++) put_share(cells, &kept, &cells->share[i]);
     cells->count = kept;
 }
 
@@ -101,10 +112,11 @@ static uint32_t run_from(const Cells *cells, uint32_t first)
     return end - first;
 }
 
-/* Thicknesses along an axis; with `depth` also each group's mean length of run, weighted by what is in it. */
-static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIALS + 1])
+/* Thicknesses along an axis, and each group's mean length of run, weighted by what is in it. */
+static void measure_runs(Cells *cells, int axis, double mean[PBMPM_MAX_MATERIALS + 1])
 {
     double weight[PBMPM_MAX_MATERIALS + 1] = {0};
+    memset(mean, 0, (PBMPM_MAX_MATERIALS + 1) * sizeof *mean);
     sort_along(cells, axis, true);
     for (uint32_t first = 0, count; first < cells->count; first += count) {
         Share *run = &cells->share[first];
@@ -113,11 +125,11 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
         for (uint32_t i = 0; i < count; i++) {
             run[i].thickness = fmin(run[i].thickness, length);
             weight[run->group] += run[i].filling;
-            if (depth) depth[run->group] += run[i].filling * length;
+            mean[run->group] += run[i].filling * length;
         }
     }
-    for (int group = 0; depth && group <= PBMPM_MAX_MATERIALS; group++)
-        if (weight[group] > 0.0) depth[group] /= weight[group];
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++)
+        if (weight[group] > 0.0) mean[group] /= weight[group];
 }
 
 /* ---- Room ---- */
@@ -125,38 +137,26 @@ static void measure_runs(Cells *cells, int axis, double depth[PBMPM_MAX_MATERIAL
 /* Cells beside a run in which an obstacle counts as near, and runs that are looked at, along an axis. */
 enum { ROOM = 5, LOOKED_AT = 64 };
 
-static bool is_open_at(const World *world, uint32_t slot, const double point[3])
+static double middle_of(const World *world, const Share *share, int axis)
 {
-    for (int a = 0; a < world->def.dimension; a++)
-        for (int upper = 0; upper < 2 && world->def.domain_enabled; upper++)
-            if (!world->domain.wall[domain_place(a, upper)].open && (upper ? point[a] > (double)world->def.domain_max[a] : point[a] < (double)world->def.domain_min[a])) return false;
-    for (uint32_t c = 0; c < world->colliders.used; c++) {
-        const Collider *collider = &world->colliders.slot[c];
-        if (!collider_acts(collider) || !groups_meet(collider->def.meets, world->materials.def[slot].groups)) continue;
-        const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (solid_gap(&solid, point) < 0.0) return false;
-    }
-    return true;
+    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
 }
 
-/* At the upper corner of a cell, which is all around its node. */
-static bool is_open(const World *world, uint32_t slot, const int32_t cell[3])
+/* Cells from the middle of a cell to the first obstacle, or infinitely many if there is none within `far`. `along`: of length 1. */
+static double cells_to_obstacle(const World *world, const Share *share, const double along[3], double far)
 {
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = ((double)cell[a] + 0.5) * (double)world->def.cell_size;
-    return is_open_at(world, slot, point);
+    const double cell = (double)world->def.cell_size;
+    double from[3] = {0};
+    for (int a = 0; a < world->def.dimension; a++) from[a] = middle_of(world, share, a);
+    return fmin(way_to_obstacle(world, share->slot, from, along, far * cell), way_to_wall(world, from, along, far * cell)) / cell;
 }
 
-/* Whether an obstacle stands within ROOM cells of an end of a run. */
+/* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
 static bool is_shut(const World *world, const Share *end, int axis, int way)
 {
-    int32_t cell[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) cell[a] = end->cell[a] + world->particles.cell[a][0] - HALF;
-    for (int step = 0; step < ROOM; step++) {
-        cell[axis] += way;
-        if (!is_open(world, end->slot, cell)) return true;
-    }
-    return false;
+    double along[3] = {0};
+    along[axis] = way;
+    return cells_to_obstacle(world, end, along, ROOM - 0.5) < INFINITY;
 }
 
 /* Which share of each solid stands between obstacles along an axis. */
@@ -216,18 +216,25 @@ static bool is_inside(const Cells *cells, const Share *share)
     return true;
 }
 
-static void measure_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1])
+/* Means over the cells inside, and how well they are known: their standard errors, as if cells were filled by chance. */
+static void measure_filling(Cells *cells, double filling[PBMPM_MAX_MATERIALS + 1], double error[PBMPM_MAX_MATERIALS + 1])
 {
     uint32_t inside[PBMPM_MAX_MATERIALS + 1] = {0};
+    double square[PBMPM_MAX_MATERIALS + 1] = {0};
     sort_along(cells, 0, false);
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
         const double all = filling_at(cells, share->cell);
         if (share->filling < 0.5 * all || !is_inside(cells, share)) continue;
         filling[share->group] += all;
+        square[share->group] += all * all;
         inside[share->group]++;
     }
-    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) filling[group] = inside[group] < FEW ? 0.0 : filling[group] / inside[group];
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) {
+        const double cells_inside = inside[group], mean = inside[group] < FEW ? 0.0 : filling[group] / cells_inside;
+        filling[group] = mean;
+        error[group] = mean > 0.0 ? sqrt(fmax(0.0, square[group] / cells_inside - mean * mean) / (cells_inside - 1.0)) : 0.0;
+    }
 }
 
 /* On the mean of a cell, counted twice, and those next to it: by chance a single one holds up to twice what fits. */
@@ -257,30 +264,94 @@ static void measure_overlaps(const Cells *cells, double overlapping[PBMPM_MAX_MA
     for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) overlapping[group] /= fmax(volume[group], 1e-300);
 }
 
-/* ---- Falling, sliding ---- */
+/* ---- Bodies ---- */
 
-static double middle_of(const World *world, const Share *share, int axis)
+static uint32_t find_share(const Cells *cells, uint64_t place)
 {
-    return (double)(share->cell[axis] + world->particles.cell[axis][0] - HALF) * (double)world->def.cell_size;
+    const uint32_t low = first_from(cells, place);
+    return low < cells->count && cells->share[low].place == place ? low : cells->count;
 }
 
-/* Cells of free way along gravity's axis until matter or an obstacle; 0 if there is none within FAR. Tells if it is matter. */
-static double drop_of(const World *world, const Cells *cells, const Share *bottom, int axis, bool *on_matter)
+static uint32_t body_of(Cells *cells, uint32_t i)
+{
+    while (cells->share[i].body != i) {
+        cells->share[i].body = cells->share[cells->share[i].body].body;
+        i = cells->share[i].body;
+    }
+    return i;
+}
+
+/* Joins cells of a solid that share a face, in 2D an edge. Sorted by cell. */
+static void find_bodies(Cells *cells)
+{
+    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        if (cells->share[i].group == 0) continue;
+        for (int a = 0; a < cells->dimension; a++) {
+            Share next = cells->share[i];
+            next.cell[a]++;
+            const uint32_t other = find_share(cells, place_of(&next, 0, false));
+            if (other == cells->count) continue;
+            const uint32_t one = body_of(cells, i), two = body_of(cells, other);
+            cells->share[one > two ? one : two].body = one > two ? two : one;
+        }
+    }
+}
+
+/* ---- Falling, sliding ---- */
+
+static int axis_of_gravity(const World *world)
+{
+    int axis = -1;
+    for (int a = 0; a < world->def.dimension; a++)
+        if (world->settings.gravity[a] != 0.0f && (axis < 0 || fabsf(world->settings.gravity[a]) > fabsf(world->settings.gravity[axis]))) axis = a;
+    return axis;
+}
+
+
+/* Sorted by cell. */
+static bool any_of_group(const Cells *cells, const int32_t cell[3], uint32_t group)
+{
+    Share wanted = {.cell = {cell[0], cell[1], cell[2]}, .group = group};
+    return find_share(cells, place_of(&wanted, 0, false)) < cells->count;
+}
+
+typedef enum Below { NOTHING, ITSELF, OTHER } Below;
+
+/* What of matter is in a cell: a body's own before others'. */
+static Below below_of(Cells *cells, const int32_t cell[3], uint32_t body)
+{
+    const Share wanted = {.cell = {cell[0], cell[1], cell[2]}};
+    const uint64_t place = place_of(&wanted, 0, false);
+    Below below = NOTHING;
+    for (uint32_t i = first_from(cells, place); i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++) {
+        if (body_of(cells, i) == body) return ITSELF;
+        below = OTHER;
+    }
+    return below;
+}
+
+/* Cells of free way along gravity's axis from the end of a body until other matter or an obstacle; 0 if there is none within FAR, and negative
+ * where the body goes on below. Tells if it is matter. */
+static double drop_of(const World *world, Cells *cells, uint32_t bottom, int axis, bool *on_matter)
 {
     enum { FAR = 256 };
+    const Share *share = &cells->share[bottom];
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    int32_t cell[3] = {bottom->cell[0], bottom->cell[1], bottom->cell[2]};
-    double point[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, bottom, a);
-    for (int step = 0; step < FAR; step++) {
+    const uint32_t body = body_of(cells, bottom);
+    int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+    double along[3] = {0};
+    along[axis] = way;
+    const double room = fmax(0.0, cells_to_obstacle(world, share, along, FAR) - 0.5); /* matter reaches to the end of its cell */
+    for (int step = 0; step < FAR && step <= room; step++) {
         cell[axis] += way;
-        point[axis] += way * (double)world->def.cell_size;
-        const bool matter = filling_at(cells, cell) > 0.0;
-        if (!matter && is_open_at(world, bottom->slot, point)) continue;
-        *on_matter = *on_matter || matter;
+        const Below below = below_of(cells, cell, body);
+        if (below == NOTHING) continue;
+        if (below == ITSELF) return -1.0;
+        *on_matter = true;
         return step;
     }
-    return 0.0;
+    return room < FAR ? room : 0.0;
 }
 
 static int by_size(const void *a, const void *b)
@@ -289,26 +360,34 @@ static int by_size(const void *a, const void *b)
     return one < other ? -1 : one > other;
 }
 
+/* Whether its own matter ends there, whatever lies beside it. */
 static bool is_end(const Cells *cells, const Share *share, int axis, int way)
 {
     int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
     next[axis] += way;
-    return filling_at(cells, next) == 0.0;
+    return !any_of_group(cells, next, share->group);
 }
 
-/* Sorted by cell. */
-static void measure_drops(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
+/* So that about LOOKED_AT ends of a solid are looked at: one cell in eight is one. */
+static uint32_t stride_of(const Cells *cells, uint32_t slot)
+{
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < cells->count; i++) count += cells->share[i].group == slot + 1;
+    return 1 + count / (8 * LOOKED_AT);
+}
+
+/* Sorted by cell, bodies are found. */
+static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
+    const uint32_t stride = stride_of(cells, slot);
     double drops[2 * LOOKED_AT];
-    uint32_t ends = 0, number = 0, count = 0;
-    for (uint32_t i = 0; i < cells->count; i++) ends += cells->share[i].group == slot + 1;
-    const uint32_t stride = 1 + ends / (8 * LOOKED_AT); /* about one cell in eight is at the lower end */
+    uint32_t number = 0, count = 0;
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
-        const Share *share = &cells->share[i];
-        if (share->group != slot + 1) continue;
-        const bool looked = number++ % stride == 0;
-        if (looked && is_end(cells, share, axis, way)) drops[count++] = drop_of(world, cells, share, axis, &heap->on_matter);
+        if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
+        if (!is_end(cells, &cells->share[i], axis, way)) continue;
+        const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
+        if (drop >= 0.0) drops[count++] = drop;
     }
     if (count == 0) return;
     qsort(drops, count, sizeof *drops, by_size);
@@ -317,22 +396,25 @@ static void measure_drops(const World *world, const Cells *cells, int axis, uint
     heap->drop_most = drops[count - 1];
 }
 
-/* Whether there is room beside and below a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, and no wall between. */
-static bool has_room_below(const World *world, const Cells *cells, const Share *top, const double down[3], const double side[3])
+/* How far it goes down beside a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, with no obstacle between: until matter or an
+ * obstacle [cells]. 0 if there is no room, and where nothing is below. */
+static double room_below(const World *world, const Cells *cells, const Share *top, int axis, const double down[3], const double side[3])
 {
-    enum { SIDE = 6, LOOKS = 4 * SIDE };
-    const double cell = (double)world->def.cell_size, angle = (double)world->materials.def[top->slot].friction_angle, deep = sin(angle) / cos(angle) * SIDE + 1.0;
-    int32_t among[3] = {0};
-    for (int look = 1; look <= LOOKS; look++) {
-        double point[3] = {0};
-        for (int a = 0; a < world->def.dimension; a++) {
-            const double way = (SIDE * side[a] + deep * down[a]) * look / LOOKS;
-            among[a] = top->cell[a] + (int32_t)floor(way + 0.5);
-            point[a] = middle_of(world, top, a) + way * cell;
-        }
-        if (!is_open_at(world, top->slot, point)) return false;
+    enum { SIDE = 6, FAR = 256 };
+    const double angle = (double)world->materials.def[top->slot].friction_angle, deep = sin(angle) / cos(angle) * SIDE + 1.0, length = sqrt(SIDE * SIDE + deep * deep);
+    double along[3] = {0}, fall[3] = {0};
+    Share beside = *top;
+    for (int a = 0; a < world->def.dimension; a++) {
+        const double way = SIDE * side[a] + deep * down[a];
+        along[a] = way / length;
+        beside.cell[a] += (int32_t)floor(way + 0.5);
     }
-    return filling_at(cells, among) == 0.0;
+    if (cells_to_obstacle(world, top, along, length) < INFINITY || filling_at(cells, beside.cell) > 0.0) return 0.0;
+    fall[axis] = world->settings.gravity[axis] > 0.0f ? 1.0 : -1.0;
+    const double room = cells_to_obstacle(world, &beside, fall, FAR);
+    int step = 0;
+    for (; step < FAR && step < room && filling_at(cells, beside.cell) == 0.0; step++) beside.cell[axis] += (int32_t)fall[axis];
+    return step < FAR ? deep + fmin(step, room) : 0.0;
 }
 
 /* Whether what is below a cell stands on an obstacle, within two cells of its own. */
@@ -340,38 +422,59 @@ static bool is_borne(const World *world, const Cells *cells, const Share *top, i
 {
     enum { GAP = 2 };
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
-    int32_t cell[3] = {top->cell[0], top->cell[1], top->cell[2]};
-    double point[3] = {0};
-    int steps = 0;
-    for (; filling_at(cells, cell) > 0.0; steps++) cell[axis] += way;
-    for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, top, a);
-    point[axis] += way * (steps - 1 + GAP) * (double)world->def.cell_size;
-    return !is_open_at(world, top->slot, point);
+    Share last = *top;
+    int32_t next[3] = {top->cell[0], top->cell[1], top->cell[2]};
+    double along[3] = {0};
+    along[axis] = way;
+    for (next[axis] += way; filling_at(cells, next) > 0.0; next[axis] += way) last.cell[axis] = next[axis];
+    return cells_to_obstacle(world, &last, along, GAP) < INFINITY;
 }
 
-/* Of the surface of what does not fall. Sorted by cell. */
-static double share_of_steep(const World *world, const Cells *cells, int axis, uint32_t slot)
+/* To which sides along the grid a cell at the surface has room below: two bits for each axis. Keeps the deepest. */
+static unsigned steep_sides(const World *world, const Cells *cells, const Share *top, int axis, const double down[3], double *deepest)
+{
+    unsigned sides = 0;
+    for (int a = 0; a < world->def.dimension; a++)
+        for (int upper = 0; upper < 2 && a != axis; upper++) {
+            double side[3] = {0}, length = 0.0;
+            for (int b = 0; b < world->def.dimension; b++) side[b] = (upper ? 1.0 : -1.0) * ((a == b ? 1.0 : 0.0) - down[a] * down[b]);
+            for (int b = 0; b < world->def.dimension; b++) length += side[b] * side[b];
+            for (int b = 0; b < world->def.dimension; b++) side[b] /= sqrt(length);
+            const double room = room_below(world, cells, top, axis, down, side);
+            if (room > 0.0) sides |= 1u << domain_place(a, upper);
+            *deepest = fmax(*deepest, room);
+        }
+    return sides;
+}
+
+/* Whether it is faster than after a free fall through a cell: a stream is no slope, however it stands. */
+static bool is_falling(const World *world, const Share *share)
+{
+    const double strength = gravity_strength(world), speed = share->falling / (share->filling * strength);
+    return speed > 0.0 && speed * speed > 2.0 * strength * (double)world->def.cell_size;
+}
+
+/* Which share of the surface of what does not fall is too steep, and whether it is to both sides along any axis. Sorted by cell. */
+static void measure_slopes(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const double strength = gravity_strength(world);
-    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1, d = world->def.dimension;
+    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1;
+    const uint32_t stride = stride_of(cells, slot);
     double looked = 0.0, steep = 0.0, down[3] = {0};
-    for (int a = 0; a < d; a++) down[a] = (double)world->settings.gravity[a] / strength;
+    uint32_t number = 0;
+    unsigned sides = 0;
+    for (int a = 0; a < world->def.dimension; a++) down[a] = (double)world->settings.gravity[a] / strength;
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
-        if (share->group != slot + 1 || !is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
-        bool found = false;
-        for (int a = 0; a < d && !found; a++)
-            for (int sign = -1; sign <= 1 && a != axis && !found; sign += 2) {
-                double side[3] = {0}, length = 0.0;
-                for (int b = 0; b < d; b++) side[b] = sign * ((a == b ? 1.0 : 0.0) - down[a] * down[b]);
-                for (int b = 0; b < d; b++) length += side[b] * side[b];
-                for (int b = 0; b < d; b++) side[b] /= sqrt(length);
-                found = has_room_below(world, cells, share, down, side);
-            }
+        if (share->group != slot + 1 || number++ % stride != 0 || is_falling(world, share)) continue;
+        if (!is_end(cells, share, axis, up) || !is_borne(world, cells, share, axis)) continue;
+        const unsigned found = steep_sides(world, cells, share, axis, down, &heap->slide);
         looked += 1.0;
-        steep += found;
+        steep += found != 0;
+        sides |= found;
     }
-    return looked > 0.0 ? steep / looked : 0.0;
+    if (looked > 0.0) heap->steep = steep / looked;
+    for (int a = 0; a < world->def.dimension; a++) heap->falls_both_ways = heap->falls_both_ways || (sides >> domain_place(a, false) & 3) == 3;
 }
 
 /* ---- Obstacles in liquid ---- */
@@ -392,20 +495,25 @@ static double bulge_at(const Solid *solid, const double point[3], int dimension,
     return 4.0 * sum / cell;
 }
 
-/* How high the highest cell of liquid is, times |g|; minus infinity where there is none. */
-static double top_of_liquid(const World *world, const Cells *cells)
+/* Whether nothing stands between the middle of a cell and that of a solid. */
+static bool sees(const World *world, const Share *share, const Solid *solid)
 {
-    double top = -INFINITY;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        double up = 0.0;
-        for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
-        if (cells->share[i].group == 0) top = fmax(top, up);
+    const double cell = (double)world->def.cell_size;
+    double from[3] = {0}, along[3] = {0}, hit[3] = {0}, distance = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) {
+        from[a] = middle_of(world, share, a);
+        along[a] = solid->position[a] - from[a];
+        distance += along[a] * along[a];
     }
-    return top;
+    distance = sqrt(distance);
+    for (int a = 0; a < world->def.dimension; a++) along[a] /= fmax(distance, 1e-300);
+    const double way = fmin(distance, way_to_obstacle(world, share->slot, from, along, distance));
+    for (int a = 0; a < world->def.dimension; a++) hit[a] = from[a] + way * along[a];
+    return solid_gap(solid, hit) < cell && way_to_wall(world, from, along, way) == INFINITY;
 }
 
-/* Whether a ball or a capsule reaches below a height: liquid that is higher will flow around it. */
-static bool is_ball_below(const World *world, const Solid *solid, double top)
+/* Whether a ball or a capsule reaches below a cell of liquid that nothing parts from it: that flows around it, or will. */
+static bool is_ball_below(const World *world, const Cells *cells, const Solid *solid)
 {
     double lowest = 0.0, low[3] = {0}, high[3] = {0};
     if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
@@ -414,7 +522,13 @@ static bool is_ball_below(const World *world, const Solid *solid, double top)
         const double pull = (double)world->settings.gravity[a];
         lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
     }
-    return lowest < top;
+    const uint32_t stride = 1 + cells->count / LOOKED_AT;
+    for (uint32_t i = 0; i < cells->count; i += stride) {
+        double up = 0.0;
+        for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
+        if (cells->share[i].group == 0 && up > lowest && sees(world, &cells->share[i], solid)) return true;
+    }
+    return false;
 }
 
 /* Rigid bodies are left out: they float. */
@@ -422,13 +536,12 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
 {
     static const double BULGES = 0.1; /* a ball of ten cells */
     enum { MOST = 1 << 16 };
-    const double top = top_of_liquid(world, cells);
     const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_ball_below(world, &solid, top)) return true;
+        if (is_ball_below(world, cells, &solid)) return true;
         for (uint32_t i = 0; i < cells->count; i += stride) {
             if (cells->share[i].group != 0) continue;
             double point[3] = {0};
@@ -439,63 +552,30 @@ static bool stands_in_liquid(const World *world, const Cells *cells)
     return false;
 }
 
-/* ---- Bodies ---- */
-
-static uint32_t find_share(const Cells *cells, uint64_t place)
-{
-    const uint32_t low = first_from(cells, place);
-    return low < cells->count && cells->share[low].place == place ? low : cells->count;
-}
-
-static uint32_t body_of(Cells *cells, uint32_t i)
-{
-    while (cells->share[i].body != i) {
-        cells->share[i].body = cells->share[cells->share[i].body].body;
-        i = cells->share[i].body;
-    }
-    return i;
-}
-
-/* Joins cells that share a face, in 2D an edge. Sorted by cell. */
-static void find_bodies(Cells *cells)
-{
-    for (uint32_t i = 0; i < cells->count; i++) cells->share[i].body = i;
-    for (uint32_t i = 0; i < cells->count; i++) {
-        if (cells->share[i].group == 0) continue;
-        for (int a = 0; a < cells->dimension; a++) {
-            Share next = cells->share[i];
-            next.cell[a]++;
-            const uint32_t other = find_share(cells, place_of(&next, 0, false));
-            if (other == cells->count) continue;
-            const uint32_t one = body_of(cells, i), two = body_of(cells, other);
-            cells->share[one > two ? one : two].body = one > two ? two : one;
-        }
-    }
-}
+/* ---- What is round, what tips ---- */
 
 typedef struct Extent {
     uint64_t particles;
-    double mean[3], square, most;
+    double mean[3], square, most; /* of particles [cells] */
+    double foot[3], feet;         /* sum over the cells that something holds up, and their number */
+    double lever;                 /* see Heap */
 } Extent;
 
 /* A ball's farthest point is 1.29 as far from its middle as the root of its mean square distance, a disc's 1.41, a cylinder's as long as it is wide 1.55; that of a cube or a square 1.73. */
 static const double ROUNDEST = 1.6;
 
-static pbmpm_result find_round(World *world, Cells *cells, Survey *survey)
+/* Sorted by cell, bodies are found. Most particles lie in the cell of the one before. */
+static void measure_extents(const World *world, Cells *cells, Extent *extent)
 {
     const Particles *p = &world->particles;
-    const size_t bytes = cells->count * sizeof(Extent);
-    Extent *extent = memory_take(&world->memory, bytes);
-    if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
-    for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
-    find_bodies(cells);
-    double round[PBMPM_MAX_MATERIALS] = {0};
+    uint32_t found = cells->count;
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t row = 0; row < p->count; row++) {
             const uint32_t slot = p->material[row];
-            if (!material_is_solid(&world->materials, slot)) continue;
             Share share = {.group = slot + 1};
-            const uint32_t found = near_first(p, row, share.cell) ? find_share(cells, place_of(&share, 0, false)) : cells->count;
+            if (!material_is_solid(&world->materials, slot) || !near_first(p, row, share.cell)) continue;
+            const uint64_t place = place_of(&share, 0, false);
+            if (found == cells->count || cells->share[found].place != place) found = find_share(cells, place);
             if (found == cells->count) continue;
             Extent *of = &extent[body_of(cells, found)];
             double square = 0.0;
@@ -508,9 +588,86 @@ static pbmpm_result find_round(World *world, Cells *cells, Survey *survey)
             of->square += square;
             of->most = fmax(of->most, square);
         }
+}
+
+static bool is_round(const Extent *of) { return of->most * (double)of->particles < ROUNDEST * ROUNDEST * of->square; }
+
+/* Whether an obstacle is within two cells of where a solid ends, in a direction of the grid, or other matter below. */
+static bool is_held(const World *world, Cells *cells, uint32_t i, int down)
+{
+    enum { GAP = 2 };
+    const Share *share = &cells->share[i];
+    for (int a = 0; a < cells->dimension; a++)
+        for (int way = -1; way <= 1; way += 2) {
+            int32_t next[3] = {share->cell[0], share->cell[1], share->cell[2]};
+            double along[3] = {0};
+            if (!is_end(cells, share, a, way)) continue;
+            along[a] = way;
+            if (cells_to_obstacle(world, share, along, GAP) < INFINITY) return true;
+            const bool below = a == down && (way > 0) == (world->settings.gravity[a] > 0.0f);
+            for (int step = 0; step < GAP && below; step++) {
+                next[a] += way;
+                if (below_of(cells, next, body_of(cells, i)) == OTHER) return true;
+            }
+        }
+    return false;
+}
+
+/* From what holds a share to where its body's weight is, across gravity [cells]. */
+static void arm_of(const World *world, const Extent *of, const double foot[3], double arm[3])
+{
+    const double strength = gravity_strength(world);
+    double along = 0.0;
+    for (int a = 0; a < world->def.dimension; a++) arm[a] = of->mean[a] / (double)of->particles - foot[a];
+    for (int a = 0; a < world->def.dimension; a++) along += arm[a] * (double)world->settings.gravity[a] / strength;
+    for (int a = 0; a < world->def.dimension; a++) arm[a] -= along * (double)world->settings.gravity[a] / strength;
+}
+
+/* By how much the weight of bodies lies beyond all that holds them, seen from its middle. */
+static void measure_levers(const World *world, Cells *cells, int down, Extent *extent)
+{
+    const double cell = (double)world->def.cell_size;
+    for (int pass = 0; pass < 2; pass++)
+        for (uint32_t i = 0; i < cells->count; i++) {
+            Share *share = &cells->share[i];
+            const bool elastic = share->group > 0 && world->materials.def[share->slot].kind == PBMPM_ELASTIC;
+            Extent *of = &extent[elastic ? body_of(cells, i) : i];
+            if (pass == 0) share->held = elastic && is_held(world, cells, i, down);
+            if (!share->held || of->particles == 0) continue;
+            double foot[3] = {0}, middle[3] = {0}, arm[3] = {0}, out[3] = {0}, length = 0.0, lever = 0.0;
+            for (int a = 0; a < cells->dimension; a++) foot[a] = middle_of(world, share, a) / cell;
+            if (pass == 0) {
+                for (int a = 0; a < cells->dimension; a++) of->foot[a] += foot[a];
+                of->feet += 1.0;
+                of->lever = INFINITY;
+                continue;
+            }
+            for (int a = 0; a < cells->dimension; a++) middle[a] = of->foot[a] / of->feet;
+            arm_of(world, of, middle, out);
+            arm_of(world, of, foot, arm);
+            for (int a = 0; a < cells->dimension; a++) {
+                length += out[a] * out[a];
+                lever += arm[a] * out[a];
+            }
+            of->lever = fmin(of->lever, length > 0.0 ? lever / sqrt(length) : 0.0);
+        }
+}
+
+static pbmpm_result look_at_bodies(World *world, Cells *cells, Survey *survey)
+{
+    const size_t bytes = cells->count * sizeof(Extent);
+    Extent *extent = memory_take(&world->memory, bytes);
+    if (!extent) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to look at %u bodies", cells->count);
+    for (uint32_t i = 0; i < cells->count; i++) extent[i] = (Extent){0};
+    measure_extents(world, cells, extent);
+    if (axis_of_gravity(world) >= 0) measure_levers(world, cells, axis_of_gravity(world), extent);
+    double round[PBMPM_MAX_MATERIALS] = {0};
     for (uint32_t i = 0; i < cells->count; i++) {
         const Extent *of = &extent[i];
-        if (of->particles > 0 && of->most * (double)of->particles < ROUNDEST * ROUNDEST * of->square) round[cells->share[i].slot] += (double)of->particles;
+        Heap *heap = &survey->heap[cells->share[i].slot];
+        if (of->particles == 0) continue;
+        if (is_round(of)) round[cells->share[i].slot] += (double)of->particles;
+        else if (of->feet > 0.0 && of->lever > 0.0) heap->lever = heap->lever > 0.0 ? fmin(heap->lever, of->lever) : of->lever;
     }
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) survey->heap[slot].round = round[slot] > 0.5 * survey->heap[slot].particles;
     memory_give(&world->memory, extent, bytes);
@@ -569,12 +726,14 @@ static void look_at_particles(const World *world, Survey *survey)
         if (survey->heap[slot].particles > 0) survey->heap[slot].clamped /= survey->heap[slot].particles;
 }
 
-static int axis_of_gravity(const World *world)
+/* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
+static bool may_float(const World *world, const Cells *cells)
 {
-    int axis = -1;
-    for (int a = 0; a < world->def.dimension; a++)
-        if (world->settings.gravity[a] != 0.0f && (axis < 0 || fabsf(world->settings.gravity[a]) > fabsf(world->settings.gravity[axis]))) axis = a;
-    return axis;
+    bool liquid = false, solid = false;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        liquid = liquid || (world->materials.generation[slot] != 0 && world->materials.def[slot].kind == PBMPM_LIQUID);
+    for (uint32_t i = 0; i < cells->count && !solid; i++) solid = cells->share[i].group > 0;
+    return liquid && solid;
 }
 
 /* A body is as thick as its thickest part, but for noise: what counts is a mean that leans that far to it. */
@@ -582,21 +741,23 @@ static const double THICKEST = 4.0;
 
 static void look_at_cells(const World *world, Cells *cells, Survey *survey)
 {
-    double depth[PBMPM_MAX_MATERIALS + 1] = {0}, filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
-    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1];
+    double runs[3][PBMPM_MAX_MATERIALS + 1], filling[PBMPM_MAX_MATERIALS + 1] = {0}, overlapping[PBMPM_MAX_MATERIALS + 1] = {0}, thickness[PBMPM_MAX_MATERIALS + 1] = {0};
+    double weight[PBMPM_MAX_MATERIALS + 1] = {0}, narrow[PBMPM_MAX_MATERIALS + 1], error[PBMPM_MAX_MATERIALS + 1];
     const int down = axis_of_gravity(world);
-    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = 1.0;
-    for (int a = 0; a < cells->dimension; a++)
+    const bool floats = may_float(world, cells);
+    for (int group = 0; group <= PBMPM_MAX_MATERIALS; group++) narrow[group] = floats ? 1.0 : 0.0;
+    for (int a = 0; a < cells->dimension && floats; a++)
         if (a != down) measure_room(world, cells, a, narrow);
-    for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, a == down ? depth : NULL);
-    measure_filling(cells, filling);
-    measure_overlaps(cells, overlapping);
+    for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
+    measure_filling(cells, filling, error);
+    if (world->step_count == 0) measure_overlaps(cells, overlapping);
     survey->obstructed = stands_in_liquid(world, cells);
+    find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];
         if (heap->particles == 0 || !material_is_solid(&world->materials, slot)) continue;
         measure_drops(world, cells, down, slot, heap);
-        if (world->materials.def[slot].kind == PBMPM_SAND) heap->steep = share_of_steep(world, cells, down, slot);
+        if (world->materials.def[slot].kind == PBMPM_SAND) measure_slopes(world, cells, down, slot, heap);
     }
     for (uint32_t i = 0; i < cells->count; i++) {
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);
@@ -606,8 +767,12 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         if (survey->heap[slot].particles == 0) continue;
         const uint32_t group = material_is_solid(&world->materials, slot) ? slot + 1 : 0;
-        survey->heap[slot].depth = depth[group];
+        survey->heap[slot].depth = down < 0 ? 0.0 : runs[down][group];
+        survey->heap[slot].width = INFINITY;
+        for (int a = 0; a < cells->dimension; a++)
+            if (a != down) survey->heap[slot].width = fmin(survey->heap[slot].width, runs[a][group]);
         survey->heap[slot].filling = filling[group];
+        survey->heap[slot].filling_error = error[group];
         survey->heap[slot].overlapping = overlapping[group];
         survey->heap[slot].narrow = group > 0 ? narrow[group] : 0.0;
         if (weight[group] > 0.0) survey->heap[slot].thickness = thickness[group] / weight[group];
@@ -624,7 +789,7 @@ pbmpm_result survey_make(World *world, Survey *survey)
     look_at_particles(world, survey);
     find_cells(world, &cells);
     look_at_cells(world, &cells, survey);
-    const pbmpm_result found = find_round(world, &cells, survey);
+    const pbmpm_result found = look_at_bodies(world, &cells, survey);
     memory_give(&world->memory, cells.share, bytes);
     return found;
 }

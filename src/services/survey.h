@@ -9,11 +9,16 @@ typedef struct Heap {
     uint32_t particles;
     double speed;      /* the fastest [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
+    double width;      /* the same across it, along the axis where that is least */
     double thickness;  /* the least over the axes, where it is thickest */
     double filling;    /* mean rest volume per cell volume inside; 0 where too few cells are inside */
-    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter */
+    double filling_error; /* standard error of that mean */
+    double overlapping; /* share of it, or of all liquids, that lies in cells with too much matter; before the first step */
     bool round;        /* whether most of it is in bodies that are as round as a ball, a disc or a short cylinder; solids */
+    double lever;      /* the least [cells] by which the weight of a body lies beyond all that holds it; 0: of none does, or nothing holds it; elastic, not round */
     double steep;      /* share of its surface that has room below, at more than a solid's angle of friction; sand */
+    double slide;      /* how far its surface may go down there, at most; sand */
+    bool falls_both_ways; /* it has so to both sides along an axis */
     double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
     bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */

@@ -359,27 +359,112 @@ static void test_bodies_that_hit_each_other(void)
     }
 }
 
-/* What slides, what is poured, what lands fast, and what rests in a bin. */
+static bool tells(const char *words)
+{
+    for (uint32_t n = 0; n < told_count; n++)
+        if (strstr(told[n].text, words)) return true;
+    return false;
+}
+
+/* What slides, what is poured, what lands fast, what rests in a bin, and what lies on a board that is thinner than a cell, between the middles of two. A wide bed slides, but not far.
+ * With as many substeps as are asked for sand comes to rest as it should. */
 static void test_sand_that_moves(void)
 {
     static const struct {
-        float floor, wall, thick; /* below it, on both sides of it, and half the walls' thickness */
-        bool slides, pours, lands;
-    } cases[] = {{0, 0, 0.1f, false, false, false}, {0, 0, 0.01f, false, false, false}, {0, 1, 0.1f, true, false, false}, {0.4f, 1, 0.1f, false, true, false}, {1.2f, 0, 0.1f, false, true, true}};
+        float floor, floor_thick, wall, thick, wide; /* below it, on both sides of it, half the obstacles' thickness, half its width */
+        bool slides, far, too_flat, lands;
+    } cases[] = {{0, 0.1f, 0, 0.1f, 0.2f, false, false, false, false},        {0, 0.1f, 0, 0.01f, 0.2f, false, false, false, false},
+                 {0, 0.1f, 1, 0.1f, 0.2f, true, true, true, false},           {0, 0.1f, 1, 0.1f, 0.7f, true, false, true, false},
+                 {0.4f, 0.1f, 1, 0.1f, 0.2f, false, false, true, false},      {1.2f, 0.1f, 0, 0.1f, 0.2f, false, false, true, true},
+                 {0.004f, 0.007f, 0, 0.1f, 0.2f, false, false, false, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.02f);
-        create_collider(world, box_shape(0, -0.1f - cases[i].floor, 0, 3, 0.1f, 1), false);
-        for (int side = -1; side <= 1; side += 2) create_collider(world, box_shape((float)side * (0.2f + cases[i].wall + cases[i].thick), 0, 0, cases[i].thick, 3, 1), false);
-        fill_shape(world, create_material(world, PBMPM_SAND), box_shape(0, 0.15f, 0, 0.2f, 0.15f, 1), at_rest);
+        create_collider(world, box_shape(0, -cases[i].floor_thick - cases[i].floor, 0, 3, cases[i].floor_thick, 1), false);
+        create_collider(world, box_shape(0, -5, 0, 3, 0.1f, 1), false);
+        for (int side = -1; side <= 1; side += 2)
+            create_collider(world, box_shape((float)side * (cases[i].wide + cases[i].wall + cases[i].thick), 0, 0, cases[i].thick, 3, 1), false);
+        fill_shape(world, create_material(world, PBMPM_SAND), box_shape(0, 0.15f, 0, cases[i].wide, 0.15f, 1), at_rest);
         ask(world);
-        bool slides = false, pours = false;
-        for (uint32_t n = 0; n < told_count; n++) {
-            slides = slides || strstr(told[n].text, "sand starts to slide");
-            pours = pours || strstr(told[n].text, "sand that is poured");
-        }
-        TEST_ASSERT_EQUAL_INT(cases[i].slides, slides);
-        TEST_ASSERT_EQUAL_INT(cases[i].pours, pours);
-        TEST_ASSERT_EQUAL_INT(cases[i].lands, find(PBMPM_ADVICE_SAND_NOT_HELD) != NULL);
+        TEST_ASSERT_EQUAL_INT(cases[i].slides, tells("sand starts to slide"));
+        TEST_ASSERT_EQUAL_INT(cases[i].far, tells("sand that slides far"));
+        TEST_ASSERT_EQUAL_INT(cases[i].lands, tells("is crushed there"));
+        TEST_ASSERT_EQUAL_INT(cases[i].too_flat, tells("comes to rest too flat"));
+        float substeps = 1;
+        for (uint32_t n = 0; n < told_count; n++)
+            if (told[n].code == PBMPM_ADVICE_SAND_NOT_HELD) substeps = fmaxf(substeps, told[n].value);
+        set_rate(world, (int32_t)substeps, 5);
+        expect_none(world, PBMPM_ADVICE_SAND_NOT_HELD);
+    }
+}
+
+/* Sand may be either solver's: what one of the two goes by is not ignored. Alone it rests with the primal. */
+static void test_sand_is_of_two_solvers(void)
+{
+    const pbmpm_world_id world = falling_world(2, 0.05f);
+    pbmpm_material_def def = default_material(PBMPM_SAND);
+    pbmpm_settings settings = {.size = sizeof settings};
+    def.relaxation = 0.5f;
+    fill_shape(world, add_material(world, &def), box_shape(0, 0.15f, 0, 0.2f, 0.15f, 1), at_rest);
+    OK(pbmpm_world_get_settings(world, &settings));
+    settings.integrator = PBMPM_INTEGRATOR_BDF2;
+    OK(pbmpm_world_set_settings(world, &settings));
+    expect_none(world, PBMPM_ADVICE_IGNORED);
+    set_solver(world, PBMPM_SOLVER_DUAL);
+    check_ignored(world, "settings.integrator");
+    set_solver(world, PBMPM_SOLVER_PRIMAL);
+    check_ignored(world, "relaxation");
+}
+
+/* A block on 20 degrees whose weight lies 1.3 cells beyond its edge, or well within; leaning on a wall, or beside a ball. */
+static void test_what_tips(void)
+{
+    static const struct {
+        float wide;
+        bool wall, told;
+    } cases[] = {{0.075f, false, true}, {0.075f, true, false}, {0.18f, false, false}, {0.03f, false, false}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_def def = default_world(2, 0.025f, 8192);
+        const pbmpm_world_id world = create_world(&def);
+        set_gravity(world, 9.81f * sinf(0.349f), -9.81f * cosf(0.349f), 0);
+        create_collider(world, box_shape(0, -0.1f, 0, 3, 0.1f, 1), false);
+        if (cases[i].wall) create_collider(world, box_shape(cases[i].wide + 0.22f, 0.5f, 0, 0.2f, 0.5f, 1), false);
+        fill_shape(world, create_material(world, PBMPM_ELASTIC), box_shape(0, 0.3f, 0, cases[i].wide, 0.3f, 1), at_rest);
+        fill_shape(world, create_material(world, PBMPM_ELASTIC), sphere_shape(-1, 0.2f, 0, 0.2f), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(cases[i].told, tells("it tips too slowly"));
+    }
+}
+
+/* A jelly lies on a step of sand and hangs over the lower one: it does not fall. */
+static void test_a_body_that_hangs_over(void)
+{
+    for (int lies = 0; lies < 2; lies++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        const pbmpm_material_id sand = create_material(world, PBMPM_SAND), jelly = create_material(world, PBMPM_ELASTIC);
+        create_collider(world, box_shape(0, -0.1f, 0, 3, 0.1f, 1), false);
+        fill_shape(world, sand, box_shape(0, 0.15f, 0, 1, 0.15f, 1), at_rest);
+        fill_shape(world, sand, box_shape(-0.5f, 0.45f, 0, 0.5f, 0.15f, 1), at_rest);
+        fill_shape(world, jelly, box_shape(lies ? -0.025f : 0.3f, 0.8f, 0, 0.25f, 0.2f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(!lies, tells("falls on sand"));
+    }
+}
+
+/* A ball that a wall parts from the pool stays dry, one in the way of what will flow does not. */
+static void test_a_dry_ball(void)
+{
+    for (int parted = 0; parted < 2; parted++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 8192);
+        def.domain_enabled = 1;
+        def.domain_max[0] = 3;
+        def.domain_max[1] = 2;
+        const pbmpm_world_id world = create_world(&def);
+        set_gravity(world, 0, -9.81f, 0);
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.35f, 0, 0.5f, 0.35f, 1), at_rest);
+        create_collider(world, sphere_shape(2, 0.3f, 0, 0.2f), false);
+        if (parted) create_collider(world, box_shape(1.1f, 0.5f, 0, 0.1f, 1, 1), false);
+        if (parted) expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+        else expect(world, PBMPM_ADVICE_POOL_STIRS);
     }
 }
 
@@ -512,6 +597,19 @@ static void test_volume_that_is_lost(void)
     check_volume(3);
 }
 
+/* Two full cells of 27 are filled twice: the mean is 0.07 too high, and known to 0.05. */
+static void test_volume_that_chance_may_have_lost(void)
+{
+    pbmpm_world_def def = default_world(2, 0.1f, 4000);
+    def.domain_enabled = 1;
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    fill_shape(world, water, box_shape(0.5f, 0.2f, 0, 0.5f, 0.2f, 0.5f), at_rest);
+    for (int extra = 0; extra < 2; extra++) fill_shape(world, water, box_shape(extra ? 0.2f : 0.5f, 0.2f, 0, 0.05f, 0.05f, 0.5f), at_rest);
+    OK(pbmpm_world_step(world, 1e-4f));
+    expect_none(world, PBMPM_ADVICE_VOLUME_LOST);
+}
+
 static void check_clamped(int32_t dimension)
 {
     static float crushed[9 * 1000];
@@ -550,6 +648,10 @@ int main(void)
     RUN_TEST(test_what_is_round_rolls);
     RUN_TEST(test_bodies_that_hit_each_other);
     RUN_TEST(test_sand_that_moves);
+    RUN_TEST(test_sand_is_of_two_solvers);
+    RUN_TEST(test_what_tips);
+    RUN_TEST(test_a_body_that_hangs_over);
+    RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_known_limits);
     RUN_TEST(test_sand_on_a_floor_without_friction);
     RUN_TEST(test_matter_in_other_matter);
@@ -557,6 +659,7 @@ int main(void)
     RUN_TEST(test_obstacles);
     RUN_TEST(test_a_step_that_is_too_long);
     RUN_TEST(test_volume_that_is_lost);
+    RUN_TEST(test_volume_that_chance_may_have_lost);
     RUN_TEST(test_strain_at_its_bounds);
     return UNITY_END();
 }

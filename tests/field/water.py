@@ -516,7 +516,10 @@ def soft_liquid(run: Run, modulus: float) -> None:
 
 @case(tray=dict())
 def drips(run: Run) -> None:
-    """Twelve drops fall into a tray, lie level and rest."""
+    """Twelve drops fall into a tray and lie level; what they stirred dies away.
+
+    Water of 6.7 cm in a tray of 40 cm sloshes at 6.1 rad/s, and its floor brakes it by the factor e in sinh(2 k h) / (k sqrt(nu w / 2)) = 90 s
+    (J. Miles, "Surface-wave damping in closed basins", Proc. R. Soc. A 297, 1967). So it need not rest after four seconds, as was asked until 2026-11-26."""
     cell, width = 0.02, 0.4
     with run.world(2, cell) as world:
         frame = Frame(2, 0, 0.3 * cell)
@@ -529,7 +532,16 @@ def drips(run: Run) -> None:
         run.steps(world, 3, before=drip)
         emitter.enabled = False
         true = emitter.status.emitted_mass / 1000 / width / 2
-        _rest(run, world, frame, true, 0.01, 4.0)
+        speed, height = [], []
+
+        def watch(_: float) -> None:
+            speed.append(rms(world))
+            height.append(frame.positions(world)[:, 1].mean())
+
+        run.steps(world, 4, after=watch)
+        early, late = np.reshape(speed, (2, -1)).mean(1)
+        run.check("rms speed of the third and fourth second over that of two before", late / early, 0, 1, why="nothing drives it")
+        run.near("mean height", np.mean(height[len(height) // 2 :]), true, MEAN, cell, why="water keeps its volume and lies level")
 
 
 @case(tenth=dict(slot=0.1), third=dict(slot=0.3))

@@ -10,6 +10,9 @@ from test_scene_run import pbmpm_command
 
 import pbmpm
 from pbmpm import AdviceCode, Change
+from pbmpm.lab.parsing import parse_scene
+from pbmpm.lab.runner import OutputOptions, run_scene
+from pbmpm.lab.simulation import RunSettings, Simulation
 
 
 def codes(world: pbmpm.World) -> set[AdviceCode]:
@@ -35,7 +38,7 @@ def test_a_record_has_numbers_and_words() -> None:
         assert (ignored.code, ignored.material, ignored.figure, ignored.bound) == (AdviceCode.IGNORED, soft.index, 0.5, 1.0)
         assert "elasticity_ratio" in str(ignored) and "0.5" in str(ignored)
         assert "gravity 9.81 m/s^2" in str(nothing_pulls)
-        assert str(ignored) == f"material {soft.index}: {ignored.sentence}" and str(nothing_pulls) == nothing_pulls.sentence
+        assert str(ignored) == f"elastic {soft.index}: {ignored.sentence}" and str(nothing_pulls) == nothing_pulls.sentence
 
 
 def test_a_remedy_is_what_its_figure_asks_for() -> None:
@@ -50,8 +53,7 @@ def test_a_remedy_is_what_its_figure_asks_for() -> None:
 
 
 def test_sand_that_few_iterations_do_not_hold() -> None:
-    with pbmpm.World(2, 0.02, gravity=(0, -9.81), threads=1) as world:
-        world.add_collider(pbmpm.Plane((0, 0), (0, 1)))
+    with pbmpm.World(2, 0.02, gravity=(0, -9.81), domain=((-0.2, 0), (0.2, 1)), domain_friction=0.5, threads=1) as world:
         world.fill(pbmpm.Box((0, 0.2), (0.2, 0.2)), world.add_material(pbmpm.Sand(density=1600, young_modulus=1e6)))
         assert AdviceCode.SAND_NOT_HELD not in codes(world)
         world.solver = pbmpm.Solver.PAPER
@@ -114,6 +116,30 @@ def test_the_command_says_it_with_the_names_of_the_scene(tmp_path: Path) -> None
         ("collider_too_fast", "colliders[1]"),
     }
     assert not {(row["code"], row["text"]) for row in report["advice_after"]} & {(row["code"], row["text"]) for row in report["advice"]}
+
+
+def test_obstacles_are_named_by_shape_and_index() -> None:
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81)) as world:
+        world.fill(pbmpm.Box((0, 0.5), (0.2, 0.2)), world.add_material(pbmpm.Liquid()))
+        world.add_collider(pbmpm.Plane((0, 0), (0, 1)))
+        thin = world.add_collider(pbmpm.Box((0, 0.1), (1, 0.01)))
+        (item,) = [item for item in world.advice(1 / 60) if item.code is AdviceCode.COLLIDER_TOO_THIN]
+        assert (item.owner, item.collider) == (f"box collider {thin.identity[0]}", thin.identity)
+
+
+def test_a_run_asks_once_before_its_first_step(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    asked: list[int] = []
+    ask = Simulation.advice
+
+    def count(simulation: Simulation) -> list[pbmpm.Advice]:
+        asked.append(simulation.steps)
+        return ask(simulation)
+
+    monkeypatch.setattr(Simulation, "advice", count)
+    said: list[str] = []
+    done = run_scene(parse_scene(SCENE), RunSettings(60.0, 1, 3, 1), 0.05, OutputOptions(), tell=said.append)
+    assert asked.count(0) == 1 and len(asked) > 1
+    assert done.report["advice"] and any(line.startswith("advice: ") for line in said)
 
 
 def test_the_command_tells_of_what_has_passed(tmp_path: Path) -> None:

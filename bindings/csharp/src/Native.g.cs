@@ -276,8 +276,9 @@ namespace Pbmpm
         PoolStirs = 5,
         /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is crushed, by its weight or where it lands; the text tells which. Figure of the weight: g dt^2 depth / dx^2, dt the substep's, with the
-        /// dual solver and beside liquid; else its mean strain. Figure where it lands: its speed there [cells per substep]</summary>
+        /// <summary>sand is crushed, or comes to rest too flat; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+        /// with the dual solver and beside liquid; else its mean strain. Crushed where it lands, or too flat: its speed there [cells per
+        /// substep]</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
@@ -299,7 +300,7 @@ namespace Pbmpm
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient</summary>
         NoFriction = 19,
-        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost</summary>
+        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost at least, by two standard errors of what cells hold</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
         StrainClamped = 15,
@@ -2209,7 +2210,7 @@ namespace Pbmpm.Native
         /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
-        /// capacity is 0; otherwise array[0].size must be set. Costs about half a step of five iterations, and only when called.
+        /// capacity is 0; otherwise array[0].size must be set. Costs a quarter to a half of a step of five iterations, and only when called.
         /// It takes memory to sort cells, and gives it back.
         /// Errors: INVALID_ID; INVALID_ARGUMENT (null, dt not in (0, 10]); UNSUPPORTED (size); OUT_OF_MEMORY; BUSY; FORKED.
         /// Any thread, alone in its world.</summary>

@@ -25,7 +25,7 @@ class AdviceCode(Choice):
     POOL_TOO_DEEP = ffi.integer_const("PBMPM_ADVICE_POOL_TOO_DEEP")  #: g dt^2 depth / dx^2; with the paper's solver the strain at the bottom
     POOL_STIRS = ffi.integer_const("PBMPM_ADVICE_POOL_STIRS")  #: rms speed of a pool that does not come to rest [m/s]
     MODULUS_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_MODULUS_NOT_HELD")  #: the Young modulus [Pa] that acts, and the material's own
-    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: g dt^2 depth / dx^2 of sand, its mean strain, or cells per substep where it lands; the text tells which
+    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: g dt^2 depth / dx^2 of sand, its mean strain, or cells per substep where it slides or lands; the text tells which
     BODY_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_BODY_TOO_THIN")  #: thickness of a body [cells]
     BOUNCE_DAMPED = ffi.integer_const("PBMPM_ADVICE_BOUNCE_DAMPED")  #: substeps that a contact lasts
     ROLLING_BRAKED = ffi.integer_const("PBMPM_ADVICE_ROLLING_BRAKED")  #: half the width that a round body rests on [cells]
@@ -76,6 +76,7 @@ class Advice:
         value: to what.
         price: what that costs, in percent of a step; None: not known.
         came_true: whether it was measured in the present state; else it is foreseen.
+        kind: of the material or of the obstacle's shape, in a word ("sand", "box"); empty: of neither.
     """
 
     code: AdviceCode
@@ -88,6 +89,7 @@ class Advice:
     value: float
     price: float | None
     came_true: bool
+    kind: str = ""
 
     @property
     def unit(self) -> str:
@@ -131,16 +133,25 @@ class Advice:
 
     @property
     def owner(self) -> str:
-        """Whom it is about: a material or an obstacle by its index; empty: the whole world."""
+        """Whom it is about: a material or an obstacle by its kind and index; empty: the whole world."""
         if self.material is not None:
-            return f"material {self.material}"
-        return f"collider {self.collider[0]}" if self.collider else ""
+            return f"{self.kind or 'material'} {self.material}"
+        return f"{self.kind} collider {self.collider[0]}".lstrip() if self.collider else ""
 
     def __str__(self) -> str:
         return f"{self.owner}: {self.sentence}" if self.owner else self.sentence
 
 
-def _advice_from_c(item: Any) -> Advice:
+def _word(parameters: object) -> str:
+    return type(parameters).__name__.lower()
+
+
+def _advice_from_c(world: World, item: Any) -> Advice:
+    kind = ""
+    if item.material.generation:
+        kind = next(_word(material.parameters) for material in world.materials if material.index == item.material.index)
+    elif item.collider.generation:
+        kind = next(_word(collider.shape) for collider in world.colliders if collider.identity[0] == item.collider.index)
     return Advice(
         code=AdviceCode(item.code),
         text=cast(bytes, ffi.string(item.text)).decode(),
@@ -152,6 +163,7 @@ def _advice_from_c(item: Any) -> Advice:
         value=shortest(item.value),
         price=None if item.price < 0 else shortest(item.price),
         came_true=bool(item.came_true),
+        kind=kind,
     )
 
 
@@ -171,4 +183,4 @@ class WorldAdvice(WorldPart):
             if count[0] <= size:
                 break
             size = count[0]
-        return [_advice_from_c(room[i]) for i in range(count[0])]
+        return [_advice_from_c(self, room[i]) for i in range(count[0])]

@@ -10,14 +10,14 @@ from .scenes.scene import Scene
 from .simulation import RunSettings, Simulation
 
 
-def advice_lines(simulation: Simulation) -> list[str]:
-    """What the present state calls for, one line each."""
-    return [_line(simulation, item) for item in simulation.advice()]
+def advice_lines(simulation: Simulation, found: list[pbmpm.Advice]) -> list[str]:
+    """What was found, one line each."""
+    return [_line(simulation, item) for item in found]
 
 
-def advice_rows(simulation: Simulation) -> list[dict[str, Any]]:
+def advice_rows(simulation: Simulation, found: list[pbmpm.Advice]) -> list[dict[str, Any]]:
     """The same for reports."""
-    return [_row(simulation, item) for item in simulation.advice()]
+    return [_row(simulation, item) for item in found]
 
 
 class AdviceWatch:
@@ -26,9 +26,9 @@ class AdviceWatch:
     LOOKS = 32  #: in a run
     FEW = 0.1  #: of the looks: what came true in fewer, and not in the last, passed by
 
-    def __init__(self, simulation: Simulation) -> None:
+    def __init__(self, simulation: Simulation, first: list[pbmpm.Advice]) -> None:
         self._simulation = simulation
-        self._first = {_key(item) for item in simulation.advice()}
+        self._first = {_key(item) for item in first}
         self._looks = 0
         self._last: set[tuple[Any, ...]] = set()
         self._seen: dict[tuple[Any, ...], int] = {}
@@ -61,7 +61,7 @@ class AdviceWatch:
 def scene_advice(scene: Scene, settings: RunSettings) -> list[str]:
     """What is foreseen of a scene before its first step."""
     with Simulation(scene, settings) as simulation:
-        return advice_lines(simulation)
+        return advice_lines(simulation, simulation.advice())
 
 
 def _key(item: pbmpm.Advice) -> tuple[Any, ...]:

@@ -92,18 +92,19 @@ def run_scene(
     first step, and after the last for what the run added: the worst of each, and when it came true."""
     steps = max(1, math.ceil(seconds * settings.rate_hz - _TIME_TOLERANCE))
     with Simulation(scene, settings) as simulation, Interrupt().watching() as interrupt:
-        foreseen = advice_rows(simulation)
-        for line in advice_lines(simulation) if tell else []:
+        foreseen = simulation.advice()
+        for line in advice_lines(simulation, foreseen) if tell else []:
             tell(f"advice: {line}")
         recorder = _Recorder(scene, settings, output, simulation)
-        meter, watch = Meter(warmup_steps), AdviceWatch(simulation)
+        meter, watch = Meter(warmup_steps), AdviceWatch(simulation, foreseen)
         try:
             _loop(simulation, steps, recorder, meter, watch, interrupt)
         except BaseException:
             recorder.finish("failed", {})
             raise
         problems = simulation.problems()
-        report = {**_report(scene, settings, simulation, meter, bool(interrupt), problems), "advice": foreseen, "advice_after": watch.rows()}
+        advice = {"advice": advice_rows(simulation, foreseen), "advice_after": watch.rows()}
+        report = {**_report(scene, settings, simulation, meter, bool(interrupt), problems), **advice}
         for line in watch.lines() if tell else []:
             tell(line)
         recorder.finish("interrupted" if interrupt else "failed" if problems else "complete", report)
