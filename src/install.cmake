@@ -6,7 +6,7 @@ set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
 install(TARGETS pbmpm EXPORT pbmpm
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-targets.cmake DESTINATION "${package_dir}")
 configure_package_config_file(pbmpm-config.cmake.in pbmpm-config.cmake INSTALL_DESTINATION "${package_dir}")
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config.cmake" DESTINATION "${package_dir}")

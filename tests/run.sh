@@ -10,6 +10,7 @@ has pkg-config || install_optional "the test of the pkg-config file is skipped" 
 has qemu-x86_64 || install_optional "the test on emulated old CPUs is skipped" qemu-user
 has valgrind || install_optional "the tests of what unused effects cost are skipped" valgrind
 has abidiff || install_optional "the comparison of binary interfaces is skipped" abigail-tools
+has g++ || install_optional "the tests of the C++ header with gcc are skipped" g++
 { has mcs && has mono; } || install_optional "the C# tests are skipped" mono-mcs mono-runtime
 
 stage "Building the library and running the C tests"
