@@ -20,7 +20,7 @@ cmake --workflow --preset tests || [ -f build/tests/ctest.xml ] || stop "the bui
 
 make_environment $library test
 stage "Running the Python tests"
-build/venv/bin/python -m pytest -c bindings/python/pyproject.toml --rootdir . -q -n auto --dist worksteal --junitxml build/pytest.xml tests/python tests/field || true
+build/venv/bin/python -m pytest -q -n auto --dist worksteal --junitxml build/pytest.xml tests/python tests/field || true
 
 stage "Result"
 build/venv/bin/python tests/count_tests.py build/tests/ctest.xml build/pytest.xml
