@@ -13,7 +13,7 @@ example() { # VENV: the README's example, away from the sources
     python3 -c "import re, sys; print(re.search(r'\`\`\`python\n(.*?)\`\`\`', open('$root/README.md', encoding='utf-8').read(), re.DOTALL)[1])" >"$work/example.py"
     said=$(cd "$work" && env -i "PATH=$1/bin" "$1/bin/python" example.py) || stop "the README's example fails in $1"
     echo "README's example: $said"
-    # A column 0.5 m wide, 1 m high, falls apart: its middle sinks from 0.5 m.
+    # A column 0.5 m wide, 1 m high, falls apart: its middle sinks from 0.5 m. It has 4 particles in each cell of 0.05 m.
     python3 -c "import sys; count, height = sys.argv[1].split(); sys.exit(not (int(count) == 800 and 0 < float(height) < 0.5))" "$said" ||
         stop "the README's example prints $said"
 }
@@ -31,7 +31,9 @@ grep -E 'lib|LICENSE' "$work/files"
 
 stage "The wheel, without a compiler"
 python3 -m venv "$work/from-wheel"
-env -i "PATH=$work/from-wheel/bin" sh -c 'command -v cc gcc clang cmake ispc' && stop "there is a compiler"
+for tool in cc gcc clang cmake ninja ispc; do # of what is on the path of the next line
+    [ ! -e "$work/from-wheel/bin/$tool" ] || stop "there is a $tool"
+done
 env -i "PATH=$work/from-wheel/bin" "$work/from-wheel/bin/pip" -q --disable-pip-version-check install --only-binary :all: "$root/$wheel" || stop "the wheel does not install"
 example "$work/from-wheel"
 

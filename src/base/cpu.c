@@ -1,4 +1,3 @@
-#define _POSIX_C_SOURCE 200809L
 #include "base/cpu.h"
 
 #include <cpuid.h>
@@ -6,8 +5,9 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 #include <xmmintrin.h>
+
+#include "base/platform.h"
 
 /* As in Intel's Software Developer's Manual, volume 1, chapters 14 and 15: the CPU has it, and the system saves its registers. The compiler's
  * __builtin_cpu_supports() reads a table of its run time, which not every tool chain fills in. */
@@ -67,7 +67,7 @@ const char *cpu_isa_name(pbmpm_isa isa)
 
 int cpu_core_count(void)
 {
-    const long count = sysconf(_SC_NPROCESSORS_ONLN);
+    const long count = platform_core_count();
     return count < 1 ? 1 : count > 256 ? 256 : (int)count;
 }
 
