@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-/* Each identifier is a type of its own, as large as C's; arrays of another kind are refused. */
+/* Each identifier is a type of its own, and arrays of another kind are refused. What C++ adds takes no room. */
 static_assert(!std::is_convertible_v<pbmpm_material_id, pbmpm_collider_id> && !std::is_convertible_v<pbmpm_particle_id, pbmpm_material_id>);
 static_assert(!std::is_invocable_v<decltype(&pbmpm::world_ref::collider_destroy), pbmpm::world_ref, pbmpm_emitter_id>);
 static_assert(!std::is_constructible_v<pbmpm::span<const pbmpm_particle_id>, std::vector<pbmpm_material_id> &>);

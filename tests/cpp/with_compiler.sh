@@ -1,6 +1,6 @@
 #!/bin/sh
-# with_compiler.sh COMPILER ROOT LIBRARY FOLDER - builds the test of the C++ header and the C++ sample in FOLDER, and runs them: as a host without
-# exceptions and RTTI builds it, with what a careful host is warned of as errors; and with optimisation, as the newest C++ that the compiler knows.
+# with_compiler.sh COMPILER ROOT LIBRARY FOLDER - builds the test of the C++ header and the C++ sample in FOLDER, and runs them. The test is built twice:
+# optimised, as the newest C++ that the compiler knows; and as a host without exceptions and RTTI does it. Warnings are errors.
 set -eu
 compiler=$1 root=$2 library=$3 folder=$4
 tests=$root/tests/cpp
