@@ -30,6 +30,9 @@ function(pbmpm_compile_kernels file objects)
     if(PBMPM_INSTRUMENT_KERNELS)
         set(suffix .ll)
         set(flags -O1 -g --emit-llvm-text)
+    elseif(WIN32 AND CMAKE_CROSSCOMPILING)
+        set(suffix .ll)
+        set(flags -O3 --emit-llvm-text)
     else()
         set(suffix .o)
         set(flags -O3 $<$<CONFIG:Debug,RelWithDebInfo>:-g> $<$<BOOL:${PBMPM_WARNINGS_AS_ERRORS}>:--werror>)
@@ -53,8 +56,32 @@ function(pbmpm_compile_kernels file objects)
         COMMAND_EXPAND_LISTS VERBATIM)
     if(PBMPM_INSTRUMENT_KERNELS)
         instrument_kernels("${stem}" outputs)
+    elseif(suffix STREQUAL .ll)
+        translate_kernels("${stem}" outputs)
     endif()
     set(${objects} ${${objects}} ${outputs} PARENT_SCOPE)
+endfunction()
+
+# translate_kernels(STEM OBJECTS): an ISPC without Windows among its targets has written LLVM's text for Linux; what it says of the system is replaced, and
+# LLVM's llc makes the objects. Fused operations as ISPC itself makes them: so results are those of Linux, bit for bit.
+function(translate_kernels stem objects)
+    find_program(PBMPM_LLC NAMES llc-19 llc-20 llc REQUIRED DOC "Compiles kernels for Windows (Debian: llvm)")
+    set(layout "e-m:w-p270:32:32-p271:32:32-p272:64:64-i64:64-i128:128-f80:128-n8:16:32:64-S128") # LLVM's for x86-64 Windows
+    set(made "")
+    foreach(isa machine IN ZIP_LISTS PBMPM_KERNEL_ISAS PBMPM_KERNEL_MACHINES)
+        set(part "${stem}_${isa}")
+        add_custom_command(
+            OUTPUT "${part}.o"
+            COMMAND sed -e "s/^target datalayout = .*/target datalayout = \"${layout}\"/" -e "s/^target triple = .*/target triple = \"x86_64-w64-windows-gnu\"/"
+                -e "/^attributes #.* nounwind/s/{/{ uwtable/" "${part}.ll" > "${part}.windows.ll"
+            COMMAND "${PBMPM_LLC}" -O2 -mtriple=x86_64-w64-windows-gnu -mcpu=${machine} --relocation-model=pic --fp-contract=fast -filetype=obj
+                "${part}.windows.ll" -o "${part}.o"
+            DEPENDS "${part}.ll"
+            COMMENT "Translating ${part} for Windows"
+            VERBATIM)
+        list(APPEND made "${part}.o")
+    endforeach()
+    set(${objects} ${made} PARENT_SCOPE)
 endfunction()
 
 # The same functions under the names of each instruction set.

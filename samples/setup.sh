@@ -65,6 +65,6 @@ make_environment() {
     stage "Python environment build/venv"
     build/venv/bin/pip --version >/dev/null 2>&1 || quietly venv.log python3 -m venv --clear build/venv ||
         stop "could not make a Python environment in build/venv"
-    PBMPM_LIBRARY=$PWD/$1 quietly pip.log build/venv/bin/pip --disable-pip-version-check install "./bindings/python${2:+[$2]}" ||
+    PBMPM_LIBRARY=$PWD/$1 quietly pip.log build/venv/bin/pip --disable-pip-version-check install ".${2:+[$2]}" ||
         stop "could not install the Python binding into build/venv; full text: build/pip.log"
 }

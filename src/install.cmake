@@ -1,12 +1,13 @@
-# Installs the headers, the library, a CMake package (pbmpm::pbmpm) and a pkg-config file.
+# Installs the headers, the library, a CMake package (pbmpm::pbmpm) and a pkg-config file; with PBMPM_STATIC also the static library, pbmpm::static and
+# pbmpm-static.pc.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
-install(TARGETS pbmpm EXPORT pbmpm
+install(TARGETS ${libraries} EXPORT pbmpm
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
 install(EXPORT pbmpm NAMESPACE pbmpm:: FILE pbmpm-targets.cmake DESTINATION "${package_dir}")
 configure_package_config_file(pbmpm-config.cmake.in pbmpm-config.cmake INSTALL_DESTINATION "${package_dir}")
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config.cmake" DESTINATION "${package_dir}")
@@ -18,9 +19,20 @@ install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm-config-version.cmake" DESTINATI
 # The paths in the .pc file are relative to itself, so an installed tree may be moved.
 file(RELATIVE_PATH pc_to_prefix "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 list(JOIN PBMPM_MATERIALS_BUILT " " pc_materials)
-if(NOT BUILD_SHARED_LIBS)
-    set(pc_libs " -pthread -lm")
-    set(pc_cflags " -DPBMPM_STATIC")
+
+# write_pc(NAME LIBRARY [CFLAG])
+function(write_pc name pc_libs)
+    set(pc_cflags ${ARGN})
+    configure_file(pbmpm.pc.in ${name}.pc @ONLY)
+    install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
+endfunction()
+
+set(archive "\${libdir}/libpbmpm.a -pthread -lm") # by its path: -lpbmpm would take the shared one beside it
+if(BUILD_SHARED_LIBS)
+    write_pc(pbmpm "-L\${libdir} -lpbmpm")
+    if(PBMPM_STATIC)
+        write_pc(pbmpm-static "${archive}" " -DPBMPM_STATIC")
+    endif()
+else()
+    write_pc(pbmpm "${archive}" " -DPBMPM_STATIC")
 endif()
-configure_file(pbmpm.pc.in pbmpm.pc @ONLY)
-install(FILES "${CMAKE_CURRENT_BINARY_DIR}/pbmpm.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")

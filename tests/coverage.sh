@@ -24,7 +24,7 @@ ctest --preset coverage || failed=1
 if [ "${1:-}" = --python ]; then
     make_environment build/coverage/lib/libpbmpm.so test
     stage "Running the Python tests"
-    build/venv/bin/python -m pytest -c bindings/python/pyproject.toml --rootdir . -q -n auto --dist worksteal tests/python || failed=1
+    build/venv/bin/python -m pytest -q -n auto --dist worksteal tests/python || failed=1
 fi
 
 stage "Coverage of src"

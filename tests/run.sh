@@ -10,6 +10,7 @@ has pkg-config || install_optional "the test of the pkg-config file is skipped" 
 has qemu-x86_64 || install_optional "the test on emulated old CPUs is skipped" qemu-user
 has valgrind || install_optional "the tests of what unused effects cost are skipped" valgrind
 has abidiff || install_optional "the comparison of binary interfaces is skipped" abigail-tools
+has g++ || install_optional "the tests of the C++ header with gcc are skipped" g++
 { has mcs && has mono; } || install_optional "the C# tests are skipped" mono-mcs mono-runtime
 
 stage "Building the library and running the C tests"
@@ -19,7 +20,7 @@ cmake --workflow --preset tests || [ -f build/tests/ctest.xml ] || stop "the bui
 
 make_environment $library test
 stage "Running the Python tests"
-build/venv/bin/python -m pytest -c bindings/python/pyproject.toml --rootdir . -q -n auto --dist worksteal --junitxml build/pytest.xml tests/python tests/field || true
+build/venv/bin/python -m pytest -q -n auto --dist worksteal --junitxml build/pytest.xml tests/python tests/field || true
 
 stage "Result"
 build/venv/bin/python tests/count_tests.py build/tests/ctest.xml build/pytest.xml

@@ -6,4 +6,4 @@ root=$(cd "$here/../.." && pwd)
 export PBMPM_LIBRARY="${PBMPM_LIBRARY:-$root/build/lib/libpbmpm.so}"
 test -e "$PBMPM_LIBRARY" || { echo "setup.sh: build the library first, or set PBMPM_LIBRARY" >&2; exit 2; }
 python3 -m venv "$here/.venv"
-"$here/.venv/bin/pip" install --quiet "$root/bindings/python" pybullet
+"$here/.venv/bin/pip" install --quiet "$root" pybullet

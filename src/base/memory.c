@@ -1,26 +1,24 @@
-#define _POSIX_C_SOURCE 200809L
 #include "base/memory.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #include "base/assertion.h"
 #include "base/cpu.h"
+#include "base/platform.h"
 
 enum { ALIGNMENT = 64 };
 
 static void *default_allocate(size_t size, size_t alignment, void *user)
 {
     (void)user;
-    void *block = NULL;
-    return posix_memalign(&block, alignment, size) == 0 ? block : NULL;
+    return platform_allocate(size, alignment);
 }
 
 static void default_release(void *block, size_t size, void *user)
 {
     (void)size;
     (void)user;
-    free(block);
+    platform_release(block);
 }
 
 void memory_init(Memory *memory, const pbmpm_allocator *allocator, uint64_t budget)

@@ -2,6 +2,7 @@
 # compare_symbols.sh library NM LIBRARY EXPORTS    the shared library's dynamic symbols against the list
 # compare_symbols.sh archive NM LIBRARY EXPORTS    what programs see of the static library against the list
 # compare_symbols.sh headers FOLDER EXPORTS        the functions that the headers declare against the list
+# compare_symbols.sh calls NM OBJECT EXPORTS       the functions that a compiled file calls against the list
 # Prints the difference and fails if there is one.
 set -eu
 LC_ALL=C; export LC_ALL
@@ -16,6 +17,10 @@ case $1 in
     archive)
         exports=$4
         "$2" -g --defined-only "$3" | awk 'NF == 3 { print $NF }' | sort >"$work/found"
+        ;;
+    calls)
+        exports=$4
+        "$2" -u "$3" | awk '$NF ~ /^pbmpm_/ { print $NF }' | sort >"$work/found"
         ;;
     headers)
         exports=$3

@@ -125,7 +125,7 @@ class Workplace:
                 tests.append(Test(entry["name"], entry["command"], environment, text=self._source(entry["name"])))
         if self.python:
             library = {"PBMPM_LIBRARY": str(self.build / "lib" / "libpbmpm.so")}
-            command = [str(ROOT / "build/venv/bin/python"), "-m", "pytest", "-c", "bindings/python/pyproject.toml", "--rootdir", ".", "-q", "-x"]
+            command = [str(ROOT / "build/venv/bin/python"), "-m", "pytest", "-q", "-x"]
             for name in PYTHON_TESTS:
                 file = self.tree / f"tests/python/test_{name}.py"
                 tests.append(Test(f"python {name}", [*command, str(file)], library, text=file.read_text(encoding="utf-8")))

@@ -80,7 +80,7 @@ def test_the_binding_works_with_a_library_that_is_ahead() -> None:
     library = ROOT / "build" / "tests" / "tests" / "abi" / "grown" / "lib" / "libpbmpm.so"
     if not library.is_file():
         pytest.skip("the C tests build it")
-    command = [sys.executable, "-m", "pytest", "-c", "bindings/python/pyproject.toml", "--rootdir", ".", "-q", "-p", "no:cacheprovider"]
+    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
     command += [f"tests/python/{name}.py" for name in ("test_binding_views", "test_queries", "test_snapshots")]
     environment = {**os.environ, "PBMPM_LIBRARY": str(library)}
     done = subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False)

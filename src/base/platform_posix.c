@@ -1,8 +1,20 @@
 #define _POSIX_C_SOURCE 200809L
+#include "base/platform.h"
 #include "base/thread.h"
 
 #include <signal.h>
-#include <stddef.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+long platform_core_count(void) { return sysconf(_SC_NPROCESSORS_ONLN); }
+
+void *platform_allocate(size_t size, size_t alignment)
+{
+    void *block = NULL;
+    return posix_memalign(&block, alignment, size) == 0 ? block : NULL;
+}
+
+void platform_release(void *block) { free(block); }
 
 /* A thread begins with the mask of the one that makes it. */
 bool thread_start(pthread_t *thread, void *(*run)(void *), void *context)
