@@ -328,19 +328,18 @@ static double gap_at(const RefGrid *grid, const RefParticle *p)
     return sum;
 }
 
-/* J follows the density that the grid holds, and that grows as J does: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
+/* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling, and no gap is there. */
 static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
-    const double grown = 1.0 + matrix_trace(step->dimension, D);
-    double ratio = fmin(p->volume_ratio * grown, LOOSE_MAX);
+    double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_held(step, grid, p);
         const double parted = 1.0 / fmax(1.0 - gap_at(grid, p), 1.0 / LOOSE_MAX);
         const double loose = fmax(fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX), parted);
         ratio = fmin(reference_control(step, grid, p, D) * ratio, LOOSE_MAX);
-        const double missing = fmin(grown / held, loose) - ratio;
+        const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
         if (held > REF_CROWDED) nudge(step, p);
     }

@@ -251,11 +251,10 @@ static double volume_error(const Scene *scene, const RefGrid *nodes, const RefPa
     const double error = gathered.D;
     double bound = before->volume_ratio * (n * error + 8.0 * UNIT_ROUNDOFF * (1.0 + fabs(trace)));
     if (uses_volume(scene, before)) {
-        const double claimed = 1.0 + before->volume_ratio * (1.0 + fabs(trace)), shown = 1.0 / reference_held(&scene->step, nodes, before);
-        const double most = scene->step.tensionless ? claimed + shown * (1.0 + fabs(trace))
+        const double claimed = 1.0 + before->volume_ratio * (1.0 + fabs(trace));
+        const double most = scene->step.tensionless ? claimed + 1.0 / reference_held(&scene->step, nodes, before)
                                                     : fmin(REF_CROWDED / reference_compression(nodes, before), claimed);
         bound += (TRANSFER_ROUNDINGS + 8.0) * UNIT_ROUNDOFF * (most + fabs(expected->volume_ratio));
-        if (scene->step.tensionless) bound += n * error * shown;
         if (scene->step.tensionless) bound += share_error(scene, before, most + fabs(expected->volume_ratio), gathered, bound);
         if (!scene->step.tensionless) bound += unclear_feedback(scene, nodes, before, trace, error);
     }
