@@ -1,6 +1,5 @@
 #include "solvers/moduli.h"
 
-#include <float.h>
 #include <math.h>
 
 #include "solvers/passes.h"
@@ -21,7 +20,6 @@ static void set_liquid(World *world, uint32_t slot, float stiffest)
     material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
     if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
     material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
-    material->rebound_max = FLT_MAX;
     material->pascal = (float)fmin(1.0 / c, 1e30);
     material->viscous_share = (float)viscosity_share(world, def);
 }

@@ -302,10 +302,10 @@ static double quiet_feedback(const RefStep *step, const double d[3], double rati
     return share * (seen - ratio) + (1.0 - share) * fmin(1.0 - ratio, 0.0);
 }
 
-/* Crowded matter grows by `most` at the most; its turn stays. */
-static void limit_growth(int n, double most, double D[9])
+/* What grows by 1 + g in all directions does so at the rate g / (1 + g) of what it is in the end; its turn stays. */
+static void end_growth(int n, double D[9])
 {
-    const double growth = matrix_trace(n, D), taken = growth > most ? 1.0 - most / growth : 0.0;
+    const double growth = fmax(matrix_trace(n, D), 0.0), taken = growth / (1.0 + growth);
     double old[9];
     memcpy(old, D, sizeof old);
     for (int r = 0; r < n; r++)
@@ -330,7 +330,7 @@ static double gap_at(const RefGrid *grid, const RefParticle *p)
 
 /* J follows the density that the grid holds: where that is above 1, its inverse; where it is below 1, up to 1.15, but 1 where
  * any node that the particle feels holds 1 (the surface of a pool), within the noise of the filling, and no gap is there. */
-static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], double D[9])
+static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefParticle *p, const double d[3], const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
@@ -341,10 +341,7 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
         ratio = fmin(reference_control(step, grid, p, D) * ratio, LOOSE_MAX);
         const double missing = fmin(1.0 / held, loose) - ratio;
         ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
-        if (held > REF_CROWDED) {
-            nudge(step, p);
-            limit_growth(step->dimension, (double)p->material.rebound_max, D);
-        }
+        if (held > REF_CROWDED) nudge(step, p);
     }
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), LOOSE_MAX);
 }
@@ -468,6 +465,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
         limit_spin(step->dimension, D);
     } else if (step->tensionless) {
         integrate_tensionless(step, grid, p, way, D);
+        end_growth(step->dimension, D);
     } else {
         integrate_liquid(step, grid, p, D);
     }

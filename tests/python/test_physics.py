@@ -142,6 +142,35 @@ def test_uniform_stretch_is_kept(dimension: int) -> None:
         assert np.abs(world.affine_velocities.array() / RATE - gradient).max() < 1e-5
 
 
+@pytest.mark.parametrize("growth", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("solver", [pbmpm.Solver.DUAL, pbmpm.Solver.PRIMAL])
+def test_liquid_that_flies_apart_goes_straight_on(dimension: int, solver: pbmpm.Solver, growth: float) -> None:
+    """A sheet one cell wide with the velocity growth x per substep: nothing presses on it, so each particle keeps its velocity. Its rim was up to 2.5
+    times as fast after eight substeps. Grid and particles round some hundred times (1e-4)."""
+    gradient = np.zeros((dimension, dimension))
+    gradient[0, 0] = growth * RATE
+    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1, solver=solver, iterations=2) as world:
+        sheet = pbmpm.Box([0.0] * dimension, [0.5 * CELL, *[2 * CELL] * (dimension - 1)])
+        world.fill(sheet, world.add_material(pbmpm.Liquid(bulk_modulus=1e5)))
+        set_linear_motion(world, gradient)
+        start = by_id(world, world.velocities.array())
+        for _ in range(8):
+            world.step(1 / RATE)
+        assert np.abs(by_id(world, world.velocities.array()) - start).max() < 1e-4 * np.abs(start).max()
+
+
+@pytest.mark.parametrize("solver", [pbmpm.Solver.DUAL, pbmpm.Solver.PRIMAL])
+def test_liquid_that_flies_apart_in_all_directions_gains_nothing(dimension: int, solver: pbmpm.Solver) -> None:
+    """Its growth fades no later than that of what flies freely."""
+    with pbmpm.World(dimension, CELL, capacity=10_000, threads=1, solver=solver, iterations=2) as world:
+        world.fill(pbmpm.Sphere([0.0] * dimension, CELL), world.add_material(pbmpm.Liquid(bulk_modulus=1e5)))
+        set_linear_motion(world, np.eye(dimension) * 0.2 * RATE)
+        energy = float((world.velocities.array().astype(float) ** 2).sum())
+        for _ in range(8):
+            world.step(1 / RATE)
+            assert float((world.velocities.array().astype(float) ** 2).sum()) <= energy * (1 + 1e-4)
+
+
 @each_material
 def test_mirror_symmetry(parameters: pbmpm.materials.Parameters) -> None:
     """A symmetric collapse stays symmetric for 1 s to 1e-5 of the tank's width (check I6)."""

@@ -56,7 +56,6 @@ void primal_set_materials(World *world)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
-        if (material->kind == K_LIQUID) material->rebound_max = primal_growth(material->dilation);
         if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->step));
     }
 }

@@ -30,7 +30,6 @@
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 
-#include <math.h>
 
 #include "world/world.h"
 
@@ -42,11 +41,6 @@ bool primal_is_mixed(const World *world);
 
 /* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
 float primal_liquid_dilation(const World *world, const StepContext *step);
-
-/* What crowded liquid may grow by in a substep, of this dilation L = 4 (c dt/dx)^2. Crushed and let go it leaves with its sound's speed c at most: a plane
- * wave turns all of the pressure's energy into it. So nothing that a particle feels, nodes up to 3/2 cells away, parts from it faster:
- * tr D 3/2 dx <= c dt. */
-static inline float primal_growth(float dilation) { return sqrtf(dilation) / 3.0f; }
 
 /* What the kernels need to know of materials. */
 void primal_set_materials(World *world);
