@@ -158,7 +158,7 @@ struct KernelArgs {
     K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
     K_PTR(float) sketch[9];     /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */
     float held_stiffness;       /* k of liquids in the joint solver; 0: they store energy */
-    K_CONST_PTR(float) node_gap; /* per node block: at nodes that a solid reaches the empty share of a liquid's room; null without the joint solver */
+    K_CONST_PTR(float) node_gap; /* per node block: what nodes that a solid reaches are short of being full; null without the joint solver */
     K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
     K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
     K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */

@@ -62,21 +62,6 @@ static double spline(double r, double *slope)
     return off < 0.5 ? 0.75 - r * r : 0.5 * rest * rest;
 }
 
-static void add_volume(const FlowingSite *site, const int32_t way[3], const KernelMaterial *material, uint32_t row, double *sum)
-{
-    const Particles *p = site->frame->pressed;
-    double volume = (double)p->mass[row] * (double)material->inverse_density, unused;
-    for (int a = 0; a < p->dimension; a++) volume *= spline(way[a] + (double)p->fraction[a][row], &unused);
-    *sum += volume;
-}
-
-double flowing_volume(const FlowingSite *site)
-{
-    double sum = 0.0;
-    visit_around(site, add_volume, &sum);
-    return sum;
-}
-
 static void add_push(const FlowingSite *site, const int32_t way[3], const KernelMaterial *material, uint32_t row, double *sum)
 {
     const Particles *p = site->frame->pressed;

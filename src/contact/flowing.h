@@ -1,4 +1,4 @@
-/* Liquid and sand around a node: what presses on walls, and what closes gaps. */
+/* Liquid and sand around a node: what presses on walls. */
 #ifndef PBMPM_SRC_CONTACT_FLOWING_H
 #define PBMPM_SRC_CONTACT_FLOWING_H
 
@@ -13,9 +13,6 @@ typedef struct FlowingSite {
 
 /* The mean of p / rho around the node [cells^2 / substep^2]: of single particles it is noise. */
 double flowing_pressure(const FlowingSite *site);
-
-/* The rest volume of liquid and sand that reaches the node, as node_volume holds it. */
-double flowing_volume(const FlowingSite *site);
 
 /* What an even pressure of 1 pushes the node with [m^3 / cell]: - sum_p V_p grad w_p, V the volume of particles at rest. */
 void flowing_push(const FlowingSite *site, double push[3]);

@@ -5,7 +5,6 @@
 
 #include "base/result.h"
 #include "contact/contacts_find.h"
-#include "contact/flowing.h"
 #include "contact/walls.h"
 #include "solvers/dual/dual.h"
 #include "solvers/moduli.h"
@@ -187,27 +186,13 @@ static void sketch(World *world, const ContactFrame *contacts)
 
 /* ---- The substep ---- */
 
-/* Less is noise of where particles lie, as for the feedback of matter at rest (VOLUME_WRONG_MIN in ispc/liquids.isph). Without it the liquid between nodes that are too
- * full and nodes that are not is pressed together for ever, and turns a stiff block in a full box. */
-static const float NODE_NOISE = 0.05f;
-
-/* At a node that a solid reaches what is missing is a gap, and the liquid there takes up all of it: of its room, what it fills and what is missing, the latter is
- * the share that is returned. */
-static float gap_of(const World *world, int32_t block, size_t node)
-{
-    const ContactFrame frame = {.grid = &world->grid, .pressed = &world->particles, .kernel = world->materials.kernel};
-    const size_t at = (size_t)block * (size_t)world->grid.block_cells + node;
-    const float missing = 1.0f - NODE_NOISE - ((const float *)world->grid.node_volume.data)[at];
-    const FlowingSite site = {&frame, block, {(int)(node & 3), (int)(node >> 2 & 3), (int)(node >> 4)}};
-    return missing > 0.0f ? missing / (missing + (float)flowing_volume(&site)) : 0.0f;
-}
-
 /* Of nodes that a solid reaches; a liquid's surface elsewhere is none. */
 static void find_gaps(World *world, int32_t block, size_t begin, size_t end)
 {
     const uint64_t *solid = world->colliders.solid.data;
-    float *gap = (float *)world->joint.gap.data + begin / W;
-    for (size_t i = 0; i < (end - begin) / W; i++) gap[i] = solid[block] >> i & 1 ? gap_of(world, block, i) : 0.0f;
+    const float *volume = world->grid.node_volume.data;
+    float *gap = world->joint.gap.data;
+    for (size_t i = begin / W; i < end / W; i++) gap[i] = solid[block] >> (i - begin / W) & 1 ? fmaxf(0.0f, 1.0f - volume[i]) : 0.0f;
 }
 
 static void bind(World *world)

@@ -336,12 +336,11 @@ static void integrate_tensionless(const RefStep *step, const RefGrid *grid, RefP
     double ratio = fmin(p->volume_ratio * (1.0 + matrix_trace(step->dimension, D)), LOOSE_MAX);
     if (step->with_volume && feedback > 0.0) {
         const double held = reference_held(step, grid, p);
-        const double gap = gap_at(grid, p), parted = gap > 0.0 ? 1.0 / fmax(1.0 - gap, 1.0 / LOOSE_MAX) : 0.0;
-        const double loose = fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX);
+        const double parted = 1.0 / fmax(1.0 - gap_at(grid, p), 1.0 / LOOSE_MAX);
+        const double loose = fmax(fmin(fmax(REF_COMPRESSED / reference_densest(grid, p), 1.0), LOOSE_MAX), parted);
         ratio = fmin(reference_control(step, grid, p, D) * ratio, LOOSE_MAX);
-        const double missing = fmax(fmin(1.0 / held, loose), parted) - ratio;
-        const double share = parted > ratio ? 1.0 : feedback_share(step, d, missing);
-        ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : share * missing);
+        const double missing = fmin(1.0 / held, loose) - ratio;
+        ratio += feedback * (step->quiet_way > 0.0 ? quiet_feedback(step, d, ratio, ratio + missing) : feedback_share(step, d, missing) * missing);
         if (held > REF_CROWDED) {
             nudge(step, p);
             limit_growth(step->dimension, (double)p->material.rebound_max, D);
