@@ -4,7 +4,7 @@
     build/venv/bin/python tests/cost/against.py LIBRARY PACKAGE [SCENE...] [--rounds 7]
 
 LIBRARY and PACKAGE are the other build's shared library and the folder that holds its `pbmpm` package, for the binding belongs to the library. This
-build is the one that the running interpreter imports. Each round runs every scene in both, one after the other, each in a process of its own on one
+build is the one that the running interpreter imports, or that PBMPM_LIBRARY names. Compare builds of the same type, as users get them: Release. Each round runs every scene in both, one after the other, each in a process of its own on one
 thread: 60 steps of motion, then 60 that are measured. Printed per scene: the median CPU time of a step with each, and the median and the least of the ratios
 of a round; at the end the median over the scenes. Nothing passes or fails here: a machine's noise must not."""
 
