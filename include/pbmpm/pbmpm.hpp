@@ -93,7 +93,7 @@ public:
     T &&operator*() && noexcept { return assert(value_), *std::move(value_); }
     T *operator->() noexcept { return &**this; }
     const T *operator->() const noexcept { return &**this; }
-    /** Without a value its code is PBMPM_OK. */
+    /** With a value its code is PBMPM_OK. */
     const failure &error() const noexcept { return failure_; }
     T value_or(T other) && noexcept { return value_ ? *std::move(value_) : std::move(other); }
     /** For programs that cannot go on without it, see failure::end(). */

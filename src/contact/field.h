@@ -40,7 +40,7 @@ void field_keep(Near *near, uint32_t groups);
 
 static inline const Solid *field_solid(const Near *near, const Obstacle *o) { return near->at_end ? &o->end : &o->start; }
 
-/* floor() of lengths, without a call. */
+/* floor() without a call, of what 64 bits hold. */
 static inline double field_whole(double value)
 {
     const double whole = (double)(int64_t)value;
@@ -49,7 +49,11 @@ static inline double field_whole(double value)
 
 /* The same scene elsewhere has other roundings; they do not get past this. */
 static const double FIELD_ROUNDING = 1.0 / 4194304.0;
-static inline double field_rounded(double value) { return field_whole(value / FIELD_ROUNDING + 0.5) * FIELD_ROUNDING; }
+static inline double field_rounded(double value)
+{
+    if (!(fabs(value) < 1e12)) return value; /* the world is smaller */
+    return field_whole(value / FIELD_ROUNDING + 0.5) * FIELD_ROUNDING;
+}
 
 /* How far [cells] the next surface is, negative inside of an obstacle: of the obstacle that the point is deepest in, which need not be the union's. */
 double field_distance(const Near *near, const double point[3]);

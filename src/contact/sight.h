@@ -4,8 +4,8 @@
  * the last substep, with nothing near that changed, takes them over, bit for bit what would be found anew: what is near is asked once for a block, so its
  * place counts and not that of its nodes. What changed is found by comparison, and nobody has to tell. Groups of islands have grids of their own, so each set of
  * kinds has a sight of its own. Where an obstacle acts on some matter alone nothing is kept. */
-#ifndef PBMPM_SRC_SIGHT_H
-#define PBMPM_SRC_SIGHT_H
+#ifndef PBMPM_SRC_CONTACT_SIGHT_H
+#define PBMPM_SRC_CONTACT_SIGHT_H
 
 #include "contact/contacts.h"
 

@@ -575,7 +575,7 @@ static void square(const Columns *m, float out[6])
         for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
 }
 
-static WallOwn own_of(const float own[6], int dimension)
+static WallOwn kind_of_own(const float own[6], int dimension)
 {
     static const float none[6] = {0};
     const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, 1.0f};
@@ -584,11 +584,11 @@ static WallOwn own_of(const float own[6], int dimension)
     return memcmp(own, all, (size_t)depth * sizeof *own) == 0 ? OWN_ALL : OWN_PART;
 }
 
-/* Lists node `i` for walls_apply(). */
-static void set_motion(Walls *walls, uint32_t i, int dimension)
+/* Lists what the loops of walls_apply() need of node `i`. */
+static void list_motion(Walls *walls, uint32_t i, int dimension)
 {
     const WallNode *node = (const WallNode *)walls->node.data + i;
-    const WallOwn own = own_of(node->own, dimension);
+    const WallOwn own = kind_of_own(node->own, dimension);
     const Four shift = {node->shift[0], node->shift[1], node->shift[2]};
     ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry, node->mass, own, shift};
     if (node->follows) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
@@ -614,7 +614,7 @@ static void lump(Walls *walls, int dimension)
             for (int k = 0; k < 6; k++) m[k] += mass * part[k];
         }
         if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
-        set_motion(walls, i, dimension);
+        list_motion(walls, i, dimension);
     }
 }
 

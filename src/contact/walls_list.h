@@ -52,7 +52,7 @@ typedef struct WallNode {
     float normal[NORMALS_MAX][3];
     uint16_t obstacle[NORMALS_MAX];
     uint16_t normals;
-    bool follows;      /* its motion is that of others, but for what `own` leaves it */
+    bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
 } WallNode;

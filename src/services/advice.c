@@ -715,7 +715,9 @@ static void volume_lost(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double filling = adviser->survey.heap[slot].filling;
         if (filling == 0.0 || world->step_count == 0) continue;
-        const double sure = filling - SURE * adviser->survey.heap[slot].filling_error, lost = 1.0 - 1.0 / sure - lost_to_weight(adviser, slot);
+        const double sure = filling - SURE * adviser->survey.heap[slot].filling_error;
+        if (sure <= 1.0) continue;
+        const double lost = 1.0 - 1.0 / sure - lost_to_weight(adviser, slot);
         if (lost <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
                                .text = "matter takes less room than it should: its level is too low"};

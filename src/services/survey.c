@@ -512,8 +512,8 @@ static bool sees(const World *world, const Share *share, const Solid *solid)
     return solid_gap(solid, hit) < cell && way_to_wall(world, from, along, way) == INFINITY;
 }
 
-/* Whether a ball or a capsule reaches below a cell of liquid that nothing parts from it: that flows around it, or will. */
-static bool is_ball_below(const World *world, const Cells *cells, const Solid *solid)
+/* Whether a ball or a capsule reaches below a cell of liquid that nothing parts from it: that flows around it, or will. *looks: lines that may still be followed. */
+static bool is_ball_below(const World *world, const Cells *cells, const Solid *solid, int *looks)
 {
     double lowest = 0.0, low[3] = {0}, high[3] = {0};
     if (solid->kind != PBMPM_SPHERE && solid->kind != PBMPM_CAPSULE) return false;
@@ -523,10 +523,12 @@ static bool is_ball_below(const World *world, const Cells *cells, const Solid *s
         lowest -= pull * (pull > 0.0 ? high[a] : low[a]);
     }
     const uint32_t stride = 1 + cells->count / LOOKED_AT;
-    for (uint32_t i = 0; i < cells->count; i += stride) {
+    for (uint32_t i = 0; i < cells->count && *looks > 0; i += stride) {
         double up = 0.0;
         for (int a = 0; a < world->def.dimension; a++) up -= (double)world->settings.gravity[a] * middle_of(world, &cells->share[i], a);
-        if (cells->share[i].group == 0 && up > lowest && sees(world, &cells->share[i], solid)) return true;
+        if (cells->share[i].group != 0 || up <= lowest) continue;
+        if (sees(world, &cells->share[i], solid)) return true;
+        (*looks)--;
     }
     return false;
 }
@@ -535,13 +537,14 @@ static bool is_ball_below(const World *world, const Cells *cells, const Solid *s
 static bool stands_in_liquid(const World *world, const Cells *cells)
 {
     static const double BULGES = 0.1; /* a ball of ten cells */
-    enum { MOST = 1 << 16 };
+    enum { MOST = 1 << 16, LOOKS = 256 };
     const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
+    int looks = LOOKS;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_ball_below(world, cells, &solid)) return true;
+        if (is_ball_below(world, cells, &solid, &looks)) return true;
         for (uint32_t i = 0; i < cells->count; i += stride) {
             if (cells->share[i].group != 0) continue;
             double point[3] = {0};

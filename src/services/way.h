@@ -5,7 +5,7 @@
 #include "world/world.h"
 
 /* Metres from a point to the first obstacle that matter of a material meets, however thin that is; infinitely many if there is none within `far`.
- * `along`: of length 1. What comes close to an obstacle for long, along a wall, counts as at it. */
+ * `along`: of length 1, in 2D without a third number. An obstacle that the line goes along, or away from, stops nothing. */
 double way_to_obstacle(const World *world, uint32_t slot, const double from[3], const double along[3], double far);
 
 /* The same of the domain's walls. */

@@ -294,7 +294,7 @@ static void report_with(StepRecord *record, const StepRecord *others)
     record->travel = fmaxf(record->travel, others->travel);
 }
 
-/* Until when a group may take, of which the first of `left` groups that are left is: each gets the share that its particles have. */
+/* Until when a group may take: of the time that is left, the share that its particles have of those that are left. */
 static double deadline_of(const World *world, int group, double deadline)
 {
     const double begin = now_ms(), first = islands_grid(world, group)->first_row, rows = islands_grid(world, group)->end_row - first;

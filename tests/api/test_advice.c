@@ -494,6 +494,19 @@ static void test_known_limits(void)
     }
 }
 
+/* A body that falls along the face of an obstacle falls all the same. */
+static void test_a_body_that_falls_along_a_wall(void)
+{
+    for (int walled = 0; walled < 2; walled++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        if (walled) create_collider(world, plane_shape(0, 0, 0, 1, 0, 0), false); /* through nodes, where the body's first cells have their middle */
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0.5f, 0.3f, 0, 0.5f, 0.3f, 1), at_rest);
+        fill_shape(world, create_material(world, PBMPM_ELASTIC), box_shape(0.25f, 1.3f, 0, 0.25f, 0.3f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_TRUE(tells("fell into a liquid"));
+    }
+}
+
 static void test_sand_on_a_floor_without_friction(void)
 {
     static const struct {
@@ -653,6 +666,7 @@ int main(void)
     RUN_TEST(test_a_body_that_hangs_over);
     RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_known_limits);
+    RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
     RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);

@@ -324,7 +324,7 @@ static void test_unknown_flags(void)
     EXPECT(PBMPM_ERROR_INVALID_ARGUMENT, pbmpm_snapshot_restore(made.world, saved, saved_bytes, 2));
 }
 
-/* The save that version 0.2 wrote, which every later version reads. It is made by this program with --write. */
+/* The save that version 0.2 wrote, which every later version reads. It is made by this program with --write FOLDER. */
 static void test_saves_of_older_versions_are_read(void)
 {
     const game made = make_game(&before);
@@ -340,12 +340,14 @@ static void test_saves_of_older_versions_are_read(void)
     world_expect_finite(made.world, "after an old save");
 }
 
-static int write_save(void)
+static int write_save(const char *folder)
 {
+    char path[1024];
     const game made = saved_game(&before);
     const uint64_t hash = world_hash_unordered(made.world);
-    FILE *file = fopen(PBMPM_TEST_SAVES "/0.2/game.snapshot", "wb");
-    if (!file) return perror(PBMPM_TEST_SAVES), 1;
+    snprintf(path, sizeof path, "%s/game.snapshot", folder);
+    FILE *file = fopen(path, "wb");
+    if (!file) return perror(path), 1;
     fwrite(&hash, sizeof hash, 1, file);
     fwrite(saved, 1, saved_bytes, file);
     return fclose(file);
@@ -354,7 +356,7 @@ static int write_save(void)
 int main(int argc, char **argv)
 {
     UNITY_BEGIN();
-    if (argc > 1 && strcmp(argv[1], "--write") == 0) return write_save();
+    if (argc > 2 && strcmp(argv[1], "--write") == 0) return write_save(argv[2]);
     RUN_TEST(test_keys_find_things_in_other_slots);
     RUN_TEST(test_a_collider_that_was_made_again);
     RUN_TEST(test_without_keys_places_count);

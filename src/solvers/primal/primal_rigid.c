@@ -274,8 +274,11 @@ static void write_motion(Primal *p, int32_t block, const RigidBody *body, float 
     for (size_t k = 0; k < (size_t)p->floats / (W * BLOCK * BLOCK); k++)
         for (size_t j = 0; j < BLOCK; j++)
             for (size_t i = 0; i < BLOCK; i++, to += W, base += W) {
-                const float has = base[3] > 0.0f ? 1.0f : 0.0f; /* a factor: four lanes at once */
-                for (size_t c = 0; c < W; c++) to[c] = has * (first[c] + (float)i * step[0][c] + (float)j * step[1][c] + (float)k * step[2][c]);
+                const bool has = base[3] > 0.0f;
+                for (size_t c = 0; c < W; c++) {
+                    const float moved = first[c] + (float)i * step[0][c] + (float)j * step[1][c] + (float)k * step[2][c];
+                    to[c] = has ? moved : 0.0f;
+                }
             }
 }
 
