@@ -35,7 +35,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient */
     /* Came true: measured in the present state. */
-    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: share of the volume that is lost at least, by two standard errors of what cells hold */
+    PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
     PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
     PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
@@ -72,7 +72,7 @@ typedef struct pbmpm_advice {
     const char *text;            /**< one sentence, constant, valid as long as the library; never null */
 } pbmpm_advice;
 
-/** What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. Also what came true in the steps so far. Changes nothing.
+/** What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. It also tells what came true in the steps so far. Changes nothing.
  *  What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
  *
  *  Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when

@@ -15,7 +15,7 @@ extern "C" {
  * task calls `enqueue` and `finish` for others. The thread in pbmpm_world_step_end() or pbmpm_world_destroy() calls `finish` for the first task.
  *
  * A step computes what pbmpm_world_step() would have: results do not depend on how it was made. Until pbmpm_world_step_end() gives another
- * result than BUSY the world takes these calls only, and answers all others with BUSY:
+ * result than BUSY only these calls work; all others return BUSY:
  *
  *   pbmpm_world_step_end()        waits, or ends the step if it is done;
  *   pbmpm_world_step_done()       looks whether it is;

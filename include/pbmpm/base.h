@@ -33,7 +33,7 @@ extern "C" {
  *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
  * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
  * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.
- * No call waits for another. So a host steps its world when its reading threads have returned. */
+ * No call waits for another. So a host steps its world only after its reading threads have returned. */
 
 /** What a call came to. Zero is success; everything else left the world as it was before the call, except
  *  where the function says otherwise. Details: pbmpm_last_error(). */

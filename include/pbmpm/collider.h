@@ -30,7 +30,7 @@ typedef struct pbmpm_collider_def {
     int32_t kinematic;          /**< 0 (default): never moves. 1: pbmpm_collider_move() moves it. */
     int32_t measures_impulse;   /**< 1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing */
     uint32_t meets;             /**< bits of `groups` of the materials that it acts on; 0 (default): all. Other matter passes as if it were not there.
-                                     Fills, emitters, touches and pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes
+                                     Fills, emitters, touches and pbmpm_collider_submerged() respect it; queries do not. Matter that passes
                                      is slowed within 2.5 cells of matter that is held, see docs/limits.md. */
     uint64_t key;       /**< how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
                              see snapshot.h */
@@ -58,7 +58,7 @@ PBMPM_API pbmpm_result pbmpm_collider_is_valid(pbmpm_world_id world, pbmpm_colli
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_colliders(pbmpm_world_id world, pbmpm_collider_id *colliders, uint32_t capacity, uint32_t *count);
 
-/** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+/** Reads the definition, and the shape with the current pose. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_collider_def *def, pbmpm_shape *shape);
 
 /** Changes an obstacle, which keeps its identifier. With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks.
@@ -133,7 +133,7 @@ typedef struct pbmpm_touch {
 /** Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
  *  that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
  *  seen. Nor is the end of the touches of a destroyed collider.
- *  *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
+ *  *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, this call does not count as the call before of the next one.
  *  `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count);

@@ -55,7 +55,7 @@ PBMPM_API pbmpm_result pbmpm_drain_is_valid(pbmpm_world_id world, pbmpm_drain_id
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_drains(pbmpm_world_id world, pbmpm_drain_id *drains, uint32_t capacity, uint32_t *count);
 
-/** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+/** Reads the definition and the shape. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_drain_def *def, pbmpm_shape *shape);
 
 /** Changes a drain (its place, too). With a null `def` or `shape` that part stays unchanged. So do members that an older caller's smaller structure lacks. The counts are kept. Errors as pbmpm_drain_create(), but CAPACITY and OUT_OF_MEMORY. */

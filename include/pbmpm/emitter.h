@@ -35,8 +35,8 @@ typedef enum pbmpm_emitter_region {
  *  that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
  *  Places follow a sequence that fills the region evenly.
  *
- *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. So it is when it would
- *  fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. It is refused, too, when the budget is spent or
+ *  A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, if it would
+ *  fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
  *  the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep. */
 typedef struct pbmpm_emitter_def {
     uint32_t size;               /**< sizeof(pbmpm_emitter_def), set by pbmpm_emitter_def_init() */
@@ -93,7 +93,7 @@ PBMPM_API pbmpm_result pbmpm_emitter_is_valid(pbmpm_world_id world, pbmpm_emitte
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_emitters(pbmpm_world_id world, pbmpm_emitter_id *emitters, uint32_t capacity, uint32_t *count);
 
-/** Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID,
+/** Reads the definition, and the shape with the current pose. Either may be null; set `size` in what is not. Errors: INVALID_ID,
  *  UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, pbmpm_emitter_def *def, pbmpm_shape *shape);
 
@@ -103,7 +103,7 @@ PBMPM_API pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id 
                                          const pbmpm_shape *shape);
 
 /** Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
- *  motion. A path that crosses more than 2^22 nodes per substep (in the domain) is not followed: the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
+ *  motion. If the path crosses more than 2^22 nodes of the domain per substep the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY. */
 PBMPM_API pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, const float position[3], const float rotation[4]);
 
 /** Counts since creation. `status->size` must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED, BUSY. */

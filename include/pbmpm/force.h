@@ -90,7 +90,7 @@ PBMPM_API pbmpm_result pbmpm_force_is_valid(pbmpm_world_id world, pbmpm_force_id
  *  capacity of 0. The order says nothing. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_get_forces(pbmpm_world_id world, pbmpm_force_id *forces, uint32_t capacity, uint32_t *count);
 
-/** Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
+/** Reads the definition and the shape. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY. */
 PBMPM_API pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_force_def *def, pbmpm_shape *shape);
 
 /** Changes a force (its kind and place, too); takes effect with the next step. A null `def` or `shape` stays as it is, and so does what the

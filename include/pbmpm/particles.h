@@ -79,8 +79,8 @@ typedef enum pbmpm_field {
     PBMPM_FIELD_FORCE32 = 0x7fffffff
 } pbmpm_field;
 
-/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows old and present values of
- *  particles, or 0, in no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+/** A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Once it has expired it shows a
+ *  mix of old and new values, or 0. Of AFFINE_VELOCITY and DEFORMATION the values
  *  are arbitrary. Publish (async.h) or copy (pbmpm_particles_copy()) what is drawn later, or by another thread. Element (i, c) of the field is at
  *  (const char *)data + i * stride + c * component_stride. Read-only. */
 typedef struct pbmpm_view {

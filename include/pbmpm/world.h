@@ -90,7 +90,7 @@ typedef struct pbmpm_settings {
     pbmpm_solver solver;    /**< default PBMPM_SOLVER_CONVERGENT */
     pbmpm_pressure pressure;     /**< dual solver; default PBMPM_PRESSURE_PARTICLES */
     pbmpm_integrator integrator; /**< default PBMPM_INTEGRATOR_EULER */
-    float flip;             /**< share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP;
+    float flip;             /**< share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP: Fei, Guo, Wu, Huang, Gao 2021;
                                  not the paper's solver), in [0, 1]; default 0. 0.9 is lively. */
     float target_error;     /**< dual and primal: iterations end when the predicted error of the solution [cells] is below this;
                                  in [0, 1], 0 (default): off */
@@ -155,8 +155,8 @@ PBMPM_API pbmpm_result pbmpm_world_step(pbmpm_world_id world, float dt);
  *  Errors: INVALID_ID, INVALID_ARGUMENT (null, NaN, something would be out of its range), BUSY, FORKED: nothing has changed. */
 PBMPM_API pbmpm_result pbmpm_world_shift_origin(pbmpm_world_id world, const double wanted[3], double moved[3]);
 
-/** A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
- *  the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
+/** A number that changes with every call that moves, adds or removes particles. A view is valid while this number equals
+ *  its `generation`. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY. */
 PBMPM_API pbmpm_result pbmpm_world_generation(pbmpm_world_id world, uint64_t *generation);
 
 /** 64-bit hash of the dynamic state in storage order (position, velocity, affine velocity, J, F, material, mass). Equal for

@@ -300,7 +300,7 @@ namespace Pbmpm
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient</summary>
         NoFriction = 19,
-        /// <summary>matter takes less room than its rest volume. Figure: share of the volume that is lost at least, by two standard errors of what cells hold</summary>
+        /// <summary>matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
         StrainClamped = 15,
@@ -612,7 +612,8 @@ namespace Pbmpm
         /// default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,
         /// which costs nothing. What it does, and where: docs/method.md, "Liquids keep their volume"</summary>
         public float VolumeFeedback;
-        /// <summary>elastic: beta of the blend beta * rotation + (1 - beta) * unit-volume shape, in [0, 1]; default 1</summary>
+        /// <summary>elastic, the paper's solver: beta in [0, 1]; default 1. 1 resists any change of shape, 0 that of volume alone; between it
+        /// is beta * rotation + (1 - beta) * the shape at unit volume</summary>
         public float ElasticityRatio;
         /// <summary>elastic; default PBMPM_STRAIN_CLAMP</summary>
         public StrainPolicy StrainPolicy;
@@ -833,7 +834,7 @@ namespace Pbmpm
         public Pressure Pressure;
         /// <summary>default PBMPM_INTEGRATOR_EULER</summary>
         public Integrator Integrator;
-        /// <summary>share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP;
+        /// <summary>share alpha of the motion below the grid's resolution that liquids without viscosity keep (ASFLIP: Fei, Guo, Wu, Huang, Gao 2021;
         /// not the paper's solver), in [0, 1]; default 0. 0.9 is lively.</summary>
         public float Flip;
         /// <summary>dual and primal: iterations end when the predicted error of the solution [cells] is below this;
@@ -911,7 +912,7 @@ namespace Pbmpm
         /// <summary>1: pbmpm_collider_impulse() tells what matter does to it; 0 (default): costs nothing</summary>
         public int MeasuresImpulse;
         /// <summary>bits of `groups` of the materials that it acts on; 0 (default): all. Other matter passes as if it were not there.
-        /// Fills, emitters, touches and pbmpm_collider_submerged() go by it, too; queries do not. Matter that passes
+        /// Fills, emitters, touches and pbmpm_collider_submerged() respect it; queries do not. Matter that passes
         /// is slowed within 2.5 cells of matter that is held, see docs/limits.md.</summary>
         public uint Meets;
         /// <summary>how snapshots find it again; no two colliders of a world may share one. 0 (default): none; the index of its identifier counts,
@@ -1118,8 +1119,8 @@ namespace Pbmpm
     /// that fall: so a stream has no pulses. If an obstacle that acts on it is in the way it appears where it was born.
     /// Places follow a sequence that fills the region evenly.
     ///
-    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. So it is when it would
-    /// fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. It is refused, too, when the budget is spent or
+    /// A particle that is due is refused when matter at its place already fills the share `fill_limit` of the grid. It is refused, too, if it would
+    /// fill more than this share of a space that obstacles enclose. That space is looked for up to about four cells from the emitter. The same goes when the budget is spent or
     /// the world has no room. Refused particles are not made up for. They are counted in pbmpm_emitter_status, and told by one PBMPM_EVENT_EMISSION_REFUSED per emitter and substep.</summary>
     [StructLayout(LayoutKind.Sequential)]
     public unsafe partial struct EmitterDef
@@ -1717,8 +1718,8 @@ namespace Pbmpm.Native
         }
     }
 
-    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. It shows old and present values of
-    /// particles, or 0, in no consistent state. Of AFFINE_VELOCITY and DEFORMATION the values
+    /// <summary>A window on the world's own memory, which stays allocated until the world is destroyed: an expired view never faults. Once it has expired it shows a
+    /// mix of old and new values, or 0. Of AFFINE_VELOCITY and DEFORMATION the values
     /// are arbitrary. Publish (async.h) or copy (pbmpm_particles_copy()) what is drawn later, or by another thread. Element (i, c) of the field is at
     /// (const char *)data + i * stride + c * component_stride. Read-only.</summary>
     [StructLayout(LayoutKind.Sequential)]
@@ -2043,8 +2044,8 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_shift_origin(WorldId world, Double3* wanted, Double3* moved);
 
-        /// <summary>A number that changes with every call that moves, adds or removes particles. A view is valid while it is equal to
-        /// the view's own. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
+        /// <summary>A number that changes with every call that moves, adds or removes particles. A view is valid while this number equals
+        /// its `generation`. Errors: INVALID_ID, INVALID_ARGUMENT (null), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_generation(WorldId world, ulong* generation);
 
@@ -2152,7 +2153,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_colliders(WorldId world, ColliderId* colliders, uint capacity, uint* count);
 
-        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_collider_get(WorldId world, ColliderId collider, ColliderDef* def, Shape* shape);
 
@@ -2196,7 +2197,7 @@ namespace Pbmpm.Native
         /// <summary>Which materials touch the colliders that report touches, and where that has begun or ended since the call before. A particle touches an obstacle
         /// that it is within half a cell of, and a sensor that it is in. Call it once per step: a touch that begins and ends between two calls is not
         /// seen. Nor is the end of the touches of a destroyed collider.
-        /// *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, the next call compares with the same earlier call as this one.
+        /// *count is how many touches there are; the first `capacity` of them are written. If there was less room than *count, this call does not count as the call before of the next one.
         /// `touches` may be null with a capacity of 0; else touches[0].size must be set. Costs a look at the particles near those colliders.
         /// Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), OUT_OF_MEMORY (see query.h), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
@@ -2206,7 +2207,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_query_collider(WorldId world, ColliderId collider, ParticleId* ids, uint capacity, uint* count);
 
-        /// <summary>What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. Also what came true in the steps so far. Changes nothing.
+        /// <summary>What will go wrong with the present scene and settings when the world is stepped by `dt` [s]. It also tells what came true in the steps so far. Changes nothing.
         /// What is foreseen comes from formulas and measured limits, for the matter that is there or that emitters bring. An empty list is no promise.
         ///
         /// Writes up to `capacity` records in the order of their codes' numbers, then of materials and obstacles; *count is the full number. `array` may be null when
@@ -2281,7 +2282,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_drains(WorldId world, DrainId* drains, uint capacity, uint* count);
 
-        /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition and the shape. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_drain_get(WorldId world, DrainId drain, DrainDef* def, Shape* shape);
 
@@ -2333,7 +2334,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_emitters(WorldId world, EmitterId* emitters, uint capacity, uint* count);
 
-        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; the `size` of the others must be set. Errors: INVALID_ID,
+        /// <summary>Reads the definition, and the shape with the current pose. Either may be null; set `size` in what is not. Errors: INVALID_ID,
         /// UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_get(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
@@ -2344,7 +2345,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_emitter_set(WorldId world, EmitterId emitter, EmitterDef* def, Shape* shape);
 
         /// <summary>Where the emitter shall be at the end of the next step; particles are born all along the way. They do not take on its
-        /// motion. A path that crosses more than 2^22 nodes per substep (in the domain) is not followed: the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
+        /// motion. If the path crosses more than 2^22 nodes of the domain per substep the emitter jumps. `rotation` may be null: unchanged. Errors: INVALID_ID, INVALID_ARGUMENT, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_emitter_move(WorldId world, EmitterId emitter, Float3* position, Float4* rotation);
 
@@ -2374,7 +2375,7 @@ namespace Pbmpm.Native
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_get_forces(WorldId world, ForceId* forces, uint capacity, uint* count);
 
-        /// <summary>Reads the definition and the shape. Either may be null; the `size` of the others must be set. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
+        /// <summary>Reads the definition and the shape. Either may be null; set `size` in what is not. Errors: INVALID_ID, UNSUPPORTED, BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_force_get(WorldId world, ForceId force, ForceDef* def, Shape* shape);
 
