@@ -2435,7 +2435,8 @@ namespace Pbmpm.Native
         ///
         /// Measured on a lattice of the world's cells around the obstacle. Where that is longer than 64 cells the lattice is wider. Matter at a node is the
         /// filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.
-        /// For obstacles 8 cells long the volume errs by less than 0.4 cells of depth. On a floor it errs by less than 0.8. A film or jet that touches one side counts for nothing.
+        /// For obstacles 8 cells long the volume errs by less than 0.4 cells of depth. On a floor it errs by less than 0.8. A thin jet at one side counts for
+        /// nothing. But under a film of half a cell or more nearly all of the obstacle counts, see docs/limits.md.
         /// `submersion-&gt;size` must be set. The first call of a world takes memory, later ones that need no more take none.
         /// Errors: INVALID_ID (also: the material), INVALID_ARGUMENT (also: a plane), UNSUPPORTED, OUT_OF_MEMORY, BUSY, FORKED.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
