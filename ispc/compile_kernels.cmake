@@ -1,13 +1,32 @@
 # pbmpm_compile_kernels(FILE OBJECTS [INCLUDE FOLDER...] [DEPENDS FILE...])
 #
 # Compiles an .ispc file for every instruction set and appends the objects to the list OBJECTS. An exported function f is in
-# them as f_sse4, f_avx2 and f_avx512skx. ISPC also writes an object with a dispatcher of its own, which is left out: src/
-# chooses by its own table. Under a sanitizer with Clang 19 or newer the kernels are instrumented too.
+# them as f_sse4, f_avx2 and f_avx512skx; on ARM, which has one set, as f. For several sets ISPC also writes an object with a dispatcher of its own, which
+# is left out: src/ chooses by its own table. Under a sanitizer with Clang 19 or newer the kernels are instrumented too.
 include_guard(GLOBAL)
 
-set(PBMPM_KERNEL_ISAS sse4 avx2 avx512skx CACHE INTERNAL "")
-set(PBMPM_KERNEL_TARGETS sse4-i32x4,avx2-i32x8,avx512skx-x8 CACHE INTERNAL "")
-set(PBMPM_KERNEL_MACHINES nehalem haswell skylake-avx512 CACHE INTERNAL "") # what Clang calls them
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$")
+    set(architecture aarch64)
+    set(PBMPM_KERNEL_ISAS neon CACHE INTERNAL "")
+    set(PBMPM_KERNEL_TARGETS neon-i32x4 CACHE INTERNAL "")
+    set(PBMPM_KERNEL_MACHINES generic CACHE INTERNAL "")
+else()
+    set(architecture x86-64)
+    set(PBMPM_KERNEL_ISAS sse4 avx2 avx512skx CACHE INTERNAL "")
+    set(PBMPM_KERNEL_TARGETS sse4-i32x4,avx2-i32x8,avx512skx-x8 CACHE INTERNAL "")
+    set(PBMPM_KERNEL_MACHINES nehalem haswell skylake-avx512 CACHE INTERNAL "") # what Clang calls them
+endif()
+set(PBMPM_KERNEL_ARCHITECTURE --arch=${architecture} CACHE INTERNAL "")
+
+# The system's name in LLVM, where ISPC may not know it (Debian's knows Linux alone): LLVM's own compiler then makes the objects.
+set(triple "")
+if(CMAKE_CROSSCOMPILING AND WIN32)
+    set(triple x86_64-w64-windows-gnu)
+elseif(CMAKE_CROSSCOMPILING AND APPLE)
+    string(REPLACE aarch64 arm64 triple "${architecture}-apple-macosx${CMAKE_OSX_DEPLOYMENT_TARGET}")
+    string(REPLACE x86-64 x86_64 triple "${triple}")
+endif()
+set(PBMPM_KERNEL_TRIPLE "${triple}" CACHE INTERNAL "")
 
 option(PBMPM_ONE_ISA "For tests that build often: SSE4 kernels stand in for all others" OFF)
 mark_as_advanced(PBMPM_ONE_ISA)
@@ -30,14 +49,17 @@ function(pbmpm_compile_kernels file objects)
     if(PBMPM_INSTRUMENT_KERNELS)
         set(suffix .ll)
         set(flags -O1 -g --emit-llvm-text)
-    elseif(WIN32 AND CMAKE_CROSSCOMPILING)
+    elseif(PBMPM_KERNEL_TRIPLE)
         set(suffix .ll)
         set(flags -O3 --emit-llvm-text)
     else()
         set(suffix .o)
         set(flags -O3 $<$<CONFIG:Debug,RelWithDebInfo>:-g> $<$<BOOL:${PBMPM_WARNINGS_AS_ERRORS}>:--werror>)
     endif()
-    list(TRANSFORM PBMPM_KERNEL_ISAS REPLACE "(.+)" "${stem}_\\1${suffix}" OUTPUT_VARIABLE outputs)
+    kernel_parts("${stem}" parts)
+    list(TRANSFORM parts APPEND "${suffix}" OUTPUT_VARIABLE outputs)
+    set(dispatcher "${stem}${suffix}")
+    list(REMOVE_ITEM dispatcher ${outputs})
     list(TRANSFORM arg_INCLUDE PREPEND "-I" OUTPUT_VARIABLE includes)
     set(definitions ${PBMPM_MATERIAL_DEFINITIONS} ${PBMPM_STRICT_DEFINITION})
     list(TRANSFORM definitions PREPEND "-D")
@@ -48,8 +70,8 @@ function(pbmpm_compile_kernels file objects)
     endif()
     add_custom_command(
         OUTPUT ${outputs}
-        BYPRODUCTS "${stem}${suffix}"
-        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} ${definitions} --target=${PBMPM_KERNEL_TARGETS} --pic --wno-perf "${flags}" "${PBMPM_STRICT_FLAGS}"
+        BYPRODUCTS ${dispatcher}
+        COMMAND "${CMAKE_ISPC_COMPILER}" "${file}" ${includes} ${definitions} ${PBMPM_KERNEL_ARCHITECTURE} --target=${PBMPM_KERNEL_TARGETS} --pic --wno-perf "${flags}" "${PBMPM_STRICT_FLAGS}"
             -o "${stem}${suffix}"
         DEPENDS "${file}" ${arg_DEPENDS} "${CMAKE_ISPC_COMPILER}"
         COMMENT "Compiling ${name}.ispc for ${PBMPM_KERNEL_TARGETS}"
@@ -62,22 +84,31 @@ function(pbmpm_compile_kernels file objects)
     set(${objects} ${${objects}} ${outputs} PARENT_SCOPE)
 endfunction()
 
-# translate_kernels(STEM OBJECTS): an ISPC without Windows among its targets has written LLVM's text for Linux; what it says of the system is replaced, and
-# LLVM's llc makes the objects. Fused operations as ISPC itself makes them: so results are those of Linux, bit for bit.
+# kernel_parts(STEM PARTS): what ISPC calls the object of each instruction set, less the suffix.
+function(kernel_parts stem parts)
+    list(LENGTH PBMPM_KERNEL_ISAS count)
+    set(${parts} "${stem}" PARENT_SCOPE)
+    if(count GREATER 1)
+        list(TRANSFORM PBMPM_KERNEL_ISAS REPLACE "(.+)" "${stem}_\\1" OUTPUT_VARIABLE named)
+        set(${parts} ${named} PARENT_SCOPE)
+    endif()
+endfunction()
+
+# translate_kernels(STEM OBJECTS): ISPC has written LLVM's text for Linux. What it says of the system is left out, functions are marked as hidden, and LLVM's
+# llc makes the objects. It fuses operations as ISPC itself does: so results are those of Linux, bit for bit.
 function(translate_kernels stem objects)
-    find_program(PBMPM_LLC NAMES llc-19 llc-20 llc REQUIRED DOC "Compiles kernels for Windows (Debian: llvm)")
-    set(layout "e-m:w-p270:32:32-p271:32:32-p272:64:64-i64:64-i128:128-f80:128-n8:16:32:64-S128") # LLVM's for x86-64 Windows
+    find_program(PBMPM_LLC NAMES llc-19 llc-20 llc REQUIRED DOC "Compiles kernels for systems that ISPC does not know (Debian: llvm)")
+    kernel_parts("${stem}" parts)
     set(made "")
-    foreach(isa machine IN ZIP_LISTS PBMPM_KERNEL_ISAS PBMPM_KERNEL_MACHINES)
-        set(part "${stem}_${isa}")
+    foreach(part machine IN ZIP_LISTS parts PBMPM_KERNEL_MACHINES)
         add_custom_command(
             OUTPUT "${part}.o"
-            COMMAND sed -e "s/^target datalayout = .*/target datalayout = \"${layout}\"/" -e "s/^target triple = .*/target triple = \"x86_64-w64-windows-gnu\"/"
-                -e "/^attributes #.* nounwind/s/{/{ uwtable/" "${part}.ll" > "${part}.windows.ll"
-            COMMAND "${PBMPM_LLC}" -O2 -mtriple=x86_64-w64-windows-gnu -mcpu=${machine} --relocation-model=pic --fp-contract=fast -filetype=obj
-                "${part}.windows.ll" -o "${part}.o"
+            COMMAND sed -e "/^target /d" -e "/^define internal/!s/^define /define hidden /"
+                -e "/^attributes #.* nounwind/s/{/{ uwtable/" "${part}.ll" > "${part}.translated.ll"
+            COMMAND "${PBMPM_LLC}" -O2 -mtriple=${PBMPM_KERNEL_TRIPLE} -mcpu=${machine} --relocation-model=pic --fp-contract=fast -filetype=obj
+                "${part}.translated.ll" -o "${part}.o"
             DEPENDS "${part}.ll"
-            COMMENT "Translating ${part} for Windows"
+            COMMENT "Translating ${part} for ${PBMPM_KERNEL_TRIPLE}"
             VERBATIM)
         list(APPEND made "${part}.o")
     endforeach()
@@ -108,8 +139,8 @@ endfunction()
 # instrument_kernels(STEM OBJECTS): ISPC has written LLVM's text; its functions are marked, and Clang makes the objects.
 function(instrument_kernels stem objects)
     set(made "")
-    foreach(isa machine IN ZIP_LISTS PBMPM_KERNEL_ISAS PBMPM_KERNEL_MACHINES)
-        set(part "${stem}_${isa}")
+    kernel_parts("${stem}" parts)
+    foreach(part machine IN ZIP_LISTS parts PBMPM_KERNEL_MACHINES)
         add_custom_command(
             OUTPUT "${part}.o"
             COMMAND sed "/^attributes #.* nounwind/s/{/{ sanitize_${PBMPM_SANITIZE}/" "${part}.ll" > "${part}.marked.ll"

@@ -14,12 +14,12 @@ extern "C" {
 /* Define PBMPM_STATIC where the static library is linked. */
 #if defined(PBMPM_STATIC)
 #define PBMPM_API
-#elif defined(PBMPM_BUILDING_LIBRARY) && defined(__GNUC__)
-#define PBMPM_API __attribute__((visibility("default")))
 #elif defined(_WIN32) && defined(PBMPM_BUILDING_LIBRARY)
 #define PBMPM_API __declspec(dllexport)
 #elif defined(_WIN32)
 #define PBMPM_API __declspec(dllimport)
+#elif defined(PBMPM_BUILDING_LIBRARY) && defined(__GNUC__)
+#define PBMPM_API __attribute__((visibility("default")))
 #else
 #define PBMPM_API
 #endif
@@ -146,13 +146,14 @@ typedef struct pbmpm_task_hooks {
     void *user;                                                                   /**< passed on unchanged */
 } pbmpm_task_hooks;
 
-/** Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
- *  read at the first call that needs it. */
+/** Instruction sets of the kernels. On x86, PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
+ *  read at the first call that needs it. ARM has NEON alone. */
 typedef enum pbmpm_isa {
     PBMPM_ISA_NONE = 0, /**< the CPU is not supported */
     PBMPM_ISA_SSE4 = 1,
     PBMPM_ISA_AVX2 = 2,
     PBMPM_ISA_AVX512 = 3,
+    PBMPM_ISA_NEON = 4,
     PBMPM_ISA_FORCE32 = 0x7fffffff
 } pbmpm_isa;
 

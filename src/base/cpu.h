@@ -4,7 +4,7 @@
 
 #include "pbmpm/base.h"
 
-/* The best supported instruction set, lowered by PBMPM_ISA in the environment; asked once. Runs on any x86-64. */
+/* The best supported instruction set, lowered by PBMPM_ISA in the environment; asked once. Runs on any CPU of the architecture. */
 pbmpm_isa cpu_isa(void);
 const char *cpu_isa_name(pbmpm_isa isa);
 int cpu_core_count(void);

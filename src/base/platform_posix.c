@@ -16,6 +16,8 @@ void *platform_allocate(size_t size, size_t alignment)
 
 void platform_release(void *block) { free(block); }
 
+bool platform_has_lost_its_threads(void) { return false; }
+
 /* A thread begins with the mask of the one that makes it. */
 bool thread_start(pthread_t *thread, void *(*run)(void *), void *context)
 {
@@ -28,3 +30,5 @@ bool thread_start(pthread_t *thread, void *(*run)(void *), void *context)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
     return started;
 }
+
+void thread_join(pthread_t thread) { pthread_join(thread, NULL); }

@@ -3,10 +3,10 @@
 #include <pthread.h>
 #include <sched.h>
 #include <string.h>
-#include <xmmintrin.h>
 
 #include "base/assertion.h"
 #include "base/cpu.h"
+#include "base/machine.h"
 #include "base/result.h"
 #include "base/thread.h"
 
@@ -62,7 +62,7 @@ static bool wait_for_rest(Loop *loop, int spin_rounds)
 {
     for (int i = 0; i < spin_rounds; i++) {
         if (is_done(loop)) return true;
-        _mm_pause();
+        machine_pause();
     }
     for (int i = 0; i < YIELD_ROUNDS; i++) {
         if (is_done(loop)) return true;
@@ -94,7 +94,7 @@ static unsigned wait_for_work(Pool *pool, unsigned seen)
 {
     for (int i = 0; i < pool->spin_rounds; i++) {
         if (atomic_load_explicit(&pool->round, memory_order_acquire) != seen) return seen + 1;
-        _mm_pause();
+        machine_pause();
     }
     pthread_mutex_lock(&pool->lock);
     while (atomic_load(&pool->round) == seen && !atomic_load(&pool->stop)) pthread_cond_wait(&pool->work, &pool->lock);
@@ -133,7 +133,7 @@ static void finish_round(Pool *pool)
 {
     for (int i = 0; i < pool->spin_rounds; i++) {
         if (atomic_load_explicit(&pool->running, memory_order_acquire) == 0) return;
-        _mm_pause();
+        machine_pause();
     }
     pthread_mutex_lock(&pool->lock);
     while (atomic_load(&pool->running) > 0) pthread_cond_wait(&pool->done, &pool->lock);
@@ -168,7 +168,7 @@ void pool_stop(Pool *pool)
     atomic_store(&pool->stop, true);
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->lock);
-    for (int i = 0; i < pool->started; i++) pthread_join(pool->worker[i], NULL);
+    for (int i = 0; i < pool->started; i++) thread_join(pool->worker[i]);
     pool->started = 0;
 }
 

@@ -35,6 +35,20 @@
 #define ENTRY(name, suffix) .name = name##suffix,
 #define TABLE(suffix, gang) {EACH_KERNEL(ENTRY, suffix).lanes = gang}
 
+#if defined(__aarch64__) /* with a single target ISPC puts nothing behind names */
+
+DECLARE(2)
+DECLARE(3)
+
+const Kernels *kernels_for(pbmpm_isa isa, int dimension)
+{
+    static const Kernels table[] = {TABLE(2, 4), TABLE(3, 4)};
+    (void)isa;
+    return &table[dimension - 2];
+}
+
+#else
+
 DECLARE(2_sse4)
 DECLARE(3_sse4)
 DECLARE(2_avx2)
@@ -51,3 +65,5 @@ const Kernels *kernels_for(pbmpm_isa isa, int dimension)
     };
     return &table[isa][dimension - 2];
 }
+
+#endif

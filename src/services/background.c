@@ -216,7 +216,7 @@ void background_stop(World *world, bool here)
     pthread_cond_broadcast(&background->changed);
     pthread_mutex_unlock(&background->lock);
     finish_task(background);
-    if (background->has_thread) pthread_join(background->thread, NULL);
+    if (background->has_thread) thread_join(background->thread);
     background->has_thread = false;
     pthread_cond_destroy(&background->changed);
     pthread_mutex_destroy(&background->lock);

@@ -5,6 +5,7 @@
 
 #include "base/assertion.h"
 #include "base/generations.h"
+#include "base/platform.h"
 #include "base/result.h"
 #include "services/background.h"
 #include "services/lifecycle.h"
@@ -132,6 +133,7 @@ void registry_clear(void)
 
 void registry_clear_at_unload(void)
 {
+    if (platform_has_lost_its_threads()) return; /* what they held stays locked, what they wrote half written */
     for (uint32_t i = 0; i < PBMPM_MAX_WORLDS; i++) {
         World *world = NULL;
         const pbmpm_world_id id = {i, atomic_load(&slots[i].generation)};

@@ -1,0 +1,27 @@
+#include "host.h"
+
+#include <malloc.h>
+#include <windows.h>
+#include <tlhelp32.h>
+
+void *host_allocate(size_t size, size_t alignment) { return _aligned_malloc(size, alignment); }
+
+void host_release(void *block) { _aligned_free(block); }
+
+int host_thread_count(void)
+{
+    int count = 0;
+    THREADENTRY32 thread = {.dwSize = sizeof thread};
+    const HANDLE threads = CreateToolhelp32Snapshot(TH32CS_SNAPTHREAD, 0);
+    for (BOOL any = Thread32First(threads, &thread); any; any = Thread32Next(threads, &thread)) count += thread.th32OwnerProcessID == GetCurrentProcessId();
+    CloseHandle(threads);
+    return count;
+}
+
+void *host_load(const char *path) { return LoadLibraryA(path); }
+
+void *host_find(void *library, const char *name) { return (void *)GetProcAddress(library, name); }
+
+bool host_unload(void *library) { return FreeLibrary(library) != 0; }
+
+bool host_has_loaded(const char *file_name) { return GetModuleHandleA(file_name) != NULL; }
