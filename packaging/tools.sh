@@ -1,9 +1,12 @@
 # tools.sh - what packages are built with, as Python packages in build/packaging; sourced by the scripts beside it after samples/setup.sh.
 #
-#   make_tools             build/packaging, named by $tools
-#   write_compiler TARGET  prints the path of a C compiler and linker for that target of zig's
+#   make_tools                      build/packaging, named by $tools
+#   write_compiler TARGET           prints the path of a C compiler and linker for that target of zig's
+#   cross_configure TARGET FOLDER [OPTION...]
+#                                   configures FOLDER for windows-x64, linux-x64, linux-arm64, macos-x64 or macos-arm64
 
 tools=$PWD/build/packaging
+macos=11.0 # the oldest that there is for both kinds of CPU
 
 make_tools() {
     stage "Tools in build/packaging"
@@ -16,4 +19,50 @@ write_compiler() {
     printf '#!/bin/sh\nexec "%s/bin/python" -m ziglang cc -target %s "$@"\n' "$tools" "$1" >"$tools/bin/cc-$1"
     chmod 755 "$tools/bin/cc-$1"
     echo "$tools/bin/cc-$1"
+}
+
+# LLVM's tools, of which Debian puts the version behind the name.
+llvm() {
+    for name in "$1-19" "$1-20" "$1"; do
+        has "$name" && command -v "$name" && return
+    done
+    return 1
+}
+
+need_llvm() {
+    llvm llc >/dev/null && llvm llvm-objcopy >/dev/null && return
+    if is_root; then
+        stage "Installing llvm-19"
+        apt_install llvm-19 && return
+    fi
+    stop "LLVM's tools are missing; as an administrator type: apt-get install llvm-19"
+}
+
+# The name of a target in zig. Linux is named after the oldest C library that will do; zig links against any.
+zig_target() {
+    case $1 in
+    windows-x64) echo x86_64-windows-gnu ;;
+    linux-x64) echo x86_64-linux-gnu.2.28 ;;
+    linux-arm64) echo aarch64-linux-gnu.2.28 ;;
+    macos-x64) echo x86_64-macos.$macos ;;
+    macos-arm64) echo aarch64-macos.$macos ;;
+    *) stop "'$1' is no target: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64" ;;
+    esac
+}
+
+cross_configure() {
+    target=$1 folder=$2 && shift 2
+    compiler=$(write_compiler "$(zig_target "$target")")
+    case $target in
+    windows-*) system="-DCMAKE_SYSTEM_NAME=Windows -DCMAKE_RC_COMPILER=$(llvm llvm-windres)" ;;
+    linux-*) system="-DCMAKE_SYSTEM_NAME=Linux" ;;
+    macos-*) system="-DCMAKE_SYSTEM_NAME=Darwin -DCMAKE_OSX_DEPLOYMENT_TARGET=$macos -DCMAKE_OSX_SYSROOT= -DCMAKE_INSTALL_NAME_TOOL=$(llvm llvm-install-name-tool)" ;;
+    esac
+    case $target in
+    *-arm64) processor=aarch64 ;;
+    *) processor=x86_64 ;;
+    esac
+    # shellcheck disable=SC2086 # one word per option
+    cmake -S . -B "$folder" -G Ninja $system -DCMAKE_SYSTEM_PROCESSOR=$processor -DCMAKE_C_COMPILER="$compiler" -DCMAKE_OBJCOPY="$(llvm llvm-objcopy)" \
+        -DCMAKE_NM="$(llvm llvm-nm)" -DCMAKE_BUILD_TYPE=Release "$@"
 }

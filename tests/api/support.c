@@ -34,7 +34,7 @@ void support_skip_without_isa(void)
     const pbmpm_isa active = pbmpm_active_isa();
     if (!wanted || !*wanted)
         return;
-    const char *active_name = active == PBMPM_ISA_SSE4 ? "sse4" : active == PBMPM_ISA_AVX2 ? "avx2" : active == PBMPM_ISA_AVX512 ? "avx512" : "none";
+    const char *active_name = active == PBMPM_ISA_SSE4 ? "sse4" : active == PBMPM_ISA_AVX2 ? "avx2" : active == PBMPM_ISA_AVX512 ? "avx512" : active == PBMPM_ISA_NEON ? "neon" : "none";
     if (strcmp(wanted, active_name) != 0) {
         printf("SKIPPED: PBMPM_ISA=%s, but this CPU has no more than %s\n", wanted, active_name);
         exit(SUPPORT_SKIPPED);
@@ -55,11 +55,6 @@ float random_float(uint32_t *state, float low, float high)
 }
 
 /* ---- allocator ---- */
-
-static size_t rounded_up(size_t size)
-{
-    return (size + MAX_ALIGNMENT - 1) / MAX_ALIGNMENT * MAX_ALIGNMENT;
-}
 
 static void note_thread(ledger *book)
 {
@@ -84,7 +79,7 @@ static void *ledger_allocate(size_t size, size_t alignment, void *user)
     note_thread(book);
     book->bad_alignments += alignment == 0 || (alignment & (alignment - 1)) != 0 || alignment > MAX_ALIGNMENT;
     if (ledger_refuses(book)) return NULL;
-    unsigned char *block = aligned_alloc(MAX_ALIGNMENT, rounded_up(MAX_ALIGNMENT + size + GUARD_BYTES));
+    unsigned char *block = host_allocate(MAX_ALIGNMENT + size + GUARD_BYTES, MAX_ALIGNMENT);
     if (!block)
         return NULL;
     memcpy(block, &size, sizeof size);
@@ -113,7 +108,7 @@ static void ledger_release(void *memory, size_t size, void *user)
     book->live_blocks--;
     book->live_bytes -= real_size;
     memset(block + MAX_ALIGNMENT, RELEASED_VALUE, real_size);
-    free(block);
+    host_release(block);
 }
 
 const pbmpm_allocator *ledger_allocator(ledger *book)

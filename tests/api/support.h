@@ -7,6 +7,8 @@
 #include <pbmpm/pbmpm.h>
 #include <unity.h>
 
+#include "host.h"
+
 /** Fails the test at this line unless `call` gives `expected`; names both results, and the library's message. */
 #define EXPECT(expected, call) support_expect((expected), (call), #call, __LINE__)
 #define OK(call) EXPECT(PBMPM_OK, call)

@@ -1,13 +1,14 @@
 /* Steps in the background: the same results, the last state in view meanwhile, and a safe end whatever happens. */
-#include <dirent.h>
 #include <pthread.h>
-#include <signal.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-#include <xmmintrin.h>
+#if !defined(_WIN32)
+#include <dirent.h>
+#include <signal.h>
+#endif
 
 #include "calls.h"
 #include "solvers.h"
@@ -46,14 +47,14 @@ static void *gate_allocate(size_t size, size_t alignment, void *user)
         pthread_cond_wait(&door.changed, &door.mutex);
     }
     pthread_mutex_unlock(&door.mutex);
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return host_allocate(size, alignment);
 }
 
 static void gate_release(void *memory, size_t size, void *user)
 {
     (void)size;
     (void)user;
-    free(memory);
+    host_release(memory);
 }
 
 static void use_gate(pbmpm_world_def *def, void *user)
@@ -238,10 +239,10 @@ typedef struct task_thread {
 static void *run_tasks(void *user)
 {
     const task_thread *own = user;
-    _mm_setcsr(0x5f80); /* a mode of its own, which the step does not take over, and leaves */
+    host_set_float_mode(HOST_USUAL | HOST_UP); /* a mode of its own, which the step does not take over, and leaves */
     for (int32_t i = 0; i < own->count; i++)
         own->task(i, own->context);
-    return _mm_getcsr() == 0x5f80 ? NULL : user;
+    return host_float_mode() == (HOST_USUAL | HOST_UP) ? NULL : user;
 }
 
 static void *enqueue_on_thread(pbmpm_task *task, int32_t count, void *context, void *user)
@@ -271,17 +272,6 @@ static void use_threaded_host(pbmpm_world_def *def, void *user)
     def->thread_count = 3;
 }
 
-static int threads_of_this_process(void)
-{
-    int count = 0;
-    DIR *threads = opendir("/proc/self/task");
-    TEST_ASSERT_NOT_NULL(threads);
-    for (struct dirent *entry; (entry = readdir(threads));)
-        count += entry->d_name[0] != '.';
-    closedir(threads);
-    return count;
-}
-
 static void test_steps_as_tasks_give_the_same_results(void)
 {
     static int enqueued;
@@ -297,12 +287,12 @@ static void test_a_step_that_no_thread_has_begun(void)
     late_host host = {0};
     int32_t done = 1;
     pbmpm_view view = {.size = sizeof view};
-    const int before = threads_of_this_process();
+    const int before = host_thread_count();
     const pbmpm_world_id world = tank_2d(use_late_host, &host);
     const pbmpm_view old = view_of(world, PBMPM_POSITION);
     const float first = ((const float *)old.data)[0];
     OK(pbmpm_world_step_begin(world, 0.01f));
-    TEST_ASSERT_EQUAL_INT(before, threads_of_this_process());
+    TEST_ASSERT_EQUAL_INT(before, host_thread_count());
     OK(pbmpm_world_step_done(world, &done));
     TEST_ASSERT_EQUAL_INT32(0, done);
     TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_BUSY, pbmpm_world_step_end(world, 0));
@@ -346,10 +336,10 @@ static void *enqueue_helping(pbmpm_task *task, int32_t count, void *context, voi
 {
     helping_host *own = user;
     own->calls++;
-    own->wrong += (_mm_getcsr() & ~0x3fu) != own->mode;
+    own->wrong += (host_float_mode() & ~(unsigned)HOST_FLAGS) != own->mode;
     if (own->other->task)
         finish_late(own->other, own->other);
-    own->wrong += (_mm_getcsr() & ~0x3fu) != own->mode;
+    own->wrong += (host_float_mode() & ~(unsigned)HOST_FLAGS) != own->mode;
     return enqueue_at_once(task, count, context, &(int){0});
 }
 
@@ -364,12 +354,12 @@ static void use_helping_host(pbmpm_world_def *def, void *user)
 static void test_each_step_has_the_mode_of_who_began_it(void)
 {
     static late_host late;
-    static helping_host helper = {.other = &late, .mode = 0x1f80};
+    static helping_host helper = {.other = &late, .mode = HOST_USUAL};
     late = (late_host){0};
     const stage waiting = stirred_pool(2, &ways[0], use_late_host, &late), helped = stirred_pool(3, &ways[0], use_helping_host, &helper);
-    _mm_setcsr(0x5f80);
+    host_set_float_mode(HOST_USUAL | HOST_UP);
     const pbmpm_result begun = pbmpm_world_step_begin(waiting.world, 0.01f);
-    _mm_setcsr(0x1f80);
+    host_set_float_mode(HOST_USUAL);
     OK(begun);
     OK(pbmpm_world_step(helped.world, 0.01f));
     TEST_ASSERT_EQUAL_INT(1, late.finishes);
@@ -665,21 +655,19 @@ static pthread_t own_thread;
 static unsigned wanted_mode;
 static int calls_elsewhere, wrong_modes; /* calls from the step's thread */
 
-enum { STICKY_FLAGS = 0x3f };
-
 static void note_mode(void)
 {
     if (pthread_equal(pthread_self(), own_thread))
         return;
     calls_elsewhere++;
-    wrong_modes += (_mm_getcsr() & ~(unsigned)STICKY_FLAGS) != wanted_mode;
+    wrong_modes += (host_float_mode() & ~(unsigned)HOST_FLAGS) != wanted_mode;
 }
 
 static void *noting_allocate(size_t size, size_t alignment, void *user)
 {
     (void)user;
     note_mode();
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return host_allocate(size, alignment);
 }
 
 static void noting_release(void *memory, size_t size, void *user)
@@ -687,7 +675,7 @@ static void noting_release(void *memory, size_t size, void *user)
     (void)size;
     (void)user;
     note_mode();
-    free(memory);
+    host_release(memory);
 }
 
 static void *noting_enqueue(pbmpm_task *task, int32_t count, void *context, void *user)
@@ -717,8 +705,8 @@ static void noting_log(pbmpm_log_level level, const char *message, void *user)
 /* They find the mode of the thread that began the step, as in a step that waits. */
 static void test_functions_of_the_host_run_in_its_mode(void)
 {
-    static const unsigned modes[] = {0x1f80, 0x5f80, 0x1f80, 0x9fc0}; /* the usual one; rounding up; the usual one; that of the kernels */
-    const unsigned own = _mm_getcsr();
+    static const unsigned modes[] = {HOST_USUAL, HOST_USUAL | HOST_UP, HOST_USUAL, HOST_USUAL | HOST_FLUSH}; /* the usual one; rounding up; the usual one; that of the kernels */
+    const unsigned own = host_float_mode();
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
     def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
     def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, noting_enqueue, noting_finish, NULL};
@@ -731,9 +719,9 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     for (int i = 0; i < 4; i++) {
         wanted_mode = modes[i];
         const int before = calls_elsewhere;
-        _mm_setcsr(wanted_mode);
+        host_set_float_mode(wanted_mode);
         const pbmpm_result begun = pbmpm_world_step_begin(world, 0.01f);
-        _mm_setcsr(own);
+        host_set_float_mode(own);
         OK(begun);
         OK(pbmpm_world_step_end(world, 1));
         TEST_ASSERT_TRUE(calls_elsewhere > before);
@@ -742,6 +730,8 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     OK(pbmpm_set_log_callback(NULL, NULL));
     TEST_ASSERT_EQUAL_INT(0, wrong_modes);
 }
+
+#if !defined(_WIN32) /* which has no signals */
 
 /* The signals that a thread of this process blocks. */
 static unsigned long long blocked_by(const char *thread)
@@ -784,6 +774,8 @@ static void test_threads_of_the_library_take_no_signals(void)
     closedir(threads);
     TEST_ASSERT_TRUE(others >= 3); /* the thread sanitizer has one of its own */
 }
+
+#endif
 
 /* ---- what is refused ---- */
 
@@ -1010,7 +1002,9 @@ int main(void)
     RUN_TEST(test_a_renderer_may_be_a_frame_late);
     RUN_TEST(test_memory_is_as_documented);
     RUN_TEST(test_functions_of_the_host_run_in_its_mode);
+#if !defined(_WIN32)
     RUN_TEST(test_threads_of_the_library_take_no_signals);
+#endif
     RUN_TEST(test_other_calls_are_refused_while_a_step_runs);
     RUN_TEST(test_polls_write_no_line);
     RUN_TEST(test_bad_arguments_begin_nothing);

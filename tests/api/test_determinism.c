@@ -2,7 +2,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <xmmintrin.h>
 
 #include "scenes.h"
 
@@ -64,21 +63,19 @@ static void test_any_number_of_threads_gives_the_same_hash(void)
 
 /* ---- floating-point mode of the caller ---- */
 
-enum { FLUSH = 0x8040, ROUND_DOWN = 0x2000, ROUND_UP = 0x4000, ROUND_TO_ZERO = 0x6000, MASK_ALL = 0x1F80, ALL_FLAGS = 0x3F };
-
 static const unsigned modes[] = {
-    MASK_ALL, MASK_ALL | FLUSH, MASK_ALL | ROUND_DOWN, MASK_ALL | ROUND_UP | FLUSH, MASK_ALL | ROUND_TO_ZERO, MASK_ALL | ALL_FLAGS, 0, /* nothing masked */
+    HOST_USUAL, HOST_USUAL | HOST_FLUSH, HOST_USUAL | HOST_DOWN, HOST_USUAL | HOST_UP | HOST_FLUSH, HOST_USUAL | HOST_TO_ZERO, HOST_USUAL | HOST_FLAGS, HOST_TRAPS,
 };
 enum { MODES = sizeof modes / sizeof *modes };
 
 /* Makes a call in the given mode; fails if the register is not the same afterwards. */
 #define IN_MODE(mode, call)                                                                                                                  \
     do {                                                                                                                                     \
-        const unsigned own_mode = _mm_getcsr();                                                                                              \
-        _mm_setcsr(mode);                                                                                                                    \
+        const unsigned own_mode = host_float_mode();                                                                                              \
+        host_set_float_mode(mode);                                                                                                                    \
         const pbmpm_result mode_result = (call);                                                                                             \
-        const unsigned mode_after = _mm_getcsr();                                                                                            \
-        _mm_setcsr(own_mode);                                                                                                                \
+        const unsigned mode_after = host_float_mode();                                                                                            \
+        host_set_float_mode(own_mode);                                                                                                                \
         support_expect(PBMPM_OK, mode_result, #call, __LINE__);                                                                              \
         TEST_ASSERT_EQUAL_HEX32_MESSAGE((mode), mode_after, #call);                                                                          \
     } while (0)
@@ -150,8 +147,8 @@ static void test_refusals_restore_the_mode(void)
     const pbmpm_view identity = view_of(world, PBMPM_PARTICLE);
     const pbmpm_particle_id id = {view_uint(&identity, 0, 0), view_uint(&identity, 0, 1)};
     for (int i = 0; i < MODES; i++) {
-        const unsigned own = _mm_getcsr();
-        _mm_setcsr(modes[i]);
+        const unsigned own = host_float_mode();
+        host_set_float_mode(modes[i]);
         const pbmpm_result results[] = {
             pbmpm_world_step(none, 0.01f),
             pbmpm_world_create(NULL, NULL),
@@ -160,8 +157,8 @@ static void test_refusals_restore_the_mode(void)
             pbmpm_particles_remove_in(world, &shape, NULL),
             pbmpm_particles_set(world, PBMPM_POSITION, &id, 1, nowhere),
         };
-        const unsigned after = _mm_getcsr();
-        _mm_setcsr(own);
+        const unsigned after = host_float_mode();
+        host_set_float_mode(own);
         TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ID, results[0]);
         for (int k = 1; k < 6; k++)
             TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_INVALID_ARGUMENT, results[k]);
@@ -176,7 +173,7 @@ static int host_calls;
 
 static void note_mode(void)
 {
-    seen_in_host |= _mm_getcsr();
+    seen_in_host |= host_float_mode();
     host_calls++;
 }
 
@@ -184,7 +181,7 @@ static void *noting_allocate(size_t size, size_t alignment, void *user)
 {
     (void)user;
     note_mode();
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return host_allocate(size, alignment);
 }
 
 static void noting_release(void *memory, size_t size, void *user)
@@ -192,7 +189,7 @@ static void noting_release(void *memory, size_t size, void *user)
     (void)size;
     (void)user;
     note_mode();
-    free(memory);
+    host_release(memory);
 }
 
 static void *noting_enqueue(pbmpm_task *task, int32_t count, void *context, void *user)
@@ -221,7 +218,7 @@ static void noting_log(pbmpm_log_level level, const char *message, void *user)
 
 static void test_functions_of_the_host_run_in_its_mode(void)
 {
-    const unsigned own = _mm_getcsr() & ~0x3fu; /* without the sticky flags */
+    const unsigned own = host_float_mode() & ~(unsigned)HOST_FLAGS;
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
     def.allocator = &(pbmpm_allocator){sizeof(pbmpm_allocator), noting_allocate, noting_release, NULL};
     def.tasks = &(pbmpm_task_hooks){sizeof(pbmpm_task_hooks), 0, noting_enqueue, noting_finish, NULL};
@@ -236,7 +233,7 @@ static void test_functions_of_the_host_run_in_its_mode(void)
     OK(pbmpm_world_destroy(world));
     OK(pbmpm_set_log_callback(NULL, NULL));
     TEST_ASSERT_TRUE(host_calls > 20);
-    TEST_ASSERT_EQUAL_HEX32(own, seen_in_host & ~0x3fu);
+    TEST_ASSERT_EQUAL_HEX32(own, seen_in_host & ~(unsigned)HOST_FLAGS);
 }
 
 int main(void)

@@ -3,7 +3,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <xmmintrin.h>
 
 #include "rules.h"
 #include "solids.h"
@@ -315,18 +314,17 @@ static void mend(void *data, uint64_t bytes)
 /* Both calls judge the bytes alike, whatever the caller's floating-point mode: here every exception traps. */
 static void check_judgement(pbmpm_world_id world)
 {
-    enum { ALL_TRAP = 0 };
     pbmpm_baked_info inspected = {.size = sizeof inspected}, loaded = inspected;
     pbmpm_baked_id id;
     char message[256];
-    const unsigned own = _mm_getcsr();
-    _mm_setcsr(ALL_TRAP);
+    const unsigned own = host_float_mode();
+    host_set_float_mode(HOST_TRAPS);
     const pbmpm_result judged = pbmpm_baked_inspect(baked.data, baked.bytes, &inspected);
     snprintf(message, sizeof message, "%s", pbmpm_last_error());
     const pbmpm_result created = pbmpm_baked_create(world, baked.data, baked.bytes, &id);
-    const unsigned after = _mm_getcsr();
-    _mm_setcsr(own);
-    TEST_ASSERT_EQUAL_HEX32(ALL_TRAP, after);
+    const unsigned after = host_float_mode();
+    host_set_float_mode(own);
+    TEST_ASSERT_EQUAL_HEX32(HOST_TRAPS, after);
     TEST_ASSERT_EQUAL_STRING(pbmpm_result_name(created), pbmpm_result_name(judged));
     if (created != PBMPM_OK) {
         TEST_ASSERT_EQUAL_STRING(pbmpm_last_error(), message);

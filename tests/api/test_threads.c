@@ -410,14 +410,14 @@ static void come_and_go(slow_memory *own)
 static void *slow_allocate(size_t size, size_t alignment, void *user)
 {
     come_and_go(user);
-    return aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    return host_allocate(size, alignment);
 }
 
 static void slow_release(void *memory, size_t size, void *user)
 {
     (void)size;
     come_and_go(user);
-    free(memory);
+    host_release(memory);
 }
 
 /* Readers that all need what is not there yet make it once, and one at a time is at the host's memory. */

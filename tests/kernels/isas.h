@@ -4,6 +4,12 @@
 
 #include "base/cpu.h"
 
-#define EACH_ISA(isa) for (pbmpm_isa isa = PBMPM_ISA_SSE4; isa <= cpu_isa(); isa = (pbmpm_isa)(isa + 1))
+#if defined(__aarch64__)
+enum { LOWEST_ISA = PBMPM_ISA_NEON };
+#else
+enum { LOWEST_ISA = PBMPM_ISA_SSE4 };
+#endif
+
+#define EACH_ISA(isa) for (pbmpm_isa isa = LOWEST_ISA; isa <= cpu_isa(); isa = (pbmpm_isa)(isa + 1))
 
 #endif

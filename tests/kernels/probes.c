@@ -1,36 +1,58 @@
 #include "probes.h"
 
 #define DECLARE(isa)                                                                                                          \
-    RotateAll rotate_all2_##isa, rotate_all3_##isa;                                                                           \
-    DecomposeAll decompose_all2_##isa, decompose_all3_##isa;                                                                  \
-    StressAll stress_all2_##isa, stress_all3_##isa;                                                                           \
-    PressureAll pressure_all2_##isa, pressure_all3_##isa;                                                                     \
-    EnergyAll energy_all2_##isa, energy_all3_##isa;                                                                           \
-    CloseAll close_all2_##isa, close_all3_##isa;                                                                              \
-    YieldAll yield_all2_##isa, yield_all3_##isa, cut_all2_##isa, cut_all3_##isa;                                              \
-    CrowdAll crowd_all2_##isa, crowd_all3_##isa;                                                                              \
-    WriteLayout layout_of_material3_##isa, layout_of_args3_##isa;
+    RotateAll rotate_all2##isa, rotate_all3##isa;                                                                           \
+    DecomposeAll decompose_all2##isa, decompose_all3##isa;                                                                  \
+    StressAll stress_all2##isa, stress_all3##isa;                                                                           \
+    PressureAll pressure_all2##isa, pressure_all3##isa;                                                                     \
+    EnergyAll energy_all2##isa, energy_all3##isa;                                                                           \
+    CloseAll close_all2##isa, close_all3##isa;                                                                              \
+    YieldAll yield_all2##isa, yield_all3##isa, cut_all2##isa, cut_all3##isa;                                              \
+    CrowdAll crowd_all2##isa, crowd_all3##isa;                                                                              \
+    WriteLayout layout_of_material3##isa, layout_of_args3##isa;
 #define MATRICES(isa)                                                                                                         \
-    {{rotate_all2_##isa, decompose_all2_##isa, stress_all2_##isa, pressure_all2_##isa, energy_all2_##isa, close_all2_##isa, yield_all2_##isa, cut_all2_##isa,                     \
-      crowd_all2_##isa},                                                                                                      \
-     {rotate_all3_##isa, decompose_all3_##isa, stress_all3_##isa, pressure_all3_##isa, energy_all3_##isa, close_all3_##isa, yield_all3_##isa, cut_all3_##isa,                     \
-      crowd_all3_##isa}}
-#define LAYOUTS(isa) {layout_of_material3_##isa, layout_of_args3_##isa}
+    {{rotate_all2##isa, decompose_all2##isa, stress_all2##isa, pressure_all2##isa, energy_all2##isa, close_all2##isa, yield_all2##isa, cut_all2##isa,                     \
+      crowd_all2##isa},                                                                                                      \
+     {rotate_all3##isa, decompose_all3##isa, stress_all3##isa, pressure_all3##isa, energy_all3##isa, close_all3##isa, yield_all3##isa, cut_all3##isa,                     \
+      crowd_all3##isa}}
+#define LAYOUTS(isa) {layout_of_material3##isa, layout_of_args3##isa}
 
-DECLARE(sse4)
-DECLARE(avx2)
-DECLARE(avx512skx)
+#if defined(__aarch64__) /* with a single target ISPC puts nothing behind names */
+
+DECLARE()
+
+const Probes *probes_for(pbmpm_isa isa, int dimension)
+{
+    static const Probes table[] = MATRICES();
+    (void)isa;
+    return &table[dimension - 2];
+}
+
+const LayoutProbes *layout_probes_for(pbmpm_isa isa)
+{
+    static const LayoutProbes table = LAYOUTS();
+    (void)isa;
+    return &table;
+}
+
+#else
+
+DECLARE(_sse4)
+DECLARE(_avx2)
+DECLARE(_avx512skx)
 
 const Probes *probes_for(pbmpm_isa isa, int dimension)
 {
     static const Probes table[][2] = {
-        [PBMPM_ISA_SSE4] = MATRICES(sse4), [PBMPM_ISA_AVX2] = MATRICES(avx2), [PBMPM_ISA_AVX512] = MATRICES(avx512skx)};
+        [PBMPM_ISA_SSE4] = MATRICES(_sse4), [PBMPM_ISA_AVX2] = MATRICES(_avx2), [PBMPM_ISA_AVX512] = MATRICES(_avx512skx)};
     return &table[isa][dimension - 2];
 }
 
 const LayoutProbes *layout_probes_for(pbmpm_isa isa)
 {
     static const LayoutProbes table[] = {
-        [PBMPM_ISA_SSE4] = LAYOUTS(sse4), [PBMPM_ISA_AVX2] = LAYOUTS(avx2), [PBMPM_ISA_AVX512] = LAYOUTS(avx512skx)};
+        [PBMPM_ISA_SSE4] = LAYOUTS(_sse4), [PBMPM_ISA_AVX2] = LAYOUTS(_avx2), [PBMPM_ISA_AVX512] = LAYOUTS(_avx512skx)};
     return &table[isa];
 }
+
+#endif

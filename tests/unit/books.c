@@ -1,16 +1,17 @@
 #include "books.h"
 
 #include <stdint.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unity.h>
+
+#include "host.h"
 
 /* Fresh memory is full of what no code wants to see. */
 static void *allocate(size_t size, size_t alignment, void *user)
 {
     Books *books = user;
     if (++books->calls == books->fail_at) return NULL;
-    void *block = aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+    void *block = host_allocate(size, alignment);
     if (!block) return NULL;
     memset(block, 0xa5, size);
     books->live_blocks++;
@@ -25,7 +26,7 @@ static void release(void *block, size_t size, void *user)
     books->live_blocks--;
     books->live_bytes -= size;
     memset(block, 0xdd, size);
-    free(block);
+    host_release(block);
 }
 
 Memory books_memory(Books *books, uint64_t budget)

@@ -4,9 +4,9 @@
 #include <string.h>
 #include <time.h>
 #include <unity.h>
-#include <xmmintrin.h>
 
 #include "books.h"
+#include "host.h"
 #include "base/pool.h"
 #include "random.h"
 
@@ -28,7 +28,7 @@ static void visit(void *context, int32_t begin, int32_t end)
     Work *work = context;
     for (int32_t i = begin; i < end; i++) atomic_fetch_add(&work->visits[i], 1);
     atomic_fetch_add(&work->ranges, 1);
-    atomic_fetch_or(&work->modes, _mm_getcsr() & ~0x3fu); /* without the sticky flags */
+    atomic_fetch_or(&work->modes, host_float_mode() & ~(unsigned)HOST_FLAGS);
     if (end - begin > work->largest_allowed) atomic_store(&work->too_large, true);
 }
 
@@ -116,19 +116,19 @@ static void test_serial_mode_stays_on_the_caller(void)
 /* Denormals flushed, rounding to nearest, exceptions masked, on every thread; the caller's mode comes back. */
 static void test_floating_point_mode_of_parallel_loops(void)
 {
-    enum { WANTED = 0x9fc0, ODD = 0x7f80 }; /* rounding to zero */
+    enum { WANTED = HOST_USUAL | HOST_FLUSH, ODD = HOST_USUAL | HOST_TO_ZERO };
     static Work work;
     Books books;
     Memory memory = books_memory(&books, 0);
     Pool *pool = open_pool(&memory, 4, NULL);
-    const unsigned before = _mm_getcsr();
+    const unsigned before = host_float_mode();
     for (int round = 0; round < 50; round++) {
-        _mm_setcsr(ODD);
+        host_set_float_mode(ODD);
         memset(&work, 0, sizeof work);
         work.largest_allowed = ITEMS;
         pool_for(pool, ITEMS, 10, visit, &work);
-        const unsigned after = _mm_getcsr() & ~0x3fu;
-        _mm_setcsr(before);
+        const unsigned after = host_float_mode() & ~(unsigned)HOST_FLAGS;
+        host_set_float_mode(before);
         TEST_ASSERT_EQUAL_HEX32(WANTED, atomic_load(&work.modes));
         TEST_ASSERT_EQUAL_HEX32(ODD, after);
     }

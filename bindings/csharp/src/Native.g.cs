@@ -99,8 +99,8 @@ namespace Pbmpm
         Info = 3,
     }
 
-    /// <summary>Instruction sets of the kernels. PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
-    /// read at the first call that needs it.</summary>
+    /// <summary>Instruction sets of the kernels. On x86, PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
+    /// read at the first call that needs it. ARM has NEON alone.</summary>
     public enum Isa : int
     {
         /// <summary>the CPU is not supported</summary>
@@ -108,6 +108,7 @@ namespace Pbmpm
         Sse4 = 1,
         Avx2 = 2,
         Avx512 = 3,
+        Neon = 4,
     }
 
     /// <summary>What a material resists.</summary>
