@@ -2,10 +2,13 @@
 #
 #   make_tools                      build/packaging, named by $tools
 #   write_compiler TARGET           prints the path of a C compiler and linker for that target of zig's
+#   version                         prints the project's
+#   need_llvm                       LLVM's tools, which kernels for other systems and archives take
 #   cross_configure TARGET FOLDER [OPTION...]
 #                                   configures FOLDER for windows-x64, linux-x64, linux-arm64, macos-x64 or macos-arm64
 
 tools=$PWD/build/packaging
+all_targets="windows-x64 linux-x64 linux-arm64 macos-x64 macos-arm64"
 macos=11.0 # the oldest that there is for both kinds of CPU
 
 make_tools() {
@@ -20,6 +23,8 @@ write_compiler() {
     chmod 755 "$tools/bin/cc-$1"
     echo "$tools/bin/cc-$1"
 }
+
+version() { sed -n 's/^#define PBMPM_VERSION_[MP][A-Z]* \([0-9]*\)$/\1/p' include/pbmpm/version.h | paste -sd.; }
 
 # LLVM's tools, of which Debian puts the version behind the name.
 llvm() {
@@ -46,7 +51,7 @@ zig_target() {
     linux-arm64) echo aarch64-linux-gnu.2.28 ;;
     macos-x64) echo x86_64-macos.$macos ;;
     macos-arm64) echo aarch64-macos.$macos ;;
-    *) stop "'$1' is no target: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64" ;;
+    *) stop "'$1' is no target, which are: $all_targets" ;;
     esac
 }
 
