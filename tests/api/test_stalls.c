@@ -1,19 +1,18 @@
 /* Calls about what is far away, long or immense come back soon: their work is bounded by what they can touch. */
 #include <math.h>
 #include <time.h>
-#include <unistd.h>
 
 #include "scenes.h"
 
 void setUp(void)
 {
-    alarm(120); /* a call that never returns ends the program */
+    host_end_after(120); /* a call that never returns ends the program */
 }
 
 void tearDown(void)
 {
     pbmpm_shutdown();
-    alarm(0);
+    host_end_after(0);
 }
 
 /* ---- how long ---- */

@@ -41,6 +41,9 @@ void host_release(void *block);
 
 int host_thread_count(void);
 
+/* Ends it in so many seconds; 0: not any more. */
+void host_end_after(unsigned seconds);
+
 /* Libraries that are loaded while a program runs. */
 void *host_load(const char *path);
 void *host_find(void *library, const char *name);

@@ -18,6 +18,21 @@ int host_thread_count(void)
     return count;
 }
 
+static VOID CALLBACK end(PVOID none, BOOLEAN fired)
+{
+    (void)none;
+    (void)fired;
+    TerminateProcess(GetCurrentProcess(), 1);
+}
+
+void host_end_after(unsigned seconds)
+{
+    static HANDLE timer;
+    if (timer) (void)DeleteTimerQueueTimer(NULL, timer, NULL);
+    timer = NULL;
+    if (seconds) CreateTimerQueueTimer(&timer, NULL, end, NULL, seconds * 1000, 0, WT_EXECUTEONLYONCE);
+}
+
 void *host_load(const char *path) { return LoadLibraryA(path); }
 
 void *host_find(void *library, const char *name) { return (void *)GetProcAddress(library, name); }
