@@ -5,9 +5,9 @@
 #include "base/cpu.h"
 
 #if defined(__aarch64__)
-enum { LOWEST_ISA = PBMPM_ISA_NEON };
+#define LOWEST_ISA PBMPM_ISA_NEON
 #else
-enum { LOWEST_ISA = PBMPM_ISA_SSE4 };
+#define LOWEST_ISA PBMPM_ISA_SSE4
 #endif
 
 #define EACH_ISA(isa) for (pbmpm_isa isa = LOWEST_ISA; isa <= cpu_isa(); isa = (pbmpm_isa)(isa + 1))

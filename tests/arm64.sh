@@ -1,0 +1,25 @@
+#!/bin/sh
+# arm64.sh - builds the library and its tests for Linux on 64-bit ARM, and runs them in QEMU, some thirty times slower than a CPU: those of the kernels, of
+# the internals and of the C interface that end within 10 minutes there. Then strict builds of ARM and x86, whose hashes have to be equal. An hour, so run
+# by hand. PBMPM_TESTS: a pattern of the tests to run.
+set -eu
+cd "$(dirname "$0")/.."
+. samples/setup.sh
+. packaging/tools.sh
+. tests/emulated.sh
+root=/usr/aarch64-linux-gnu
+qemu=$(need_tool qemu-aarch64 qemu-user)
+need_tool $root/lib/ld-linux-aarch64.so.1 libc6-arm64-cross >/dev/null
+need_llvm
+make_tools
+build_for linux-arm64 "-DCMAKE_CROSSCOMPILING_EMULATOR=$qemu;-L;$root"
+
+stage "Running in QEMU"
+ctest --test-dir build/linux-arm64 --output-on-failure -j "$(nproc)" --timeout 600 -R "${PBMPM_TESTS:-^(kernels_|unit_|api_|samples)}" -E "$too_long"
+
+stage "Strict builds"
+for target in linux-arm64 linux-x64; do
+    quietly "configure-strict.log" cross_configure $target build/strict-$target -DPBMPM_TESTS=ON -DPBMPM_STRICT=ON || stop "could not configure; full text: build/configure-strict.log"
+    quietly "build-strict.log" nice cmake --build build/strict-$target --target hashes || stop "the build failed; full text: build/build-strict.log"
+done
+PBMPM_ISA=sse4 compare_hashes 20 build/strict-linux-x64/tests/hashes "$qemu -L $root build/strict-linux-arm64/tests/hashes"

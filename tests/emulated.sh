@@ -1,0 +1,28 @@
+# emulated.sh - what windows.sh and arm64.sh have in common. Sourced after samples/setup.sh and packaging/tools.sh.
+#
+#   need_tool PATH PACKAGE          prints the path, a command or a file; without it the package is installed when root, else named
+#   build_for TARGET [OPTION...]    the library and its tests in build/TARGET
+#   compare_hashes STEPS LEFT RIGHT runs two commands that take a number of steps (tests/strict/hashes.c); stops if their hashes differ
+
+need_tool() {
+    command -v "$1" || {
+        is_root && apt_install "$2" >&2 && command -v "$1"
+    } || [ -e "$1" ] || stop "$1 is missing; as an administrator type: apt-get install $2"
+}
+
+build_for() {
+    target=$1 && shift
+    stage "Building for $target"
+    quietly "configure-$target.log" cross_configure "$target" "build/$target" -DPBMPM_TESTS=ON "$@" ||
+        stop "could not configure; full text: build/configure-$target.log"
+    quietly "build-$target.log" nice cmake --build "build/$target" || stop "the build failed; full text: build/build-$target.log"
+}
+
+compare_hashes() {
+    $2 "$1" | tr -d '\r' >build/left.txt
+    $3 "$1" | tr -d '\r' >build/right.txt
+    kernels=$(sed -n '1s/kernels: \([^,]*\),.*/\1/p' build/left.txt)
+    sed 1d build/left.txt >build/left.hashes
+    sed 1d build/right.txt | diff build/left.hashes - || stop "the hashes differ: $(head -n 1 build/left.txt); $(head -n 1 build/right.txt)"
+    echo "$kernels and $(sed -n '1s/kernels: \([^,]*\),.*/\1/p' build/right.txt): $(wc -l <build/left.hashes) scenes of $1 steps are equal"
+}
