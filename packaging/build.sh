@@ -1,0 +1,18 @@
+#!/bin/sh
+# build.sh [TARGET...] - all packages in dist/, from a fresh clone: the library for each target (library.sh), Python's sources and wheels (wheel.sh), the
+# packages for Unity and Unreal, and SHA256SUMS. Targets: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64, or none: all of them.
+set -eu
+cd "$(dirname "$0")/.."
+. samples/setup.sh
+. packaging/tools.sh
+install_build_tools
+[ $# -gt 0 ] || set -- $all_targets
+sh packaging/library.sh "$@"
+sh packaging/wheel.sh "$@"
+for engine in unity unreal; do
+    [ ! -e packaging/$engine.sh ] || sh packaging/$engine.sh "$@"
+done
+
+stage "Checking"
+sh packaging/check.sh "$@"
+(cd dist && rm -f SHA256SUMS && sha256sum -- * >SHA256SUMS && cat SHA256SUMS)
