@@ -1,6 +1,7 @@
 #!/bin/sh
-# wheel.sh - the Python packages: builds the sources and the wheel (packaging/wheel.sh), installs the wheel where there is no compiler, and the
-# checkout by `pip install .` with this machine's compiler; with both the README's example runs. 10 minutes, so run by hand.
+# wheel.sh - the Python packages: builds the sources and the wheels (packaging/wheel.sh), looks into each, installs this machine's where there is no compiler,
+# and the sources and the checkout by pip with this machine's compiler; with all the README's example runs. 20 minutes, so run by hand. PBMPM_BUILT=1: dist/ is
+# there (packaging/build.sh).
 set -eu
 cd "$(dirname "$0")/.."
 root=$PWD
@@ -18,16 +19,26 @@ example() { # VENV: the README's example, away from the sources
         stop "the README's example prints $said"
 }
 
-sh packaging/wheel.sh
-wheel=$(ls dist/pbmpm-*-py3-none-manylinux_2_28_x86_64.whl)
+if [ -z "${PBMPM_BUILT:-}" ]; then
+    sh packaging/library.sh
+    sh packaging/wheel.sh
+fi
+. packaging/tools.sh
+wheel=$(ls dist/pbmpm-*-py3-none-"$(python_platform linux-x64)".whl)
 
-stage "What the wheel holds"
-python3 -m zipfile -l "$wheel" >"$work/files"
-for file in pbmpm/libpbmpm.so pbmpm/_ffi.py pbmpm/py.typed 'licenses/LICENSE'; do
-    grep -q "$file" "$work/files" || stop "$wheel has no $file"
+stage "What the wheels hold"
+for target in $all_targets; do
+    for one in dist/pbmpm-*-py3-none-"$(python_platform "$target")".whl; do
+        python3 -m zipfile -l "$one" >"$work/files"
+        for file in "pbmpm/$(basename "$(library_of "$target")") " pbmpm/_ffi.py pbmpm/py.typed 'licenses/LICENSE'; do
+            grep -q "$file" "$work/files" || stop "$one has no $file"
+        done
+        ! grep -E '\.(a|h|c|ispc|pyc) ' "$work/files" || stop "$one holds what a program does not need"
+        python3 -m zipfile -e "$one" "$work/$target"
+        cmp "$work/$target/pbmpm/$(basename "$(library_of "$target")")" "$(library_of "$target")" || stop "$one holds another library than was built"
+        grep -x "Tag: py3-none-$(python_platform "$target")" "$work/$target"/*.dist-info/WHEEL || stop "$one has another tag than its name"
+    done
 done
-! grep -E '\.(a|h|c|ispc|pyc) ' "$work/files" || stop "$wheel holds what a program does not need"
-grep -E 'lib|LICENSE' "$work/files"
 
 stage "The wheel, without a compiler"
 python3 -m venv "$work/from-wheel"
@@ -41,4 +52,9 @@ stage "pip install ."
 python3 -m venv "$work/from-checkout"
 "$work/from-checkout/bin/pip" -q --disable-pip-version-check install . || stop "pip install . fails"
 example "$work/from-checkout"
-echo "the wheel and pip install . work"
+
+stage "The sources, by pip"
+python3 -m venv "$work/from-sources"
+"$work/from-sources/bin/pip" -q --disable-pip-version-check install dist/pbmpm-"$(version)".tar.gz || stop "the sources do not install"
+example "$work/from-sources"
+echo "the wheel, pip install . and the sources work"
