@@ -1,7 +1,7 @@
 # pbmpm_compile_kernels(FILE OBJECTS [INCLUDE FOLDER...] [DEPENDS FILE...])
 #
 # Compiles an .ispc file for every instruction set and appends the objects to the list OBJECTS. An exported function f is in
-# them as f_sse4, f_avx2 and f_avx512skx; on ARM, which has one set, as f. For several sets ISPC also writes an object with a dispatcher of its own, which
+# them as f_sse4, f_avx2 and f_avx512skx; on ARM and for WebAssembly, which have one set, as f. For several sets ISPC also writes an object with a dispatcher of its own, which
 # is left out: src/ chooses by its own table. Under a sanitizer with Clang 19 or newer the kernels are instrumented too.
 include_guard(GLOBAL)
 
@@ -9,6 +9,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(aarch64|arm64|ARM64)$")
     set(architecture aarch64)
     set(PBMPM_KERNEL_ISAS neon CACHE INTERNAL "")
     set(PBMPM_KERNEL_TARGETS neon-i32x4 CACHE INTERNAL "")
+    set(PBMPM_KERNEL_MACHINES generic CACHE INTERNAL "")
+elseif(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+    set(architecture arm) # whose structures are laid out as WebAssembly's
+    set(PBMPM_KERNEL_ISAS wasm CACHE INTERNAL "")
+    set(PBMPM_KERNEL_TARGETS generic-i32x4 CACHE INTERNAL "")
     set(PBMPM_KERNEL_MACHINES generic CACHE INTERNAL "")
 else()
     set(architecture x86-64)
@@ -20,13 +25,19 @@ set(PBMPM_KERNEL_ARCHITECTURE --arch=${architecture} CACHE INTERNAL "")
 
 # The system's name in LLVM, where ISPC may not know it (Debian's knows Linux alone): LLVM's own compiler then makes the objects.
 set(triple "")
+set(features --relocation-model=pic)
 if(CMAKE_CROSSCOMPILING AND WIN32)
     set(triple x86_64-w64-windows-gnu)
 elseif(CMAKE_CROSSCOMPILING AND APPLE)
     string(REPLACE aarch64 arm64 triple "${architecture}-apple-macosx${CMAKE_OSX_DEPLOYMENT_TARGET}")
     string(REPLACE x86-64 x86_64 triple "${triple}")
 endif()
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+    set(triple wasm32-unknown-wasi)
+    set(features --relocation-model=static -mattr=+simd128,+bulk-memory,+nontrapping-fptoint,+sign-ext)
+endif()
 set(PBMPM_KERNEL_TRIPLE "${triple}" CACHE INTERNAL "")
+set(PBMPM_KERNEL_FEATURES ${features} CACHE INTERNAL "")
 
 option(PBMPM_ONE_ISA "For tests that build often: SSE4 kernels stand in for all others" OFF)
 mark_as_advanced(PBMPM_ONE_ISA)
@@ -105,7 +116,7 @@ function(translate_kernels stem objects)
             OUTPUT "${part}.o"
             COMMAND sed -e "/^target /d" -e "/^define internal/!s/^define /define hidden /"
                 -e "/^attributes #.* nounwind/s/{/{ uwtable/" "${part}.ll" > "${part}.translated.ll"
-            COMMAND "${PBMPM_LLC}" -O2 -mtriple=${PBMPM_KERNEL_TRIPLE} -mcpu=${machine} --relocation-model=pic --fp-contract=fast -filetype=obj
+            COMMAND "${PBMPM_LLC}" -O2 -mtriple=${PBMPM_KERNEL_TRIPLE} -mcpu=${machine} ${PBMPM_KERNEL_FEATURES} --fp-contract=fast -filetype=obj
                 "${part}.translated.ll" -o "${part}.o"
             DEPENDS "${part}.ll"
             COMMENT "Translating ${part} for ${PBMPM_KERNEL_TRIPLE}"

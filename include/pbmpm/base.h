@@ -147,13 +147,14 @@ typedef struct pbmpm_task_hooks {
 } pbmpm_task_hooks;
 
 /** Instruction sets of the kernels. On x86, PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
- *  read at the first call that needs it. ARM has NEON alone. */
+ *  read at the first call that needs it. ARM and WebAssembly have one set each. */
 typedef enum pbmpm_isa {
     PBMPM_ISA_NONE = 0, /**< the CPU is not supported */
     PBMPM_ISA_SSE4 = 1,
     PBMPM_ISA_AVX2 = 2,
     PBMPM_ISA_AVX512 = 3,
     PBMPM_ISA_NEON = 4,
+    PBMPM_ISA_WASM = 5, /**< WebAssembly's SIMD128 */
     PBMPM_ISA_FORCE32 = 0x7fffffff
 } pbmpm_isa;
 

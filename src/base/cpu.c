@@ -24,6 +24,7 @@ const char *cpu_isa_name(pbmpm_isa isa)
     case PBMPM_ISA_AVX2: return "AVX2";
     case PBMPM_ISA_AVX512: return "AVX-512";
     case PBMPM_ISA_NEON: return "NEON";
+    case PBMPM_ISA_WASM: return "SIMD128";
     case PBMPM_ISA_FORCE32: break;
     }
     return "unknown";

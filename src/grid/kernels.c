@@ -35,7 +35,7 @@
 #define ENTRY(name, suffix) .name = name##suffix,
 #define TABLE(suffix, gang) {EACH_KERNEL(ENTRY, suffix).lanes = gang}
 
-#if defined(__aarch64__) /* with a single target ISPC puts nothing behind names */
+#if defined(__aarch64__) || defined(__wasm__) /* with a single target ISPC puts nothing behind names */
 
 DECLARE(2)
 DECLARE(3)
