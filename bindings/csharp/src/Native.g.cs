@@ -100,7 +100,7 @@ namespace Pbmpm
     }
 
     /// <summary>Instruction sets of the kernels. On x86, PBMPM_ISA=sse4|avx2|avx512 in the environment lowers the choice, and never raises it. It is
-    /// read at the first call that needs it. ARM has NEON alone.</summary>
+    /// read at the first call that needs it. ARM and WebAssembly have one set each.</summary>
     public enum Isa : int
     {
         /// <summary>the CPU is not supported</summary>
@@ -109,6 +109,8 @@ namespace Pbmpm
         Avx2 = 2,
         Avx512 = 3,
         Neon = 4,
+        /// <summary>WebAssembly's SIMD128</summary>
+        Wasm = 5,
     }
 
     /// <summary>What a material resists.</summary>

@@ -49,7 +49,7 @@ pbmpm_result pbmpm_set_assert_callback(pbmpm_assert_callback *callback, void *us
 typedef struct pbmpm_allocator { uint32_t size; void *(*allocate)(size_t size, size_t alignment, void *user); void (*release)(void *memory, size_t size, void *user); void *user; } pbmpm_allocator;
 typedef void pbmpm_task(int32_t index, void *context);
 typedef struct pbmpm_task_hooks { uint32_t size; int32_t nests; void *(*enqueue)(pbmpm_task *task, int32_t count, void *context, void *user); void (*finish)(void *handle, void *user); void *user; } pbmpm_task_hooks;
-typedef enum pbmpm_isa { PBMPM_ISA_NONE = 0, PBMPM_ISA_SSE4 = 1, PBMPM_ISA_AVX2 = 2, PBMPM_ISA_AVX512 = 3, PBMPM_ISA_NEON = 4, PBMPM_ISA_FORCE32 = 2147483647 } pbmpm_isa;
+typedef enum pbmpm_isa { PBMPM_ISA_NONE = 0, PBMPM_ISA_SSE4 = 1, PBMPM_ISA_AVX2 = 2, PBMPM_ISA_AVX512 = 3, PBMPM_ISA_NEON = 4, PBMPM_ISA_WASM = 5, PBMPM_ISA_FORCE32 = 2147483647 } pbmpm_isa;
 uint32_t pbmpm_version(void);
 uint32_t pbmpm_abi_version(void);
 pbmpm_isa pbmpm_active_isa(void);
