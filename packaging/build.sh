@@ -1,6 +1,6 @@
 #!/bin/sh
 # build.sh [TARGET...] - all packages in dist/, from a fresh clone: the library for each target (library.sh), Python's sources and wheels (wheel.sh), the
-# packages for Unity and Unreal, and SHA256SUMS. Targets: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64, or none: all of them.
+# packages for Unity and Unreal, and SHA256SUMS. Targets: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64, web, or none: all of them.
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh

@@ -30,6 +30,7 @@ needs_of() { # TARGET LIBRARY: the libraries
 KNOWN='kernel32\.dll|api-ms-win-crt-.*|/usr/lib/libSystem.B.dylib|@rpath/libpbmpm\.[0-9]*\.dylib|lib(c|m|pthread)\.so\.6|libpthread\.so\.0|ld-linux-.*'
 
 for target; do
+    [ "$target" != web ] || continue # no shared library
     library=$(library_of "$target")
     [ -e "$library" ] || stop "there is no $library: sh packaging/library.sh $target"
     exports_of "$target" "$library" | diff - src/api/exports.txt >&2 || stop "$library does not export what src/api/exports.txt lists"

@@ -1,12 +1,20 @@
 #!/bin/sh
 # library.sh TARGET... - leaves dist/pbmpm-VERSION-TARGET.zip (Windows) or .tar.gz: the library, shared and static, headers, the CMake package and the
-# licence. Targets: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64, or none: all of them.
+# licence. Targets: windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64, web (static alone), or
+# none: all of them.
 set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
 . packaging/tools.sh
 need_llvm
 make_tools
+
+libraries_of() {
+    case $1 in
+    web) echo pbmpm ;;
+    *) echo pbmpm pbmpm_static ;;
+    esac
+}
 
 pack() { # TARGET: the archive of what is built in build/TARGET
     name=pbmpm-$(version)-$1
@@ -27,6 +35,6 @@ pack() { # TARGET: the archive of what is built in build/TARGET
 for target; do
     stage "The library for $target"
     quietly "configure-$target.log" cross_configure "$target" "build/$target" -DPBMPM_STATIC=ON || stop "could not configure; full text: build/configure-$target.log"
-    quietly "build-$target.log" cmake --build "build/$target" --target pbmpm pbmpm_static || stop "the build failed; full text: build/build-$target.log"
+    quietly "build-$target.log" cmake --build "build/$target" --target $(libraries_of "$target") || stop "the build failed; full text: build/build-$target.log"
     pack "$target"
 done

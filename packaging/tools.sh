@@ -6,10 +6,10 @@
 #   need_llvm                       LLVM's tools, which kernels for other systems and archives take
 #   library_of, python_platform TARGET
 #   cross_configure TARGET FOLDER [OPTION...]
-#                                   configures FOLDER for windows-x64, linux-x64, linux-arm64, macos-x64 or macos-arm64
+#                                   configures FOLDER for windows-x64, linux-x64, linux-arm64, macos-x64, macos-arm64 or web
 
 tools=$PWD/build/packaging
-all_targets="windows-x64 linux-x64 linux-arm64 macos-x64 macos-arm64"
+all_targets="windows-x64 linux-x64 linux-arm64 macos-x64 macos-arm64 web"
 macos=11.0 # the oldest that there is for both kinds of CPU
 
 make_tools() {
@@ -72,6 +72,7 @@ zig_target() {
     linux-arm64) echo aarch64-linux-gnu.2.28 ;;
     macos-x64) echo x86_64-macos.$macos ;;
     macos-arm64) echo aarch64-macos.$macos ;;
+    web) echo wasm32-wasi ;;
     *) stop "'$1' is no target, which are: $all_targets" ;;
     esac
 }
@@ -83,8 +84,10 @@ cross_configure() {
     windows-*) system="-DCMAKE_SYSTEM_NAME=Windows -DCMAKE_RC_COMPILER=$(llvm llvm-windres)" ;;
     linux-*) system="-DCMAKE_SYSTEM_NAME=Linux" ;;
     macos-*) system="-DCMAKE_SYSTEM_NAME=Darwin -DCMAKE_OSX_DEPLOYMENT_TARGET=$macos -DCMAKE_OSX_SYSROOT= -DCMAKE_INSTALL_NAME_TOOL=$(llvm llvm-install-name-tool)" ;;
+    web) system="-DCMAKE_SYSTEM_NAME=WASI -DCMAKE_C_FLAGS=-msimd128 -DBUILD_SHARED_LIBS=OFF -DPBMPM_SAMPLES=OFF" ;;
     esac
     case $target in
+    web) processor=wasm32 ;;
     *-arm64) processor=aarch64 ;;
     *) processor=x86_64 ;;
     esac

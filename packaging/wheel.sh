@@ -35,6 +35,7 @@ name_wheel() { # WHEEL TARGET
 }
 
 for target; do
+    [ "$target" != web ] || continue
     stage "The wheel for $target"
     library=$(library_of "$target")
     [ -e "$library" ] || stop "there is no $library: sh packaging/library.sh $target"

@@ -21,6 +21,6 @@ ctest --test-dir build/linux-arm64 --output-on-failure -j "$(nproc)" --timeout 6
 stage "Strict builds"
 for target in linux-arm64 linux-x64; do
     quietly "configure-strict.log" cross_configure $target build/strict-$target -DPBMPM_TESTS=ON -DPBMPM_STRICT=ON || stop "could not configure; full text: build/configure-strict.log"
-    quietly "build-strict.log" nice cmake --build build/strict-$target --target hashes || stop "the build failed; full text: build/build-strict.log"
+    quietly "build-strict.log" cmake --build build/strict-$target --target hashes || stop "the build failed; full text: build/build-strict.log"
 done
 PBMPM_ISA=sse4 compare_hashes 20 build/strict-linux-x64/tests/hashes "$qemu -L $root build/strict-linux-arm64/tests/hashes"

@@ -15,7 +15,7 @@ build_for() {
     stage "Building for $target"
     quietly "configure-$target.log" cross_configure "$target" "build/$target" -DPBMPM_TESTS=ON "$@" ||
         stop "could not configure; full text: build/configure-$target.log"
-    quietly "build-$target.log" nice cmake --build "build/$target" || stop "the build failed; full text: build/build-$target.log"
+    quietly "build-$target.log" cmake --build "build/$target" || stop "the build failed; full text: build/build-$target.log"
 }
 
 compare_hashes() {

@@ -28,6 +28,7 @@ wheel=$(ls dist/pbmpm-*-py3-none-"$(python_platform linux-x64)".whl)
 
 stage "What the wheels hold"
 for target in $all_targets; do
+    [ "$target" != web ] || continue
     for one in dist/pbmpm-*-py3-none-"$(python_platform "$target")".whl; do
         python3 -m zipfile -l "$one" >"$work/files"
         for file in "pbmpm/$(basename "$(library_of "$target")") " pbmpm/_ffi.py pbmpm/py.typed 'licenses/LICENSE'; do
