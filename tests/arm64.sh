@@ -18,9 +18,6 @@ build_for linux-arm64 "-DCMAKE_CROSSCOMPILING_EMULATOR=$qemu;-L;$root"
 stage "Running in QEMU"
 ctest --test-dir build/linux-arm64 --output-on-failure -j "$(nproc)" --timeout 600 -R "${PBMPM_TESTS:-^(kernels_|unit_|api_|samples)}" -E "$too_long"
 
-stage "Strict builds"
-for target in linux-arm64 linux-x64; do
-    quietly "configure-strict.log" cross_configure $target build/strict-$target -DPBMPM_TESTS=ON -DPBMPM_STRICT=ON || stop "could not configure; full text: build/configure-strict.log"
-    quietly "build-strict.log" cmake --build build/strict-$target --target hashes || stop "the build failed; full text: build/build-strict.log"
-done
+strict_build linux-x64
+strict_build linux-arm64
 PBMPM_ISA=sse4 compare_hashes 20 build/strict-linux-x64/tests/hashes "$qemu -L $root build/strict-linux-arm64/tests/hashes"

@@ -2,6 +2,7 @@
 #
 #   need_tool PATH PACKAGE          prints the path, a command or a file; without it the package is installed when root, else named
 #   build_for TARGET [OPTION...]    the library and its tests in build/TARGET
+#   strict_build TARGET             the program of the hashes in build/strict-TARGET; for the web the library
 #   compare_hashes STEPS LEFT RIGHT runs two commands that take a number of steps (tests/strict/hashes.c); stops if their hashes differ
 
 need_tool() {
@@ -16,6 +17,17 @@ build_for() {
     quietly "configure-$target.log" cross_configure "$target" "build/$target" -DPBMPM_TESTS=ON "$@" ||
         stop "could not configure; full text: build/configure-$target.log"
     quietly "build-$target.log" cmake --build "build/$target" || stop "the build failed; full text: build/build-$target.log"
+}
+
+strict_build() {
+    stage "Building for $1, strictly"
+    case $1 in
+    web) wanted=pbmpm ;;
+    *) wanted=hashes ;;
+    esac
+    quietly configure-strict.log cross_configure "$1" "build/strict-$1" -DPBMPM_TESTS=ON -DPBMPM_STRICT=ON ||
+        stop "could not configure; full text: build/configure-strict.log"
+    quietly build-strict.log cmake --build "build/strict-$1" --target $wanted || stop "the build failed; full text: build/build-strict.log"
 }
 
 compare_hashes() {
