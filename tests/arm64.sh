@@ -16,7 +16,7 @@ make_tools
 build_for linux-arm64 "-DCMAKE_CROSSCOMPILING_EMULATOR=$qemu;-L;$root"
 
 stage "Running in QEMU"
-ctest --test-dir build/linux-arm64 --output-on-failure -j "$(nproc)" --timeout 600 -R "${PBMPM_TESTS:-^(kernels_|unit_|api_|samples)}" -E "$too_long"
+ctest --test-dir build/linux-arm64 --output-on-failure -j "$(nproc)" -R "${PBMPM_TESTS:-^(kernels_|unit_|api_|samples)}" -E "$too_long"
 
 strict_build linux-x64
 strict_build linux-arm64
