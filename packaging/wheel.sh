@@ -5,6 +5,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . samples/setup.sh
 . packaging/tools.sh
+need_llvm
 make_tools
 [ $# -gt 0 ] || set -- $all_targets
 work=$(mktemp -d)
@@ -21,12 +22,16 @@ tagged() { # WHEEL PLATFORM
     echo "$(dirname "$1")/$("$tools/bin/wheel" tags --remove --platform-tag "$2" "$1" | tail -n 1)"
 }
 
-# A wheel for Linux has to be named after the oldest C library that it runs with: auditwheel looks whether the library needs no more.
+# A wheel for Linux has to be named after the oldest C library that it runs with: auditwheel looks whether the library needs no more. Of other CPUs it knows
+# nothing, so there the versions of the symbols are compared.
 name_wheel() { # WHEEL TARGET
     case $2 in
-    linux-*)
-        set -- "$(tagged "$1" "linux_$(echo "$2" | sed 's/.*-x64/x86_64/; s/.*-arm64/aarch64/')")" "$2"
+    linux-x64)
         PATH=$tools/bin:$PATH "$tools/bin/auditwheel" repair --only-plat --plat "$(python_platform "$2")" --wheel-dir "$work/named" "$1"
+        ;;
+    linux-*)
+        newest=$("$(llvm llvm-readelf)" --version-info "$(library_of "$2")" | grep -o 'GLIBC_[0-9.]*' | sort -uV | tail -n 1)
+        printf '%s\n' "$newest" GLIBC_2.28 | sort -CV && mkdir -p "$work/named" && mv "$(tagged "$1" "$(python_platform "$2")")" "$work/named"
         ;;
     *)
         mkdir -p "$work/named" && mv "$(tagged "$1" "$(python_platform "$2")")" "$work/named"
