@@ -9,9 +9,12 @@ install_build_tools
 [ $# -gt 0 ] || set -- $all_targets
 sh packaging/library.sh "$@"
 sh packaging/wheel.sh "$@"
-for engine in unity unreal; do
-    [ ! -e packaging/$engine.sh ] || sh packaging/$engine.sh "$@"
-done
+[ ! -e packaging/unity.sh ] || sh packaging/unity.sh
+if [ -e packaging/unreal.sh ]; then
+    libraries=$(for target; do [ "$target" = web ] || library_of "$target"; done)
+    # shellcheck disable=SC2086 # one word per library
+    sh packaging/unreal.sh $libraries
+fi
 
 stage "Checking"
 sh packaging/check.sh "$@"
