@@ -11,7 +11,7 @@ sh packaging/library.sh "$@"
 sh packaging/wheel.sh "$@"
 [ ! -e packaging/unity.sh ] || sh packaging/unity.sh
 if [ -e packaging/unreal.sh ]; then
-    libraries=$(for target; do [ "$target" = web ] || library_of "$target"; done)
+    libraries=$(for target; do case $target in linux-x64 | windows-x64) library_of "$target" ;; esac; done)
     # shellcheck disable=SC2086 # one word per library
     sh packaging/unreal.sh $libraries
 fi
