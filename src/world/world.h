@@ -82,6 +82,7 @@ typedef struct Stirred {
 /* Of all of them. */
 typedef struct Granular {
     GranularState of[ISLAND_GROUPS + 1]; /* each set of kinds */
+    bool begins[ISLAND_GROUPS + 1];      /* to fall, in this substep */
     Stirred stirred;
     Array blocks;                        /* see granular.c */
 } Granular;

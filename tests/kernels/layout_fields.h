@@ -11,7 +11,7 @@
     FIELD(node) FIELD(node_base) FIELD(node_before) FIELD(node_volume) FIELD(node_density) FIELD(node_reach) FIELD(edged) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(drift) FIELD(pressure) FIELD(pressure_old) FIELD(stress) FIELD(stress_old) FIELD(node_push) \
     FIELD(change2) FIELD(uphill) FIELD(node_force) FIELD(block_share) FIELD(affine_kept) FIELD(block_energy) FIELD(couple) FIELD(among_liquid) FIELD(fed) FIELD(may_feed) FIELD(held_pressure) FIELD(sketch) FIELD(held_stiffness) FIELD(node_gap) FIELD(cell_mass) FIELD(cell_growth) FIELD(cell_strain) FIELD(settle) FIELD(elastic_guesses) FIELD(cell_softness) \
     FIELD(cell_pressure) FIELD(cell_pressure_old) FIELD(cell_trace) FIELD(cell_change2) FIELD(cell_uphill) FIELD(probing) FIELD(cell_relaxation) FIELD(stage_last) FIELD(stage_before) \
-    FIELD(stage_change) FIELD(momentum) FIELD(fine_carried) FIELD(grains_carried) FIELD(crushed_carried) FIELD(growth_max) FIELD(material) FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) \
+    FIELD(stage_change) FIELD(momentum) FIELD(fine_carried) FIELD(grains_carried) FIELD(grains_free) FIELD(crushed_carried) FIELD(growth_max) FIELD(material) FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) \
     FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
 
 /* The table a probe writes: the size of the structure, then offset and size of each field. */

@@ -477,7 +477,7 @@ bool dual_holds_solids(const World *world, const StepContext *step)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (world->particles.of_material[slot] == 0 || !material_is_solid(&world->materials, slot) || def->kind == PBMPM_SAND) continue;
-        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(def, step)) == 1.0;
+        held = held && dual_stiffness_share(world, def, step) == 1.0;
     }
     return held;
 }
