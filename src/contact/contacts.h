@@ -60,7 +60,7 @@ typedef struct ContactFrame {
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool apart;                  /* walls leave those nodes to contacts: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
-    struct Sight *sight;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */
+    struct ObstacleCache *cache;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
     const uint32_t *groups;             /* Colliders.groups, likewise */

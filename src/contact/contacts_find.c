@@ -6,8 +6,8 @@
 #include "base/assertion.h"
 #include "base/result.h"
 #include "contact/field.h"
+#include "contact/obstacle_cache.h"
 #include "contact/reach.h"
-#include "contact/sight.h"
 #include "contact/walls.h"
 #include "contact/wet_side.h"
 #include "shape/concave.h"
@@ -285,8 +285,8 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
 /* The distances of the last substep, if they hold; infinite at nodes that had no mass then. */
 static const float *gaps_before(const ContactFrame *frame, int32_t block)
 {
-    const int32_t from = sight_from(frame, block);
-    return from == GRID_NOWHERE ? NULL : (const float *)frame->sight->gap.data + (size_t)from * (size_t)frame->grid->block_cells;
+    const int32_t from = obstacle_cache_from(frame, block);
+    return from == GRID_NOWHERE ? NULL : (const float *)frame->cache->gap.data + (size_t)from * (size_t)frame->grid->block_cells;
 }
 
 static void measure_blocks(void *context, int32_t begin, int32_t end)

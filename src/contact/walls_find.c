@@ -5,8 +5,8 @@
 #include "base/vector.h"
 #include "contact/field.h"
 #include "contact/flowing.h"
+#include "contact/obstacle_cache.h"
 #include "contact/reach.h"
-#include "contact/sight.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"
 #include "contact/wet_side.h"
@@ -496,7 +496,7 @@ static void look_near_block(const ContactFrame *frame, int32_t block, Near *near
 {
     double centre[3];
     contacts_block_centre(frame, block, centre);
-    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SIGHT_REACH, false);
+    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + OBSTACLE_CACHE_REACH, false);
 }
 
 static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
@@ -635,12 +635,12 @@ static int count_bits(uint64_t bits)
 /* What was found of a node in the last substep, if it holds: what thin walls do hangs on matter. */
 static const Bound *bound_before(const ContactFrame *frame, int32_t block, int node)
 {
-    const Sight *sight = frame->sight;
-    const int32_t from = sight_from(frame, block);
-    if (from == GRID_NOWHERE || !sight->walled) return NULL;
-    const uint64_t marks = ((const uint64_t *)sight->marked.data)[from], bit = (uint64_t)1 << node;
+    const ObstacleCache *cache = frame->cache;
+    const int32_t from = obstacle_cache_from(frame, block);
+    if (from == GRID_NOWHERE || !cache->walled) return NULL;
+    const uint64_t marks = ((const uint64_t *)cache->marked.data)[from], bit = (uint64_t)1 << node;
     if (!(marks & bit)) return NULL;
-    const Bound *bound = (const Bound *)sight->bound.data + ((const uint32_t *)sight->begin.data)[from] + count_bits(marks & (bit - 1));
+    const Bound *bound = (const Bound *)cache->bound.data + ((const uint32_t *)cache->begin.data)[from] + count_bits(marks & (bit - 1));
     return bound->thin ? NULL : bound;
 }
 

@@ -68,7 +68,7 @@ void world_destroy(World *world)
     dual_free(world);
     guess_free(world);
     walls_free(&world->walls, &world->memory);
-    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_free(&world->sight[kinds], &world->memory);
+    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_free(&world->obstacle_cache[kinds], &world->memory);
     joint_free(world);
     granular_free(world);
     primal_free(world);

@@ -195,7 +195,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
-    Sight *sight = &world->sight[islands_kinds(world)];
+    ObstacleCache *cache = &world->obstacle_cache[islands_kinds(world)];
     *contacts = (ContactFrame){.colliders = &world->colliders,
                                .grid = &world->grid,
                                .cell_size = cell_size,
@@ -211,7 +211,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
-    if (result == PBMPM_OK) result = sight_open(contacts, sight, &world->memory);
+    if (result == PBMPM_OK) result = obstacle_cache_open(contacts, cache, &world->memory);
     if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
     if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
@@ -224,9 +224,9 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
         result = fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the open shares of %d blocks", world->grid.node_blocks);
     if (result != PBMPM_OK)
-        sight_forget(sight);
+        obstacle_cache_forget(cache);
     else
-        result = sight_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
+        result = obstacle_cache_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
     return result;
 }
 

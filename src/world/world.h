@@ -8,7 +8,7 @@
 #include "base/memory.h"
 #include "base/pool.h"
 #include "base/step_context.h"
-#include "contact/sight.h"
+#include "contact/obstacle_cache.h"
 #include "contact/walls.h"
 #include "grid/bodies.h"
 #include "grid/grid.h"
@@ -174,7 +174,7 @@ typedef struct World {
     DualState dual;
     GuessState guess;
     Walls walls;
-    Sight sight[ISLAND_GROUPS + 1]; /* of each set of kinds */
+    ObstacleCache obstacle_cache[ISLAND_GROUPS + 1]; /* of each set of kinds */
     PrimalState primal;
     JointState joint;
     Granular granular;

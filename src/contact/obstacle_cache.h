@@ -3,9 +3,9 @@
  * Distances, faces and open shares at nodes are a matter of obstacles alone, and were most of what finding contacts took. A block that stands where one stood in
  * the last substep, with nothing near that changed, takes them over, bit for bit what would be found anew: what is near is asked once for a block, so its
  * place counts and not that of its nodes. What changed is found by comparison, and nobody has to tell. Groups of islands have grids of their own, so each set of
- * kinds has a sight of its own. Where an obstacle acts on some matter alone nothing is kept. */
-#ifndef PBMPM_SRC_CONTACT_SIGHT_H
-#define PBMPM_SRC_CONTACT_SIGHT_H
+ * kinds has a cache of its own. Where an obstacle acts on some matter alone nothing is kept. */
+#ifndef PBMPM_SRC_CONTACT_OBSTACLE_CACHE_H
+#define PBMPM_SRC_CONTACT_OBSTACLE_CACHE_H
 
 #include "contact/contacts.h"
 
@@ -13,9 +13,9 @@ struct Walls;
 
 /* How far beyond the nodes of a block [cells] obstacles may matter to what is kept: planes at 2.5 from the reflection of a node, which is at most 1.5 behind it and
  * as far before. */
-static const double SIGHT_REACH = 5.5;
+static const double OBSTACLE_CACHE_REACH = 5.5;
 
-typedef struct Sight {
+typedef struct ObstacleCache {
     int32_t anchor[3], blocks; /* of the grid of the last substep; no blocks: nothing is kept */
     const Obstacle *first;     /* of its list, which faces point into */
     int obstacles;
@@ -28,22 +28,22 @@ typedef struct Sight {
     Array table;      /* hash table: index of a block + 1, or 0 */
     Array from;       /* int32_t per node block of this substep: the one that it takes over from, or GRID_NOWHERE */
     Array gap, open, marked, begin, bound; /* as those of Colliders and Walls */
-} Sight;
+} ObstacleCache;
 
-void sight_free(Sight *sight, Memory *memory);
+void obstacle_cache_free(ObstacleCache *cache, Memory *memory);
 /* Nothing is kept any more. */
-void sight_forget(Sight *sight);
+void obstacle_cache_forget(ObstacleCache *cache);
 
-/* Finds what is taken over and sets frame->sight; it stays null if nothing is to be kept. */
-pbmpm_result sight_open(ContactFrame *frame, Sight *sight, Memory *memory);
+/* Finds what is taken over and sets frame->cache; it stays null if nothing is to be kept. */
+pbmpm_result obstacle_cache_open(ContactFrame *frame, ObstacleCache *cache, Memory *memory);
 
 /* Keeps what was found for the next substep. `walls` null: there are none. `opened`: as above. */
-pbmpm_result sight_keep(const ContactFrame *frame, struct Walls *walls, int opened, Memory *memory);
+pbmpm_result obstacle_cache_keep(const ContactFrame *frame, struct Walls *walls, int opened, Memory *memory);
 
 /* The block of the last substep that one takes over from, or GRID_NOWHERE. */
-static inline int32_t sight_from(const ContactFrame *frame, int32_t block)
+static inline int32_t obstacle_cache_from(const ContactFrame *frame, int32_t block)
 {
-    return frame->sight && frame->sight->blocks > 0 ? ((const int32_t *)frame->sight->from.data)[block] : GRID_NOWHERE;
+    return frame->cache && frame->cache->blocks > 0 ? ((const int32_t *)frame->cache->from.data)[block] : GRID_NOWHERE;
 }
 
 #endif

@@ -91,9 +91,9 @@ static uint64_t hash_of(const Scene *scene)
 /* Node blocks that take over. */
 static int32_t taken_over(const Scene *scene)
 {
-    const Sight *sight = &scene->world->sight[KIND_LIQUID];
+    const ObstacleCache *cache = &scene->world->obstacle_cache[KIND_LIQUID];
     int32_t count = 0;
-    for (int32_t block = 0; block < scene->world->grid.node_blocks; block++) count += ((const int32_t *)sight->from.data)[block] != GRID_NOWHERE;
+    for (int32_t block = 0; block < scene->world->grid.node_blocks; block++) count += ((const int32_t *)cache->from.data)[block] != GRID_NOWHERE;
     return count;
 }
 
@@ -181,7 +181,7 @@ static void check_alike(Happening *happens, pbmpm_solver solver, float speed)
     for (int step = 0; step < 12; step++) {
         happens(&keeps, step);
         happens(&forgets, step);
-        for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_forget(&forgets.world->sight[kinds]);
+        for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_forget(&forgets.world->obstacle_cache[kinds]);
         OK(pbmpm_world_step(keeps.id, 1.0f / 60));
         OK(pbmpm_world_step(forgets.id, 1.0f / 60));
         TEST_ASSERT_EQUAL_HEX64(hash_of(&forgets), hash_of(&keeps));
