@@ -14,9 +14,9 @@ typedef struct Contact {
     uint16_t obstacle; /* in this substep's list */
     pbmpm_friction friction;
     float coefficient;
-    bool active; /* while the primal solver works: see holds_find() */
+    bool active; /* while the primal solver works: see constraints_find_active() */
     uint8_t group; /* of the body's contacts with about this normal, and */
-    float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see holds_rub() */
+    float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see constraints_friction() */
     bool stays; /* the node goes where `surface` says, see joint.h */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */

@@ -131,7 +131,7 @@ typedef struct PrimalState {
     Array couple, among_liquid; /* see KernelArgs; of islands of solids and liquid */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
-    Array rigid, rub, moves;   /* per body, see primal_rigid.c, holds.h and primal_momentum.c */
+    Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */
     bool bounces;              /* a body of this substep, see primal_bounce.c */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */

@@ -9,7 +9,7 @@
  * preconditioner. Steps are accepted by Armijo's rule, or by the slope where the difference of two energies is rounding (W. Hager,
  * H. Zhang, "A new conjugate gradient method with guaranteed descent", SIAM J. Optim. 16(1), 2005).
  *
- * Contacts: nodes may sink as far as the particles they carry have room (primal_gaps.c); friction is a part of the energy (holds.h). Rigid motions, which
+ * Contacts: nodes may sink as far as the particles they carry have room (primal_gaps.c); friction is a part of the energy (contact_constraints.h). Rigid motions, which
  * a stiff body does nearly alone, have solvers of their own: the start (primal_start.c), the preconditioner (primal_rigid.c), what is missing at the end
  * (primal_momentum.c). What backward Euler takes from rotations and bounces is given back (primal_spin.c, primal_bounce.c).
  *

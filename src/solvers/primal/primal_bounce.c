@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
@@ -35,7 +35,7 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[4 + c] += mass * change;
         }
     }
-    sum[3] = holds_rubbed(p->contacts, p->best, p->slip_min, block);
+    sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
 static void find_bounce(RigidBody *body, const BodySum *of, const float *g)
@@ -181,6 +181,6 @@ void primal_bounce(World *world, const ContactFrame *contacts)
     if (!world->primal.bounces) return;
     primal_find_shares(world, share_of_bounce);
     for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].bounce *= bodies[i].share;
-    for (int32_t block = 0; block < world->grid.node_blocks; block++) holds_scale_booked(contacts, block, 1.0 + bodies[of_block[block]].bounce);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) constraints_scale_impulses(contacts, block, 1.0 + bodies[of_block[block]].bounce);
     pool_for(world->pool, world->grid.particle_blocks, 8, bounce_blocks, world);
 }

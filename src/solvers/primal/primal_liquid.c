@@ -12,7 +12,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/eddy_damping.h"
 #include "solvers/passes.h"
 #include "solvers/primal/primal.h"
@@ -117,7 +117,7 @@ static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *
         if (!(force2 <= EXPLAINED * EXPLAINED * away2 && away2 < FLT_MAX)) continue; /* finite, too */
         for (size_t c = 0; c < 3; c++) p->best[i + c] = p->base[i + c] - force[c] / mass;
     }
-    holds_project(p->contacts, p->best, block, block + 1);
+    constraints_project(p->contacts, p->best, block, block + 1);
 }
 
 void primal_let_fly(Primal *p)

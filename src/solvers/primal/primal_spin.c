@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
 
@@ -22,7 +22,7 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
     float *inner = p->right;
     if (!body->turns || body->multistep) return;
     memcpy(inner + begin, p->gradient + begin, (end - begin) * sizeof *inner);
-    if (p->rubs) holds_rub(p->contacts, p->best, inner, -1.0f, p->slip_min, block);
+    if (p->rubs) constraints_friction(p->contacts, p->best, inner, -1.0f, p->slip_min, block);
     primal_corner(p, block, body, corner);
     for (size_t i = begin; i < end; i += W) {
         double motion[3], force[3];

@@ -1,15 +1,15 @@
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 
 #include <math.h>
 #include <string.h>
 
 /* How far from a surface [cells] a node that was put onto it may be, by rounding. */
-static const float TOUCH = 1e-5f;
+static const float SURFACE_ROUNDING = 1e-5f;
 
 /* Two particles a cell and axis stand a quarter of a cell inside their body: so near, what they weigh on touches [cells]. */
-static const float TOUCHES = 0.25f;
+static const float STICK_DISTANCE = 0.25f;
 
-static bool is_held(const Contact *contact) { return contact->friction == PBMPM_FRICTION_STICK && contact->gap < TOUCHES; }
+static bool is_held(const Contact *contact) { return contact->friction == PBMPM_FRICTION_STICK && contact->gap < STICK_DISTANCE; }
 
 static float along(const float *vector, const float *normal)
 {
@@ -56,7 +56,7 @@ static BlockContacts contacts_of(const ContactFrame *frame, int32_t block)
 
 static float *node_of(const BlockContacts *list, uint32_t i, float *nodes) { return nodes + list->node + list->contact[i].node * K_NODE_WIDTH; }
 
-void holds_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end)
+void constraints_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;
     for (int32_t block = begin; block < end; block++) {
@@ -66,7 +66,7 @@ void holds_project(const ContactFrame *frame, float *displacement, int32_t begin
     }
 }
 
-void holds_find(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end)
+void constraints_find_active(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;
     for (int32_t block = begin; block < end; block++) {
@@ -75,14 +75,14 @@ void holds_find(const ContactFrame *frame, const float *displacement, float *gra
             Contact *contact = &list.contact[i];
             const float *u = displacement + list.node + contact->node * K_NODE_WIDTH;
             float *g = node_of(&list, i, gradient);
-            const bool pushes = !is_held(contact) && excess_of(contact, u) > -TOUCH && along(g, contact->normal) > 0.0f;
+            const bool pushes = !is_held(contact) && excess_of(contact, u) > -SURFACE_ROUNDING && along(g, contact->normal) > 0.0f;
             contact->active = pushes || is_held(contact);
             if (contact->active) take_out(contact, g);
         }
     }
 }
 
-void holds_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end)
+void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;
     for (int32_t block = begin; block < end; block++) {
@@ -104,9 +104,9 @@ static const float STICKS = 100.0f;
 /* A body's momentum changes by what its contacts give, so this bounds what an unfinished solution says of their impulses. */
 static const double SCALE_MAX = 20.0;
 
-bool holds_whole(const Contact *contact) { return is_held(contact); }
+bool constraints_stick(const Contact *contact) { return is_held(contact); }
 
-float holds_coefficient(const Contact *contact)
+float constraints_friction_coefficient(const Contact *contact)
 {
     if (is_held(contact) || contact->friction == PBMPM_FRICTION_SLIP) return 0.0f;
     return contact->friction == PBMPM_FRICTION_STICK ? STICKS : contact->coefficient;
@@ -128,15 +128,15 @@ static float slip_of(const Contact *contact, const float *u, float slip[3])
 /* Friction over slip. */
 static float rub_of(const Contact *contact, float length, float least) { return contact->limit / fmaxf(length, least); }
 
-float holds_slip_min(const StepContext *step) { return SLIP_MIN * (float)step->reference_steps; }
+float constraints_slip_min(const StepContext *step) { return SLIP_MIN * (float)step->reference_steps; }
 
-float holds_rub_stiffness(const Contact *contact, const float *u, float least)
+float constraints_friction_stiffness(const Contact *contact, const float *u, float least)
 {
     float slip[3];
     return contact->active && contact->limit > 0.0f ? rub_of(contact, slip_of(contact, u, slip), least) : 0.0f;
 }
 
-double holds_rub(const ContactFrame *frame, const float *u, float *gradient, float sign, float least, int32_t block)
+double constraints_friction(const ContactFrame *frame, const float *u, float *gradient, float sign, float least, int32_t block)
 {
     double energy = 0.0;
     if (frame->colliders->contacts == 0) return energy;
@@ -154,44 +154,44 @@ double holds_rub(const ContactFrame *frame, const float *u, float *gradient, flo
     return energy;
 }
 
-void holds_stiffen(const ContactFrame *frame, const float *u, const float *vector, float *to, float sign, float least, int32_t block)
+void constraints_apply_friction_stiffness(const ContactFrame *frame, const float *u, const float *vector, float *to, float sign, float least, int32_t block)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
-        const float rub = sign * holds_rub_stiffness(contact, u + node, least), part = along(vector + node, contact->normal);
+        const float rub = sign * constraints_friction_stiffness(contact, u + node, least), part = along(vector + node, contact->normal);
         for (size_t a = 0; a < 3 && rub != 0.0f; a++) to[node + a] += rub * (vector[node + a] - part * contact->normal[a]);
     }
 }
 
-void holds_rub_weigh(const ContactFrame *frame, const float *u, float *weight, float least, int32_t block)
+void constraints_friction_diagonal(const ContactFrame *frame, const float *u, float *weight, float least, int32_t block)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
-        const float rub = holds_rub_stiffness(contact, u + node, least);
+        const float rub = constraints_friction_stiffness(contact, u + node, least);
         for (size_t a = 0; a < 3 && rub > 0.0f; a++) weight[node + a] += rub * (1.0f - contact->normal[a] * contact->normal[a]);
     }
 }
 
-void holds_soften(const ContactFrame *frame, const float *u, const float *inverse, float *vector, float least, int32_t block)
+void constraints_soften(const ContactFrame *frame, const float *u, const float *inverse, float *vector, float least, int32_t block)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
-        const float rub = holds_rub_stiffness(contact, u + node, least), part = along(vector + node, contact->normal);
+        const float rub = constraints_friction_stiffness(contact, u + node, least), part = along(vector + node, contact->normal);
         const float less = rub > 0.0f ? 1.0f / (1.0f + rub * inverse[node / K_NODE_WIDTH]) - 1.0f : 0.0f;
         for (size_t a = 0; a < 3 && rub > 0.0f; a++) vector[node + a] += less * (vector[node + a] - part * contact->normal[a]);
     }
 }
 
-void holds_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness)
+void constraints_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
@@ -206,18 +206,18 @@ void holds_pull(const ContactFrame *frame, const float *u, const double way[3], 
     }
 }
 
-bool holds_any_rub(const ContactFrame *frame)
+bool constraints_have_friction(const ContactFrame *frame)
 {
     const Contact *contact = frame->colliders->contact.data;
     for (uint32_t i = 0; i < frame->colliders->contacts; i++)
-        if (holds_coefficient(&contact[i]) > 0.0f) return true;
+        if (constraints_friction_coefficient(&contact[i]) > 0.0f) return true;
     return false;
 }
 
 /* Normals closer than this are one direction: a plane, a side of a box, a part of a ball. */
 static const float ONE_DIRECTION = 0.9f;
 
-static int group_for(BodyRub *body, const float *normal)
+static int group_for(BodyFriction *body, const float *normal)
 {
     int nearest = 0;
     float most = -2.0f;
@@ -226,12 +226,12 @@ static int group_for(BodyRub *body, const float *normal)
         if (cosine > most) nearest = g;
         most = fmaxf(most, cosine);
     }
-    if (most >= ONE_DIRECTION || body->groups == RUB_GROUPS) return nearest;
+    if (most >= ONE_DIRECTION || body->groups == FRICTION_GROUPS) return nearest;
     memcpy(body->group[body->groups].normal, normal, sizeof body->group->normal);
     return body->groups++;
 }
 
-void holds_group(const ContactFrame *frame, const int32_t *body_of_block, BodyRub *body)
+void constraints_group(const ContactFrame *frame, const int32_t *body_of_block, BodyFriction *body)
 {
     if (frame->colliders->contacts == 0) return;
     for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
@@ -241,7 +241,7 @@ void holds_group(const ContactFrame *frame, const int32_t *body_of_block, BodyRu
     }
 }
 
-void holds_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyRub *body)
+void constraints_sum_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyFriction *body)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
@@ -257,19 +257,19 @@ void holds_push(const ContactFrame *frame, const float *u, const float *gradient
             body->group[contact->group].push[a] += push * (double)contact->normal[a];
             if (rub > 0.0f) body->gained[a] += (double)(rub * slip[a]);
         }
-        contact->limit = (float)push; /* holds_limit() makes it the limit */
+        contact->limit = (float)push; /* constraints_set_limits() makes it the limit */
     }
 }
 
 /* The scales s_k that change what groups of contacts push, R_k, least and make the body's momentum change by what they push: the least
  * |sum s_k R_k - gained|^2 + NEAR sum |R_k|^2 (s_k - before_k)^2. Twice, so that what NEAR keeps back is its square. */
-static void find_scales(BodyRub *body)
+static void find_scales(BodyFriction *body)
 {
     static const double NEAR = 1e-3;
     const int n = body->groups;
     for (int k = 0; k < n; k++) body->group[k].scale = 1.0;
     for (int round = 0; round < 2 && !body->held; round++) {
-        double a[RUB_GROUPS][RUB_GROUPS + 1], missing[3];
+        double a[FRICTION_GROUPS][FRICTION_GROUPS + 1], missing[3];
         for (int c = 0; c < 3; c++) {
             missing[c] = body->gained[c];
             for (int k = 0; k < n; k++) missing[c] -= body->group[k].scale * body->group[k].push[c];
@@ -295,18 +295,18 @@ static void find_scales(BodyRub *body)
     for (int k = 0; k < n; k++) body->group[k].scale = fmin(fmax(body->group[k].scale, 0.0), SCALE_MAX);
 }
 
-void holds_scale(BodyRub *body, int32_t count)
+void constraints_scale(BodyFriction *body, int32_t count)
 {
     for (int32_t i = 0; i < count; i++) find_scales(&body[i]);
 }
 
-void holds_limit(const ContactFrame *frame, int32_t block, const BodyRub *body)
+void constraints_set_limits(const ContactFrame *frame, int32_t block, const BodyFriction *body)
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
     for (uint32_t i = list.begin; i < list.end; i++) {
         Contact *contact = &list.contact[i];
-        contact->limit *= is_held(contact) ? 0.0f : holds_coefficient(contact) * (float)body->group[contact->group].scale;
+        contact->limit *= is_held(contact) ? 0.0f : constraints_friction_coefficient(contact) * (float)body->group[contact->group].scale;
     }
 }
 
@@ -364,7 +364,7 @@ static void share_missing(const ContactFrame *frame, const double missing[3], co
     }
 }
 
-void holds_book(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
+void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
 {
     const Colliders *colliders = frame->colliders;
     double *booked = colliders->impulses.contact.data, missing[3];
@@ -381,7 +381,7 @@ void holds_book(const ContactFrame *frame, float *gradient, const float *u, cons
     share_missing(frame, missing, after, base);
 }
 
-void holds_scale_booked(const ContactFrame *frame, int32_t block, double factor)
+void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double factor)
 {
     if (!frame->colliders->measures || frame->colliders->contacts == 0 || factor == 1.0) return;
     const BlockContacts list = contacts_of(frame, block);
@@ -389,7 +389,7 @@ void holds_scale_booked(const ContactFrame *frame, int32_t block, double factor)
     for (size_t i = 3 * (size_t)list.begin; i < 3 * (size_t)list.end; i++) booked[i] *= factor;
 }
 
-double holds_rubbed(const ContactFrame *frame, const float *u, float least, int32_t block)
+double constraints_friction_loss(const ContactFrame *frame, const float *u, float least, int32_t block)
 {
     double sum = 0.0;
     if (frame->colliders->contacts == 0) return sum;
@@ -404,7 +404,7 @@ double holds_rubbed(const ContactFrame *frame, const float *u, float least, int3
     return sum;
 }
 
-double holds_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block)
+double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block)
 {
     double work = 0.0;
     if (frame->colliders->contacts == 0) return work;
@@ -425,7 +425,7 @@ double holds_work(const ContactFrame *frame, const float *gradient, const float 
     return work;
 }
 
-void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3])
+void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3])
 {
     if (frame->colliders->contacts == 0) return;
     const BlockContacts list = contacts_of(frame, block);
@@ -441,7 +441,7 @@ void holds_turn_aside(const ContactFrame *frame, int32_t block, double displacem
     }
 }
 
-double holds_free_share(const ContactFrame *frame, int32_t block, const double displacement[3])
+double constraints_free_share(const ContactFrame *frame, int32_t block, const double displacement[3])
 {
     double share = 1.0;
     if (frame->colliders->contacts == 0) return share;
@@ -458,7 +458,7 @@ double holds_free_share(const ContactFrame *frame, int32_t block, const double d
     return share;
 }
 
-uint32_t holds_touching(const ContactFrame *frame, int32_t block)
+uint32_t constraints_active(const ContactFrame *frame, int32_t block)
 {
     uint32_t count = 0;
     if (frame->colliders->contacts == 0) return 0;
@@ -467,14 +467,14 @@ uint32_t holds_touching(const ContactFrame *frame, int32_t block)
     return count;
 }
 
-uint32_t holds_contacts(const ContactFrame *frame, int32_t block)
+uint32_t constraints_count(const ContactFrame *frame, int32_t block)
 {
     if (frame->colliders->contacts == 0) return 0;
     const BlockContacts list = contacts_of(frame, block);
     return list.end - list.begin;
 }
 
-bool holds_held(const ContactFrame *frame, int32_t block)
+bool constraints_any_stick(const ContactFrame *frame, int32_t block)
 {
     if (frame->colliders->contacts == 0) return false;
     const BlockContacts list = contacts_of(frame, block);
@@ -483,9 +483,9 @@ bool holds_held(const ContactFrame *frame, int32_t block)
     return false;
 }
 
-float holds_room(const Contact *contact, const float *u) { return -excess_of(contact, u); }
+float constraints_room(const Contact *contact, const float *u) { return -excess_of(contact, u); }
 
-bool holds_any(const ContactFrame *frame, float most, int32_t block)
+bool constraints_any_within(const ContactFrame *frame, float most, int32_t block)
 {
     if (frame->colliders->contacts == 0) return false;
     const BlockContacts list = contacts_of(frame, block);
@@ -494,7 +494,7 @@ bool holds_any(const ContactFrame *frame, float most, int32_t block)
     return false;
 }
 
-void holds_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end)
+void constraints_held_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end)
 {
     if (frame->colliders->contacts == 0) return;
     for (int32_t block = begin; block < end; block++) {
