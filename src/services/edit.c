@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/numbers.h"
+#include "base/random.h"
 #include "base/result.h"
-#include "base/scatter.h"
 #include "contact/field.h"
 #include "services/inspect.h"
 #include "solvers/eddy_damping.h"
@@ -182,7 +182,7 @@ static bool jitter_point(const World *world, const Lattice *lattice, const pbmpm
 {
     const uint64_t number = (index[2] * lattice->size[1] + index[1]) * lattice->size[0] + index[0];
     for (int a = 0; a < world->def.dimension; a++) {
-        point[a] += (double)def->jitter * lattice->spacing * scatter_number(def->seed, number * 3 + (uint64_t)a);
+        point[a] += (double)def->jitter * lattice->spacing * random_number(def->seed, number * 3 + (uint64_t)a);
         point[a] = fmin(fmax(point[a], lattice->low[a]), lattice->high[a]);
     }
     return !lattice->near || field_distance(lattice->near, point) >= -ON_OBSTACLE;

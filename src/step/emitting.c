@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "base/generations.h"
+#include "base/random.h"
 #include "base/result.h"
-#include "base/scatter.h"
 #include "step/crowd.h"
 
 /* ---- Amounts ---- */
@@ -90,7 +90,7 @@ enum { FOR_PLACE = 0, FOR_VELOCITY = 3, FOR_OFFSET = 5, PURPOSES = 8 };
 /* In [-1/2, 1/2). */
 static double random_of(const pbmpm_emitter_def *def, uint64_t number, int purpose)
 {
-    return scatter_number(def->seed, number * PURPOSES + (uint64_t)purpose);
+    return random_number(def->seed, number * PURPOSES + (uint64_t)purpose);
 }
 
 /* The additive sequence with the steps 1/g, 1/g^2, .. where g^(n+1) = g + 1 for n dimensions, which fills a square or cube evenly
