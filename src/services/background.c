@@ -252,7 +252,7 @@ pbmpm_result background_begin(World *world, float dt)
     if (result == PBMPM_OK) result = start_thread(world->background);
     if (result != PBMPM_OK) return result;
     Background *background = world->background;
-    world_touch(world);
+    world_expire_views(world);
     background->turn = (background->turn + 1) % SETS;
     inspect_step_stats(world, &background->stats);
     background->seconds = world->record.seconds;

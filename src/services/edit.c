@@ -96,7 +96,7 @@ pbmpm_result edit_add(World *world, const pbmpm_particles_def *def, uint32_t gen
         const pbmpm_particle_id id = particles_append(p, &particle, generation);
         if (ids) ids[i] = id;
     }
-    world_touch(world);
+    world_expire_views(world);
     return PBMPM_OK;
 }
 
@@ -299,7 +299,7 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shap
     if (checked == PBMPM_OK && def->user_value) checked = particles_enable_user_values(&world->particles, &world->memory);
     if (checked != PBMPM_OK) return checked;
     append_points(world, &lattice, def, generation);
-    world_touch(world);
+    world_expire_views(world);
     return PBMPM_OK;
 }
 
@@ -322,7 +322,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     }
     if (count) {
         particles_compact(p, world->sleep.rows);
-        world_touch(world);
+        world_expire_views(world);
     }
     return PBMPM_OK;
 }
@@ -352,7 +352,7 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
     if (removed) *removed = count;
     if (count) {
         particles_compact(p, world->sleep.rows);
-        world_touch(world);
+        world_expire_views(world);
     }
     return PBMPM_OK;
 }
@@ -465,6 +465,6 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
     }
     world->strain_unchecked |= field == PBMPM_DEFORMATION;
     particles_changed(p);
-    world_touch(world);
+    world_expire_views(world);
     return PBMPM_OK;
 }

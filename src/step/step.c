@@ -112,7 +112,7 @@ static void remove_marked(World *world)
 {
     if (world->sleep.on) sleep_settle(world);
     particles_compact(&world->particles, world->sleep.rows);
-    world_touch(world);
+    world_expire_views(world);
 }
 
 /* ---- Phases ---- */
@@ -345,7 +345,7 @@ pbmpm_result world_step(World *world, float dt)
     events_clear(&world->events);
     impulses_clear(&world->colliders.impulses);
     forces_begin_step(&world->forces);
-    world_touch(world);
+    world_expire_views(world);
     sleep_begin_step(world);
     pool_set_serial(world->pool, world->particles.count - world->sleep.rows < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {

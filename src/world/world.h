@@ -225,7 +225,7 @@ static inline StepContext world_context(const World *world, double substep_dt) {
 /* To be called before the first particle of a live material is added; does nothing the second time. */
 pbmpm_result world_make_room_for(World *world, uint32_t material);
 
-/* Expires all views: the particles are not what they were. */
-static inline void world_touch(World *world) { world->generation++; }
+/* To be called when the particles are no longer what they were. */
+static inline void world_expire_views(World *world) { world->generation++; }
 
 #endif
