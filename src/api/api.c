@@ -11,6 +11,7 @@
 #include "base/generations.h"
 #include "base/numbers.h"
 #include "services/background.h"
+#include "services/collider_touches.h"
 #include "services/copy.h"
 #include "services/edit.h"
 #include "services/effective.h"
@@ -20,7 +21,6 @@
 #include "services/query.h"
 #include "services/readers.h"
 #include "services/registry.h"
-#include "services/touches.h"
 #include "step/step.h"
 #include "world/colliders.h"
 #include "world/keyed.h"
@@ -426,7 +426,7 @@ pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uin
     REQUIRE(count);
     if (capacity) REQUIRE_SIZE(pbmpm_touch, touches);
     HOLD(world);
-    LET_GO(touches_find(w, touches, capacity, count));
+    LET_GO(collider_touches_find(w, touches, capacity, count));
 }
 
 pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)

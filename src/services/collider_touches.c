@@ -1,4 +1,4 @@
-#include "services/touches.h"
+#include "services/collider_touches.h"
 
 #include <string.h>
 
@@ -6,14 +6,14 @@
 #include "services/query.h"
 
 /* Matter that rests on an obstacle has its particles a quarter of a cell from it and from each other, or a little more [cells]. */
-static const double TOUCHES = 0.5;
+static const double TOUCH_DISTANCE = 0.5;
 
 static bool bit(const uint64_t *bits, uint32_t slot) { return bits[slot / 64] >> slot % 64 & 1; }
 
 static pbmpm_result count_at(World *world, const Collider *collider, uint32_t counts[PBMPM_MAX_MATERIALS])
 {
     const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-    return query_materials(world, &solid, collider->def.sensor ? 0.0 : TOUCHES * (double)world->def.cell_size, counts);
+    return query_materials(world, &solid, collider->def.sensor ? 0.0 : TOUCH_DISTANCE * (double)world->def.cell_size, counts);
 }
 
 static pbmpm_touch touch_of(const World *world, uint32_t slot, uint32_t material, uint32_t particles)
@@ -47,7 +47,7 @@ static pbmpm_result look_at(World *world, uint32_t slot, pbmpm_touch *touches, u
 
 static bool reports(const Collider *collider) { return collider->generation != 0 && collider->def.reports_touches; }
 
-pbmpm_result touches_find(World *world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count)
+pbmpm_result collider_touches_find(World *world, pbmpm_touch *touches, uint32_t capacity, uint32_t *count)
 {
     Colliders *colliders = &world->colliders;
     pbmpm_result result = PBMPM_OK;
