@@ -39,7 +39,7 @@ static float bulk_of_liquid(const World *world, pbmpm_solver solver, const pbmpm
 static double share_of(const World *world, pbmpm_solver solver, const pbmpm_material_def *def, const StepContext *step)
 {
     if (solver == PBMPM_SOLVER_DUAL) return dual_stiffness_share(world, def, step);
-    return solver == PBMPM_SOLVER_CONVERGENT ? joint_stiffness_share(world, def, step) : 1.0;
+    return solver == SOLVER_JOINT ? joint_stiffness_share(world, def, step) : 1.0;
 }
 
 /* Solved by `solver`, among the particles that are counted now. */

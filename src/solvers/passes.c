@@ -10,7 +10,7 @@ enum { BLOCK_GRAIN = 2 };
 
 bool solver_uses_dual(const World *world)
 {
-    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == PBMPM_SOLVER_CONVERGENT;
+    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == SOLVER_JOINT;
 }
 
 bool solver_holds_liquid(const World *world)

@@ -30,7 +30,7 @@ static const SolverKind kinds[] = {
     [PBMPM_SOLVER_DUAL] = {dual_set_materials, dual_prepare, dual_solve},
     [PBMPM_SOLVER_PRIMAL] = {primal_set_materials, primal_prepare, primal_solve},
     [PBMPM_SOLVER_EXPLICIT] = {explicit_set_materials, explicit_prepare, explicit_solve},
-    [PBMPM_SOLVER_CONVERGENT] = {joint_set_materials, joint_prepare, joint_solve},
+    [SOLVER_JOINT] = {joint_set_materials, joint_prepare, joint_solve},
 };
 
 /* ---- Parameters of the substep ---- */
@@ -150,7 +150,7 @@ pbmpm_solver solver_for(const World *world, uint32_t matter)
 {
     if (matter & KIND_SAND) return granular_flows(world, matter) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     if (!(matter & KIND_LIQUID) || world->settings.iterations == 1) return PBMPM_SOLVER_PRIMAL;
-    return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_CONVERGENT;
+    return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : SOLVER_JOINT;
 }
 
 static pbmpm_solver chosen(const World *world)

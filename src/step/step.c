@@ -206,20 +206,20 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
-                               .apart = solver == PBMPM_SOLVER_CONVERGENT,
+                               .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
     if (result == PBMPM_OK) result = obstacle_cache_open(contacts, cache, &world->memory);
     if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = reach_find(contacts, world->materials.kernel, &world->memory);
+    if (result == PBMPM_OK && solver == SOLVER_JOINT) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;
     }
     if (result == PBMPM_OK) result = contacts_find(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = joint_find_contacts(world, contacts);
+    if (result == PBMPM_OK && solver == SOLVER_JOINT) result = joint_find_contacts(world, contacts);
     if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
     if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
         result = fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the open shares of %d blocks", world->grid.node_blocks);

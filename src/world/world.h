@@ -26,6 +26,9 @@
 #include "world/sinks.h"
 #include "world/sleep_list.h"
 
+/* In StepRecord.solver: the dual and the primal together. Statistics tell it by the number of the setting that leads to it. */
+#define SOLVER_JOINT PBMPM_SOLVER_CONVERGENT
+
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
     double ms_total, ms_sort, ms_scatter, ms_contacts, ms_iterate, ms_integrate;
