@@ -52,7 +52,7 @@ typedef struct ContactFrame {
     Colliders *colliders;
     const Grid *grid;
     double cell_size;
-    const StepContext *step;
+    const StepContext *substep;
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */

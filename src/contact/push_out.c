@@ -75,7 +75,7 @@ static void put_back(const ContactFrame *frame, const View *view, const Pushed *
     double point[3] = {0}, gained[3] = {0}, inward = 0.0;
     for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
     obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
-    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * frame->step->to_velocity) * normal[a];
+    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * frame->substep->to_velocity) * normal[a];
     particles_shift(p, row, way);
     particles_forget(p, row);
     const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);

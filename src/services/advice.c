@@ -13,7 +13,7 @@
 
 typedef struct Adviser {
     World *world;
-    StepContext step; /* that is asked about */
+    StepContext substep; /* that is asked about */
     Survey survey;
     pbmpm_advice *array;
     uint32_t capacity, count;
@@ -121,7 +121,7 @@ static bool any_solved_with(const World *world, pbmpm_solver solver)
 
 static pbmpm_effective held_of(const Adviser *adviser, uint32_t slot)
 {
-    return effective_modulus(adviser->world, slot, &adviser->step);
+    return effective_modulus(adviser->world, slot, &adviser->substep);
 }
 
 static pbmpm_material_id id_of(const World *world, uint32_t slot) { return (pbmpm_material_id){slot, world->materials.generation[slot]}; }
@@ -303,7 +303,7 @@ static void pool_too_deep(Adviser *adviser)
         const double depth = adviser->survey.heap[slot].depth;
         if (depth == 0.0 || !flows(def) || (solver != PBMPM_SOLVER_PAPER && solver != PBMPM_SOLVER_DUAL)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_TOO_DEEP, .material = id_of(world, slot)};
-        double figure = gravity_fall(world, &adviser->step) * depth, bound = DEEPEST;
+        double figure = gravity_fall(world, &adviser->substep) * depth, bound = DEEPEST;
         advice.text = "the pool is too deep for the rate: it is compressed by its weight";
         if (solver == PBMPM_SOLVER_PAPER) {
             const double bulk = (double)held_of(adviser, slot).bulk_modulus;
@@ -331,10 +331,10 @@ static const double STILL = 0.0015, STILL_3D = 0.0007, AROUND = 0.012, CALM_SPEE
 static void pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
-    const double cell_speed = (double)world->def.cell_size / adviser->step.substep_dt, few = fmax(1.0, CALM_ITERATIONS / world->settings.iterations);
+    const double cell_speed = (double)world->def.cell_size / adviser->substep.substep_dt, few = fmax(1.0, CALM_ITERATIONS / world->settings.iterations);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
-        const double fall = gravity_fall(world, &adviser->step) * adviser->survey.heap[slot].depth;
+        const double fall = gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].depth;
         const bool around = adviser->survey.obstructed;
         const double share = around || def->bulk_modulus > 0.0f ? AROUND : world->def.dimension == 2 ? STILL : STILL_3D;
         const double speed = share * few * fall * fall * cell_speed;
@@ -380,7 +380,7 @@ static double sand_figure(const Adviser *adviser, uint32_t slot, double *bound)
     const pbmpm_material_def *def = &world->materials.def[slot];
     const double cells = adviser->survey.heap[slot].depth, d = world->def.dimension;
     *bound = DEEPEST;
-    if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, &adviser->step) * cells;
+    if (solver_of(world, slot) == PBMPM_SOLVER_DUAL) return gravity_fall(world, &adviser->substep) * cells;
     const pbmpm_effective held = held_of(adviser, slot);
     const double shear = lame_of((double)held.young_modulus, (double)def->poisson_ratio).mu, wave = (double)held.bulk_modulus + 2.0 * (d - 1.0) / d * shear;
     *bound = UNSEEN;
@@ -408,7 +408,7 @@ static double landing(const Adviser *adviser, uint32_t slot, double drop)
 {
     const World *world = adviser->world;
     const double cell = (double)world->def.cell_size, speed = adviser->survey.heap[slot].speed;
-    return sqrt(speed * speed + 2.0 * gravity_strength(world) * drop * cell) * adviser->step.substep_dt / cell;
+    return sqrt(speed * speed + 2.0 * gravity_strength(world) * drop * cell) * adviser->substep.substep_dt / cell;
 }
 
 /* What lands in one piece is stopped within a substep, and crushed by its way in it (tests/field/run.py falls --settings 60x5,90x5,120x5,240x5). */
@@ -442,7 +442,7 @@ static double emitted_landing(const Adviser *adviser, uint32_t slot)
         const double from[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         const double far = PBMPM_MAX_CELL * cell, speed = (double)emitter->def.speed;
         const double way = fmin(way_to_obstacle(world, slot, from, along, far), way_to_wall(world, from, along, far));
-        if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->step.substep_dt / cell);
+        if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->substep.substep_dt / cell);
     }
     return fastest;
 }
@@ -460,7 +460,7 @@ static void sand_slides(Adviser *adviser)
         const Heap *heap = &adviser->survey.heap[slot];
         if (!present(world, slot) || world->materials.def[slot].kind != PBMPM_SAND) continue;
         const double drop = fmax(heap->drop_most, heap->steep > STEEP ? fmin(heap->slide, heap->depth) : 0.0);
-        const double cells = fmax(sqrt(2.0 * gravity_fall(world, &adviser->step) * drop), emitted_landing(adviser, slot)); /* v^2 = 2 g h */
+        const double cells = fmax(sqrt(2.0 * gravity_fall(world, &adviser->substep) * drop), emitted_landing(adviser, slot)); /* v^2 = 2 g h */
         if (cells <= 1.0) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_SAND_NOT_HELD, .material = id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
                                .text = "sand that slides or lands at more than a cell per substep comes to rest too flat, by up to ten degrees"};
@@ -520,7 +520,7 @@ static void bounce_damped(Adviser *adviser)
         const double radius = radius_of(adviser, slot);
         if (radius == 0.0 || def->kind != PBMPM_ELASTIC || solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
-        const double steps = contact_of(adviser, slot, speed) / adviser->step.substep_dt;
+        const double steps = contact_of(adviser, slot, speed) / adviser->substep.substep_dt;
         if (steps >= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)bound,
                                .text = "a contact lasts too few substeps for the dual solver: the body bounces less than its material would"};
@@ -544,9 +544,9 @@ static void hit_damped(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];
-        const bool fast = heap->speed * adviser->step.substep_dt > FAST * (double)world->def.cell_size;
+        const bool fast = heap->speed * adviser->substep.substep_dt > FAST * (double)world->def.cell_size;
         if (!fast || radius_of(adviser, slot) == 0.0 || world->materials.def[slot].kind != PBMPM_ELASTIC || solver_of(world, slot) != PBMPM_SOLVER_PRIMAL) continue;
-        const double steps = contact_of(adviser, slot, heap->speed) / adviser->step.substep_dt;
+        const double steps = contact_of(adviser, slot, heap->speed) / adviser->substep.substep_dt;
         if (steps >= BOUND || !solid_among_others(world, slot)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)BOUND,
                                .text = "bodies that hit each other stay together: their contact lasts too few substeps"};
@@ -687,7 +687,7 @@ static void step_too_long(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) speed = fmax(speed, adviser->survey.heap[slot].speed);
     for (uint32_t e = 0; e < world->emitters.used; e++)
         if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
-    const double cells = speed * adviser->step.substep_dt / (double)world->def.cell_size;
+    const double cells = speed * adviser->substep.substep_dt / (double)world->def.cell_size;
     if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
                            .text = "matter is faster than max_displacement allows: it is slowed"};
@@ -837,7 +837,7 @@ static void limits_of_sand(Adviser *adviser, uint32_t slot)
     static const double ROCKS = 0.02; /* rigid_on_sand: at 60 Hz 0.11, at 120 Hz 0.027; at 240 Hz, 0.007, the crate rests */
     const World *world = adviser->world;
     const Heap *heap = &adviser->survey.heap[slot];
-    const double substeps = world->settings.substeps, fall = gravity_fall(world, &adviser->step) * substeps * substeps; /* in a step: a rigid body moves once in it */
+    const double substeps = world->settings.substeps, fall = gravity_fall(world, &adviser->substep) * substeps * substeps; /* in a step: a rigid body moves once in it */
     if (any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
     if (any_rigid(world) && fall > ROCKS) tell_limit(adviser, slot, "a rigid body on sand rocks and sinks in: more steps per second hold it better, substeps hardly do");
     if (heap->steep > STEEP) tell_limit(adviser, slot, "sand starts to slide up to eight degrees too steep");
@@ -862,7 +862,7 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     const pbmpm_material_def *def = &world->materials.def[slot];
     const Heap *heap = &adviser->survey.heap[slot];
     const bool wet = any_present(world, PBMPM_LIQUID), loose = heap->on_matter && !any_sticks(world), falls = loose && heap->drop_least > FALLS; /* or it may hang */
-    if (any_present(world, PBMPM_SAND) && !dual_holds_solids(world, &adviser->step))
+    if (any_present(world, PBMPM_SAND) && !dual_holds_solids(world, &adviser->substep))
         tell_limit(adviser, slot, "a body as stiff as this springs back from sand, or stops a cell or two above it");
     else if (any_present(world, PBMPM_SAND) && falls)
         tell_limit(adviser, slot, "a body that falls on sand may stop a cell or two above it");
@@ -916,7 +916,7 @@ static const struct {
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
 {
-    Adviser adviser = {.world = world, .step = world_context(world, dt / world->settings.substeps), .array = array, .capacity = capacity};
+    Adviser adviser = {.world = world, .substep = world_context(world, dt / world->settings.substeps), .array = array, .capacity = capacity};
     const pbmpm_result result = survey_make(world, &adviser.survey);
     if (result != PBMPM_OK) return result;
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) rules[i].rule(&adviser);

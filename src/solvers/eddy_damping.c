@@ -102,7 +102,7 @@ static uint64_t particles_of_group(const World *world)
 }
 
 /* The share of a credit that is left after a substep. Matter falls through its depth in sqrt(2 depth / fall) substeps; without gravity never. */
-static double credit_kept(const World *world) { return exp(-0.5 * sqrt(gravity_fall(world, &world->step) / (2.0 * matter_depth(world)))); }
+static double credit_kept(const World *world) { return exp(-0.5 * sqrt(gravity_fall(world, &world->substep) / (2.0 * matter_depth(world)))); }
 
 double eddy_damping_settle(World *world, const EddyGains *gains)
 {

@@ -138,7 +138,7 @@ static void begin(World *world)
 {
     GranularState *state = &world->granular.of[islands_kinds(world)];
     if (granular_goes_on(world)) return;
-    const bool flows = dual_holds_solids(world, &world->step) && (double)measure_all(world).speed > FALLS * fall_of(world);
+    const bool flows = dual_holds_solids(world, &world->substep) && (double)measure_all(world).speed > FALLS * fall_of(world);
     const bool slept = state->judged > 0 && state->flowed == 0.0 && !flows;
     *state = (GranularState){.flowed = slept ? 0.0 : FORGETS, .judged = world->step_count + 1, .flows = flows};
 }
@@ -159,9 +159,9 @@ static void follow(World *world, GranularState *state, uint32_t kinds, bool rest
     const double fall = fall_of(world), speed = (double)all.speed;
     const bool whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
     if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, &world->step);
+        change_state(state, speed < SETTLES * fall && whole, false, &world->substep);
     else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->step);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->substep);
 }
 
 void granular_judge(World *world)
@@ -169,9 +169,9 @@ void granular_judge(World *world)
     if (!is_judged(world)) return;
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
-    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->step), rested = state->flowed == 0.0;
+    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->substep), rested = state->flowed == 0.0;
     if (!may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
-    state->flowed = dual || state->flows ? state->flowed + world->step.substep_dt : 0.0;
+    state->flowed = dual || state->flows ? state->flowed + world->substep.substep_dt : 0.0;
     if (may_flow && !dual) follow(world, state, kinds, rested);
 }

@@ -161,7 +161,7 @@ static void set_solids(World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID)
-            moduli_set_solid(world, slot, joint_stiffness_share(world, &world->materials.def[slot], &world->step));
+            moduli_set_solid(world, slot, joint_stiffness_share(world, &world->materials.def[slot], &world->substep));
 }
 
 static void begin_primal(World *world)

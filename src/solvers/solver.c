@@ -41,7 +41,7 @@ static const double CONTROL_SHARE = 0.2;
 
 static void set_volume_control(World *world)
 {
-    const double part = gravity_fall(world, &world->step) > 0.0 ? CONTROL_SHARE : 0.0;
+    const double part = gravity_fall(world, &world->substep) > 0.0 ? CONTROL_SHARE : 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
@@ -63,7 +63,7 @@ static void follow_iterations(World *world)
 {
     static const double GROWTH = 1.04; /* per substep */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->step, before) : GROWTH * before;
+    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->substep, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -78,7 +78,7 @@ void solver_bind(World *world, bool with_volume)
     Particles *p = &world->particles;
     Grid *grid = &world->grid;
     KernelArgs *a = &world->args;
-    const StepContext *step = &world->step;
+    const StepContext *step = &world->substep;
     const float calm_way = (float)(CALM_SPEED * step->substep_dt);
     *a = (KernelArgs){.volume_ratio = p->volume_ratio,
                       .mass = p->mass,

@@ -14,7 +14,7 @@ pbmpm_solver solver_for(const World *world, uint32_t matter);
 bool solver_may_want_volume(const World *world);
 bool solver_wants_volume(const World *world);
 
-/* Points the kernel arguments at the world's arrays, for substeps as in world->step. */
+/* Points the kernel arguments at the world's arrays, for substeps as in world->substep. */
 void solver_bind(World *world, bool with_volume);
 
 /* First P2G and predictor. */

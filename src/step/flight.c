@@ -35,7 +35,7 @@ static Motion motion_of(const Flight *flight, uint32_t row)
 {
     const World *world = flight->world;
     const Particles *p = &world->particles;
-    const StepContext *step = &world->step;
+    const StepContext *step = &world->substep;
     Motion motion = {0};
     for (int a = 0; a < p->dimension; a++) {
         const double d = ((double)p->velocity[a][row] + (double)world->settings.gravity[a] * step->substep_dt) * step->to_cells;

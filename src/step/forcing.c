@@ -99,7 +99,7 @@ typedef struct Felt {
 
 static void feel(const World *world, const Reaching *reaching, const double point[3], Felt *felt)
 {
-    const StepContext *step = &world->step;
+    const StepContext *step = &world->substep;
     felt->any = false;
     felt->total_drag = 0.0;
     for (int a = 0; a < 3; a++) felt->acceleration[a] = felt->wind[a] = 0.0;
@@ -151,7 +151,7 @@ typedef struct ForceJob {
 /* The displacement of a node in the predictor [cells], changed by what it feels; see pbmpm_force_def. `pull`: of gravity. */
 static void change_node(const ForceJob *job, const Felt *felt, float *u, double gained[3])
 {
-    const double drag = felt->total_drag, lost = -expm1(-drag), to_velocity = job->world->step.to_velocity, to_cells = 1.0 / to_velocity;
+    const double drag = felt->total_drag, lost = -expm1(-drag), to_velocity = job->world->substep.to_velocity, to_cells = 1.0 / to_velocity;
     for (int a = 0; a < job->world->def.dimension; a++) {
         const double pull = (double)job->world->args.gravity[a], before = (double)u[a];
         if (drag == 0.0) {

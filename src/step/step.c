@@ -199,9 +199,9 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     *contacts = (ContactFrame){.colliders = &world->colliders,
                                .grid = &world->grid,
                                .cell_size = cell_size,
-                               .step = &world->step,
+                               .substep = &world->substep,
                                .max_displacement = world->settings.max_displacement,
-                               .fall = gravity_fall(world, &world->step),
+                               .fall = gravity_fall(world, &world->substep),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
@@ -340,7 +340,7 @@ pbmpm_result world_step(World *world, float dt)
 {
     const double begin = now_ms();
     const int parts = world->settings.substeps;
-    world->step = world_context(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
+    world->substep = world_context(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
     impulses_clear(&world->colliders.impulses);
@@ -355,7 +355,7 @@ pbmpm_result world_step(World *world, float dt)
         if (result == PBMPM_OK) result = world->particles.count ? substep(world, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
         emitters_run(world, part);
-        world->simulated_seconds += world->step.substep_dt;
+        world->simulated_seconds += world->substep.substep_dt;
         world->record.substeps++;
     }
     colliders_end_step(&world->colliders);

@@ -172,7 +172,7 @@ typedef struct World {
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     Islands islands;
-    StepContext step; /* of the present step, or the last one */
+    StepContext substep; /* of the present substep, or the last one */
     KernelArgs args;
     DualState dual;
     GuessState guess;

@@ -31,7 +31,7 @@ static World *open_world(int dimension, float cell_size)
 
 static void bind_for(World *world, float dt, bool with_volume)
 {
-    world->step = world_context(world, (double)dt);
+    world->substep = world_context(world, (double)dt);
     solver_bind(world, with_volume);
 }
 

@@ -144,7 +144,7 @@ static void bind_cells(World *world)
     a->cell_pressure = cells + 3 * nodes;
     a->cell_pressure_old = cells + 4 * nodes;
     a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
-    a->settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->step) : 1.0f;
+    a->settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
     a->elastic_guesses = shares_world(world);
     a->cell_change2 = world->dual.cell_change2.data;
     a->cell_uphill = world->dual.cell_uphill.data;
@@ -161,7 +161,7 @@ static const double GROWTH_MAX = 0.3;
 static float growth_max(const World *world)
 {
     const double heavier = materials_density_contrast(&world->materials, &world->particles);
-    const double in_time = world->step.reference_steps * sqrt(heavier), iterations = (double)world->settings.iterations;
+    const double in_time = world->substep.reference_steps * sqrt(heavier), iterations = (double)world->settings.iterations;
     return (float)(GROWTH_MAX * fmin(1.0, fmax(in_time, 1.0 / (iterations * iterations))));
 }
 
@@ -319,7 +319,7 @@ static int sand_rounds(const World *world)
 {
     static const double CELLS_PER_ITERATION = 4.0;
     if (!solver_holds_sand(world)) return 0;
-    const double wanted = ceil(matter_depth(world) * world->step.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
+    const double wanted = ceil(matter_depth(world) * world->substep.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
     return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
 }
 
@@ -390,7 +390,7 @@ void dual_set_solids(World *world)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0 || material->kind == K_LIQUID) continue;
-        moduli_set_solid(world, slot, dual_stiffness_cap(world, def, &world->step));
+        moduli_set_solid(world, slot, dual_stiffness_cap(world, def, &world->substep));
         material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
     }
 }
@@ -405,7 +405,7 @@ void dual_set_materials(World *world)
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->step), 1e30);
+        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->substep), 1e30);
     }
 }
 

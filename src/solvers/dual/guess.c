@@ -56,9 +56,9 @@ static const float GUESS_GROWTH_MAX = 0.05f;
  * iterations after the guess ask for the rest. */
 static GuessAsked asked_of(const World *world)
 {
-    const double fall = gravity_fall(world, &world->step);
+    const double fall = gravity_fall(world, &world->substep);
     const bool gives_way = materials_density_contrast(&world->materials, &world->particles) > 1.0 && fall > 0.0;
-    return (GuessAsked){fminf(1.0f, (float)world->step.reference_steps), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
+    return (GuessAsked){fminf(1.0f, (float)world->substep.reference_steps), gives_way ? (float)(fall / matter_depth(world)) : FLT_MAX};
 }
 
 /* The arrays of the conjugate gradients, one value per cell, and the numbers of an iteration. */

@@ -52,11 +52,11 @@ static void bind_couples(Primal *p)
 
 void primal_set_materials(World *world)
 {
-    moduli_set(world, primal_liquid_dilation(world, &world->step));
+    moduli_set(world, primal_liquid_dilation(world, &world->substep));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
-        if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->step));
+        if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->substep));
     }
 }
 
@@ -635,7 +635,7 @@ static void find_friction(Primal *p)
 {
     PrimalState *state = &p->world->primal;
     BodyFriction *body = state->friction.data;
-    p->slip_min = constraints_slip_min(&p->world->step);
+    p->slip_min = constraints_slip_min(&p->world->substep);
     p->rubs = constraints_have_friction(p->contacts);
     if (!p->rubs) return;
     for (int32_t i = 0; i < state->bodies.count; i++) body[i].groups = 0;

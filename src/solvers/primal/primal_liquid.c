@@ -183,7 +183,7 @@ static void calm_block(World *world, const BodySum *body, int32_t block)
 {
     const uint32_t *begin = world->grid.block_begin.data;
     Particles *particles = &world->particles;
-    const float to_cells = (float)world->step.substep_dt * (float)world->step.cells_per_metre;
+    const float to_cells = (float)world->substep.substep_dt * (float)world->substep.cells_per_metre;
     for (int a = 0; a < particles->dimension; a++) {
         for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
             particles->velocity[a][row] = kept_of(body, a, particles->velocity[a][row] * to_cells) / to_cells;
