@@ -271,8 +271,8 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
-    const StepContext step = world_context(w, (double)dt / w->settings.substeps);
-    const pbmpm_effective found = effective_modulus(w, material.index, &step);
+    const Substep substep = world_substep(w, (double)dt / w->settings.substeps);
+    const pbmpm_effective found = effective_modulus(w, material.index, &substep);
     WRITE(pbmpm_effective, effective, &found);
     LET_GO(PBMPM_OK);
 }

@@ -128,7 +128,7 @@ static float slip_of(const Contact *contact, const float *u, float slip[3])
 /* Friction over slip. */
 static float rub_of(const Contact *contact, float length, float least) { return contact->limit / fmaxf(length, least); }
 
-float constraints_slip_min(const StepContext *step) { return SLIP_MIN * (float)step->reference_steps; }
+float constraints_slip_min(const Substep *substep) { return SLIP_MIN * (float)substep->reference_steps; }
 
 float constraints_friction_stiffness(const Contact *contact, const float *u, float least)
 {

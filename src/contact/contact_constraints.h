@@ -39,7 +39,7 @@ typedef struct BodyFriction {
 } BodyFriction;
 
 /* The least slip of a substep [cells]. */
-float constraints_slip_min(const StepContext *step);
+float constraints_slip_min(const Substep *substep);
 
 bool constraints_have_friction(const ContactFrame *frame);
 

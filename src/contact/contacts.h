@@ -2,7 +2,7 @@
 #ifndef PBMPM_SRC_CONTACT_CONTACTS_H
 #define PBMPM_SRC_CONTACT_CONTACTS_H
 
-#include "base/step_context.h"
+#include "base/substep.h"
 #include "contact/impulses.h"
 #include "contact/obstacles.h"
 #include "grid/grid.h"
@@ -52,7 +52,7 @@ typedef struct ContactFrame {
     Colliders *colliders;
     const Grid *grid;
     double cell_size;
-    const StepContext *substep;
+    const Substep *substep;
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */

@@ -13,7 +13,7 @@
 
 typedef struct Adviser {
     World *world;
-    StepContext substep; /* that is asked about */
+    Substep substep; /* that is asked about */
     Survey survey;
     pbmpm_advice *array;
     uint32_t capacity, count;
@@ -331,7 +331,7 @@ static const double STILL = 0.0015, STILL_3D = 0.0007, AROUND = 0.012, CALM_SPEE
 static void pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
-    const double cell_speed = (double)world->def.cell_size / adviser->substep.substep_dt, few = fmax(1.0, CALM_ITERATIONS / world->settings.iterations);
+    const double cell_speed = (double)world->def.cell_size / adviser->substep.dt, few = fmax(1.0, CALM_ITERATIONS / world->settings.iterations);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         const double fall = gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].depth;
@@ -408,7 +408,7 @@ static double landing(const Adviser *adviser, uint32_t slot, double drop)
 {
     const World *world = adviser->world;
     const double cell = (double)world->def.cell_size, speed = adviser->survey.heap[slot].speed;
-    return sqrt(speed * speed + 2.0 * gravity_strength(world) * drop * cell) * adviser->substep.substep_dt / cell;
+    return sqrt(speed * speed + 2.0 * gravity_strength(world) * drop * cell) * adviser->substep.dt / cell;
 }
 
 /* What lands in one piece is stopped within a substep, and crushed by its way in it (tests/field/run.py falls --settings 60x5,90x5,120x5,240x5). */
@@ -442,7 +442,7 @@ static double emitted_landing(const Adviser *adviser, uint32_t slot)
         const double from[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         const double far = PBMPM_MAX_CELL * cell, speed = (double)emitter->def.speed;
         const double way = fmin(way_to_obstacle(world, slot, from, along, far), way_to_wall(world, from, along, far));
-        if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->substep.substep_dt / cell);
+        if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->substep.dt / cell);
     }
     return fastest;
 }
@@ -520,7 +520,7 @@ static void bounce_damped(Adviser *adviser)
         const double radius = radius_of(adviser, slot);
         if (radius == 0.0 || def->kind != PBMPM_ELASTIC || solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
         const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
-        const double steps = contact_of(adviser, slot, speed) / adviser->substep.substep_dt;
+        const double steps = contact_of(adviser, slot, speed) / adviser->substep.dt;
         if (steps >= bound) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)bound,
                                .text = "a contact lasts too few substeps for the dual solver: the body bounces less than its material would"};
@@ -544,9 +544,9 @@ static void hit_damped(Adviser *adviser)
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];
-        const bool fast = heap->speed * adviser->substep.substep_dt > FAST * (double)world->def.cell_size;
+        const bool fast = heap->speed * adviser->substep.dt > FAST * (double)world->def.cell_size;
         if (!fast || radius_of(adviser, slot) == 0.0 || world->materials.def[slot].kind != PBMPM_ELASTIC || solver_of(world, slot) != PBMPM_SOLVER_PRIMAL) continue;
-        const double steps = contact_of(adviser, slot, heap->speed) / adviser->substep.substep_dt;
+        const double steps = contact_of(adviser, slot, heap->speed) / adviser->substep.dt;
         if (steps >= BOUND || !solid_among_others(world, slot)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = id_of(world, slot), .figure = (float)steps, .bound = (float)BOUND,
                                .text = "bodies that hit each other stay together: their contact lasts too few substeps"};
@@ -687,7 +687,7 @@ static void step_too_long(Adviser *adviser)
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) speed = fmax(speed, adviser->survey.heap[slot].speed);
     for (uint32_t e = 0; e < world->emitters.used; e++)
         if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
-    const double cells = speed * adviser->substep.substep_dt / (double)world->def.cell_size;
+    const double cells = speed * adviser->substep.dt / (double)world->def.cell_size;
     if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
                            .text = "matter is faster than max_displacement allows: it is slowed"};
@@ -916,7 +916,7 @@ static const struct {
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)
 {
-    Adviser adviser = {.world = world, .substep = world_context(world, dt / world->settings.substeps), .array = array, .capacity = capacity};
+    Adviser adviser = {.world = world, .substep = world_substep(world, dt / world->settings.substeps), .array = array, .capacity = capacity};
     const pbmpm_result result = survey_make(world, &adviser.survey);
     if (result != PBMPM_OK) return result;
     for (size_t i = 0; i < sizeof rules / sizeof *rules; i++) rules[i].rule(&adviser);

@@ -5,6 +5,6 @@
 #include "world/world.h"
 
 /* Of a live material in such a substep. With PBMPM_SOLVER_CONVERGENT it looks where the particles are. */
-pbmpm_effective effective_modulus(World *world, uint32_t slot, const StepContext *step);
+pbmpm_effective effective_modulus(World *world, uint32_t slot, const Substep *substep);
 
 #endif

@@ -91,9 +91,9 @@ void granular_bind(World *world)
 }
 
 /* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */
-static void change_state(GranularState *state, bool leaves, bool at_once, const StepContext *step)
+static void change_state(GranularState *state, bool leaves, bool at_once, const Substep *substep)
 {
-    state->seconds = fmax(0.0, state->seconds + (leaves ? step->substep_dt : -step->substep_dt));
+    state->seconds = fmax(0.0, state->seconds + (leaves ? substep->dt : -substep->dt));
     if (!at_once && state->seconds < SLOW) return;
     state->flows = !state->flows;
     state->seconds = 0.0;
@@ -172,6 +172,6 @@ void granular_judge(World *world)
     const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->substep), rested = state->flowed == 0.0;
     if (!may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
-    state->flowed = dual || state->flows ? state->flowed + world->substep.substep_dt : 0.0;
+    state->flowed = dual || state->flows ? state->flowed + world->substep.dt : 0.0;
     if (may_flow && !dual) follow(world, state, kinds, rested);
 }

@@ -21,10 +21,10 @@ static const double STIFFEST = 64.0;
  * A block of 2000 kg/m^3 below 40 cells of 2 cm keeps it at 0.10 m/s at 60 Hz x 5, as the dual alone does; with 1 at 0.44. With 16 blocks sink by a fifth more slowly. */
 static const float HELD = 4.0f;
 
-double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
     const double n = (double)world->settings.iterations;
-    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(def, step));
+    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(def, substep));
 }
 
 void joint_set_materials(World *world) { dual_set_materials(world); }

@@ -6,9 +6,9 @@
 #include "solvers/plastic.h"
 #include "solvers/viscosity.h"
 
-double moduli_unit(const pbmpm_material_def *def, const StepContext *step)
+double moduli_unit(const pbmpm_material_def *def, const Substep *substep)
 {
-    return 4.0 * step->to_cells * step->to_cells / (double)def->density;
+    return 4.0 * substep->to_cells * substep->to_cells / (double)def->density;
 }
 
 static void set_liquid(World *world, uint32_t slot, float stiffest)
@@ -24,10 +24,10 @@ static void set_liquid(World *world, uint32_t slot, float stiffest)
     material->viscous_share = (float)viscosity_share(world, def);
 }
 
-double moduli_sand_share(const pbmpm_material_def *def, const StepContext *step)
+double moduli_sand_share(const pbmpm_material_def *def, const Substep *substep)
 {
     static const double STIFFEST_SHEAR = 1e4;
-    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(def, step) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
+    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(def, substep) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
 }
 
 void moduli_set_solid(World *world, uint32_t slot, double share)

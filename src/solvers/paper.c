@@ -67,7 +67,7 @@ static double pressure_head(double weight, const LiquidState *liquid) { return 3
 static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight)
 {
     const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
-    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->substep.substep_dt / (double)world->def.cell_size;
+    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->substep.dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
@@ -108,16 +108,16 @@ static float even_share(const World *world, const KernelMaterial *material)
  * once, and a constant dt is not touched. */
 static float softening_of_step(World *world)
 {
-    const double dt = world->substep.substep_dt;
+    const double dt = world->substep.dt;
     world->slow_dt = fmax(dt, 0.8 * world->slow_dt);
     const double ratio = dt / world->slow_dt;
     return (float)(ratio * ratio);
 }
 
-double paper_viscous_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
     const double dx = (double)world->def.cell_size;
-    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * step->substep_dt / (world->settings.iterations * dx * dx), 1.0);
+    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * substep->dt / (world->settings.iterations * dx * dx), 1.0);
 }
 
 /* Without gravity nothing brings spray back, so crushed matter grows slowly. */

@@ -43,7 +43,7 @@ float solver_feedback_share(const World *world, const pbmpm_material_def *def)
 
 double solver_joule(const World *world)
 {
-    const double cells = world->substep.substep_dt * (double)(float)world->substep.cells_per_metre;
+    const double cells = world->substep.dt * (double)(float)world->substep.cells_per_metre;
     return 1.0 / (cells * cells);
 }
 

@@ -78,8 +78,8 @@ void solver_bind(World *world, bool with_volume)
     Particles *p = &world->particles;
     Grid *grid = &world->grid;
     KernelArgs *a = &world->args;
-    const StepContext *step = &world->substep;
-    const float calm_way = (float)(CALM_SPEED * step->substep_dt);
+    const Substep *substep = &world->substep;
+    const float calm_way = (float)(CALM_SPEED * substep->dt);
     *a = (KernelArgs){.volume_ratio = p->volume_ratio,
                       .mass = p->mass,
                       .identity = (const uint32_t *)(const void *)p->id,
@@ -107,8 +107,8 @@ void solver_bind(World *world, bool with_volume)
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
-                      .dt = (float)step->substep_dt,
-                      .cells_per_metre = (float)step->cells_per_metre,
+                      .dt = (float)substep->dt,
+                      .cells_per_metre = (float)substep->cells_per_metre,
                       .max_displacement = world->settings.max_displacement,
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
@@ -124,7 +124,7 @@ void solver_bind(World *world, bool with_volume)
     multistep_bind(world);
     granular_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
-        const double pull = (double)world->settings.gravity[k] * step->substep_dt * step->substep_dt * step->cells_per_metre;
+        const double pull = (double)world->settings.gravity[k] * substep->dt * substep->dt * substep->cells_per_metre;
         a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
     }
 }

@@ -10,7 +10,7 @@ double viscosity_share(const World *world, const pbmpm_material_def *def)
 {
     const double dx = (double)world->def.cell_size;
     const double most = 0.5 * (VISCOUS_STAGES_MAX * VISCOUS_STAGES_MAX + VISCOUS_STAGES_MAX);
-    return fmin(8.0 * (double)def->kinematic_viscosity * world->substep.substep_dt / (dx * dx), most);
+    return fmin(8.0 * (double)def->kinematic_viscosity * world->substep.dt / (dx * dx), most);
 }
 
 static bool wanted(const World *world)

@@ -189,7 +189,7 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
 /* The nodes that particles which appear in this part can touch: in the domain, and as far out of it as to see that its walls are closed. */
 static Occupancy occupancy_bounds(const World *world, const Emitter *emitter, int part)
 {
-    const double dx = (double)world->def.cell_size, dt = world->substep.substep_dt, parts = world->settings.substeps;
+    const double dx = (double)world->def.cell_size, dt = world->substep.dt, parts = world->settings.substeps;
     double gravity2 = 0.0;
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double way = ((double)emitter->def.speed + sqrt(gravity2) * dt) * dt / dx;
@@ -277,7 +277,7 @@ static bool emit_particle(World *world, Emitter *emitter, Occupancy *occupancy, 
 /* Particles that come due in a part of a step, counted as far as anybody can. */
 static double count_due(const World *world, const Emitter *emitter)
 {
-    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * world->substep.substep_dt), 1e15);
+    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * world->substep.dt), 1e15);
 }
 
 static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused, int part)
@@ -295,7 +295,7 @@ static void emit(World *world, Emitter *emitter, Occupancy *occupancy, uint64_t 
 {
     EmitterState *state = &emitter->state;
     const EmitterState before = *state;
-    const double rate = particle_rate(world, &emitter->def), dt = world->substep.substep_dt, parts = world->settings.substeps;
+    const double rate = particle_rate(world, &emitter->def), dt = world->substep.dt, parts = world->settings.substeps;
     const double spacing = (double)world->def.cell_size / (double)emitter->def.particles_per_axis;
     const uint32_t generation = generation_next_of_particles();
     const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
@@ -363,7 +363,7 @@ void emitters_run(World *world, int part)
             occupancy_measure(world, &occupancy);
             emit(world, emitter, &occupancy, (uint64_t)due, part);
         }
-        const double total = emitter->state.due + particle_rate(world, &emitter->def) * world->substep.substep_dt;
+        const double total = emitter->state.due + particle_rate(world, &emitter->def) * world->substep.dt;
         emitter->state.due = total - floor(total);
     }
 }

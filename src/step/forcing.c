@@ -72,10 +72,10 @@ static void wind_at(const Force *force, const double point[3], double out[3])
 }
 
 /* k dt. Infinity is 1e9: what is left of a velocity is then 0, and of an acceleration a billionth. */
-static double drag_at(const Force *force, double share, const StepContext *step)
+static double drag_at(const Force *force, double share, const Substep *substep)
 {
     const double rate = force->def.kind == PBMPM_FORCE_DRAG ? (double)force->def.strength * share : -REFERENCE_RATE * log1p(-share);
-    return fmin(rate * step->substep_dt, 1e9);
+    return fmin(rate * substep->dt, 1e9);
 }
 
 /* ---- At a node ---- */
@@ -99,7 +99,7 @@ typedef struct Felt {
 
 static void feel(const World *world, const Reaching *reaching, const double point[3], Felt *felt)
 {
-    const StepContext *step = &world->substep;
+    const Substep *substep = &world->substep;
     felt->any = false;
     felt->total_drag = 0.0;
     for (int a = 0; a < 3; a++) felt->acceleration[a] = felt->wind[a] = 0.0;
@@ -111,13 +111,13 @@ static void feel(const World *world, const Reaching *reaching, const double poin
         felt->any = true;
         if (is_drag(&force->def)) {
             wind_at(force, point, felt->change[i]);
-            felt->drag[i] = drag_at(force, share, step);
+            felt->drag[i] = drag_at(force, share, substep);
             felt->total_drag += felt->drag[i];
             for (int a = 0; a < 3; a++) felt->wind[a] += felt->drag[i] * felt->change[i][a];
             continue;
         }
         acceleration_at(force, point, share, (double)world->def.cell_size, felt->change[i]);
-        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= step->substep_dt;
+        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= substep->dt;
     }
     for (int a = 0; a < 3 && felt->total_drag > 0.0; a++) felt->wind[a] /= felt->total_drag;
 }

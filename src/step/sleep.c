@@ -14,7 +14,7 @@
 
 void sleep_begin_step(World *world)
 {
-    const double dt = world->substep.substep_dt;
+    const double dt = world->substep.dt;
     Sleep *sleep = &world->sleep;
     static const double SAME = 1.1; /* factor between lengths of substeps with which matter at rest stays at rest */
     if (!world->settings.sleeping) {
@@ -147,7 +147,7 @@ static void fall_asleep(const Decision *d, uint32_t blocks)
     for (uint32_t f = 0; f < blocks; f++) {
         SleepBlock *block = &d->next[f];
         if (block->stage != SLEEP_AWAKE) continue;
-        block->quiet = is_quiet_around(d, block) ? block->quiet + (float)d->world->substep.substep_dt : 0.0f;
+        block->quiet = is_quiet_around(d, block) ? block->quiet + (float)d->world->substep.dt : 0.0f;
         if (!(block->quiet > d->world->settings.sleep_time) || sleep_is_measured(d->world, block->place)) continue;
         block->stage = SLEEP_DROWSY;
         block->moved = 1;
@@ -372,7 +372,7 @@ static bool would_move(const World *world, SleepBlock *block, const float *drift
     const double mass = fmax((double)drift[0], FLT_MIN);
     double gained2 = 0.0;
     for (int a = 0; a < 3; a++) {
-        block->gained[a] = (float)((double)block->gained[a] * exp(-world->substep.substep_dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
+        block->gained[a] = (float)((double)block->gained[a] * exp(-world->substep.dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
         gained2 += (double)block->gained[a] * (double)block->gained[a];
     }
     const double fastest = sqrt((double)drift[4]) * to_velocity;

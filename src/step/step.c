@@ -340,7 +340,7 @@ pbmpm_result world_step(World *world, float dt)
 {
     const double begin = now_ms();
     const int parts = world->settings.substeps;
-    world->substep = world_context(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
+    world->substep = world_substep(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
     impulses_clear(&world->colliders.impulses);
@@ -355,7 +355,7 @@ pbmpm_result world_step(World *world, float dt)
         if (result == PBMPM_OK) result = world->particles.count ? substep(world, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
         emitters_run(world, part);
-        world->simulated_seconds += world->substep.substep_dt;
+        world->simulated_seconds += world->substep.dt;
         world->record.substeps++;
     }
     colliders_end_step(&world->colliders);

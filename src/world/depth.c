@@ -90,9 +90,9 @@ double gravity_strength(const World *world)
     return sqrt(square);
 }
 
-double gravity_fall(const World *world, const StepContext *step)
+double gravity_fall(const World *world, const Substep *substep)
 {
-    return gravity_strength(world) * step->substep_dt * step->substep_dt / (double)world->def.cell_size;
+    return gravity_strength(world) * substep->dt * substep->dt / (double)world->def.cell_size;
 }
 
 double matter_depth(const World *world)

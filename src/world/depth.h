@@ -22,6 +22,6 @@ double slowest_pressure(const World *world);
 double gravity_strength(const World *world);
 
 /* What gravity moves matter by in a substep: |g| dt^2 / dx [cells]. */
-double gravity_fall(const World *world, const StepContext *step);
+double gravity_fall(const World *world, const Substep *substep);
 
 #endif

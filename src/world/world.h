@@ -7,7 +7,7 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
-#include "base/step_context.h"
+#include "base/substep.h"
 #include "contact/obstacle_cache.h"
 #include "contact/walls.h"
 #include "grid/bodies.h"
@@ -172,7 +172,7 @@ typedef struct World {
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     Islands islands;
-    StepContext substep; /* of the present substep, or the last one */
+    Substep substep; /* of the present substep, or the last one */
     KernelArgs args;
     DualState dual;
     GuessState guess;
@@ -223,7 +223,7 @@ static inline double world_cell_volume(const World *world)
 }
 
 /* Of substeps of so many seconds. */
-static inline StepContext world_context(const World *world, double substep_dt) { return step_context(substep_dt, (double)world->def.cell_size); }
+static inline Substep world_substep(const World *world, double dt) { return substep_of(dt, (double)world->def.cell_size); }
 
 /* To be called before the first particle of a live material is added; does nothing the second time. */
 pbmpm_result world_make_room_for(World *world, uint32_t material);

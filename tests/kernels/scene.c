@@ -241,7 +241,7 @@ void scene_bind(Scene *scene, bool check_strain)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
     world->strain_unchecked = check_strain;
-    world->substep = world_context(world, (double)TIME_STEP);
+    world->substep = world_substep(world, (double)TIME_STEP);
     solver_bind(world, with_volume);
     if (world->record.solver == PBMPM_SOLVER_PAPER) set_materials(scene);
     for (int32_t block = 0; with_volume && block < world->grid.node_blocks; block++) ((uint32_t *)world->grid.edged.data)[block] = scene->step.edged;

@@ -147,7 +147,7 @@ typedef struct Setting {
     Grid grid;
     Colliders colliders;
     Domain domain;
-    StepContext substep;
+    Substep substep;
     ContactFrame frame;
 } Setting;
 
@@ -168,7 +168,7 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
     const pbmpm_world_def def = world_def_defaults();
     s->domain = domain_of(&def);
-    s->substep = step_context((double)0.01f, CELL_SIZE);
+    s->substep = substep_of((double)0.01f, CELL_SIZE);
     s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .substep = &s->substep, .max_displacement = LIMIT};
 }
 

@@ -154,7 +154,7 @@ static void test_rates_of_emitters(void)
 static void predict(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
-    world->substep = world_context(world, (double)0.01f);
+    world->substep = world_substep(world, (double)0.01f);
     solver_bind(world, false);
     solver_predict(world);
 }

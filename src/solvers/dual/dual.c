@@ -409,18 +409,18 @@ void dual_set_materials(World *world)
     }
 }
 
-double dual_stiffness_of(const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_of(const pbmpm_material_def *def, const Substep *substep)
 {
     const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
-    return moduli_unit(def, step) * (2.0 * lame.mu + lame.lambda);
+    return moduli_unit(def, substep) * (2.0 * lame.mu + lame.lambda);
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
-double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step);
-    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, substep);
+    const double stiffness = dual_stiffness_of(def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
@@ -431,9 +431,9 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, c
  * pressure there is 4 g dt^2/dx per cell of depth. */
 static const double WEIGHT_STRAIN = 0.05;
 
-static double weight_stiffness(const World *world, const StepContext *step)
+static double weight_stiffness(const World *world, const Substep *substep)
 {
-    const double fall = gravity_fall(world, step);
+    const double fall = gravity_fall(world, substep);
     return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
@@ -441,10 +441,10 @@ static double weight_stiffness(const World *world, const StepContext *step)
  * the iterations do not hold is crushed by as much at once, unevenly, and its particles go on holding strains against each other (J 0.2 off the mean). The
  * stiffer they are held, the higher the body stands once iterations rise: asked for 5 at 15 Hz x 10 by 2 to 10 % of the energy it fell with (cells of 0.2 m,
  * eight seedings), asked for 2.5 by 0.6 % at most. */
-static double asked_per_iteration(const World *world, const StepContext *step)
+static double asked_per_iteration(const World *world, const Substep *substep)
 {
     static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
-    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, step), SHORT_FALL));
+    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
 }
 
 /* A single iteration lets no particle answer another. */
@@ -459,10 +459,10 @@ static double most_asked(double each, double iterations)
  * E. Lifshitz, Mechanics, 1976, section 49), the root of M: by exp(1/6) per swing. Backward Euler takes from it the share (2 pi / T)^2 per substep of the T that a
  * swing has, exp(-4 pi^2 / T) per swing, which is exp(-1/4) at n = 1, T = 160, and more from there on. In one swing it would grow by exp(1/2), in two by as
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
-double dual_stiffened(const World *world, const StepContext *step, double iterations)
+double dual_stiffened(const World *world, const Substep *substep, double iterations)
 {
     static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0;
-    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, step);
+    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, substep);
     const double risen = fmax(root * root, most_asked(each, iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
     const double for_weight = risen / each; /* n (n - 1) up to n = 2, n from there on */
     return fmin(DUAL_ITERATIONS_PER_ROOT * sqrt(risen), for_weight < 2.0 ? 0.5 + sqrt(0.25 + for_weight) : for_weight);
@@ -471,24 +471,24 @@ double dual_stiffened(const World *world, const StepContext *step, double iterat
 /* Of solids among liquids or sand, by so many iterations. */
 static double shared_stiffness_cap(double iterations, double stiffness) { return fmin(1.0, 16.0 * iterations * iterations / stiffness); }
 
-bool dual_holds_solids(const World *world, const StepContext *step)
+bool dual_holds_solids(const World *world, const Substep *substep)
 {
     bool held = true;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (world->particles.of_material[slot] == 0 || !material_is_solid(&world->materials, slot) || def->kind == PBMPM_SAND) continue;
-        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(def, step)) == 1.0;
+        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(def, substep)) == 1.0;
     }
     return held;
 }
 
-double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
-    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step); /* it remembers what it bears, not strain: see ispc/granular.isph */
+    const double stiffness = dual_stiffness_of(def, substep), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
     if (shares_world(world)) return shared_stiffness_cap(iterations, stiffness);
-    const double share = dual_stiffness_share(world, def, step);
+    const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;
-    const double asked = most_asked(asked_per_iteration(world, step), iterations);
-    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, step), asked) / stiffness));
+    const double asked = most_asked(asked_per_iteration(world, substep), iterations);
+    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, substep), asked) / stiffness));
 }

@@ -40,7 +40,7 @@ static inline float primal_stiffest(int iterations) { return 0.25f * (float)iter
 bool primal_is_mixed(const World *world);
 
 /* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
-float primal_liquid_dilation(const World *world, const StepContext *step);
+float primal_liquid_dilation(const World *world, const Substep *substep);
 
 /* What the kernels need to know of materials. */
 void primal_set_materials(World *world);

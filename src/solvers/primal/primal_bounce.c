@@ -74,7 +74,7 @@ void primal_find_bounces(Primal *p)
 
 double primal_fastest(const World *world)
 {
-    return (double)world->settings.max_displacement * (double)world->def.cell_size / world->substep.substep_dt;
+    return (double)world->settings.max_displacement * (double)world->def.cell_size / world->substep.dt;
 }
 
 /* a q^2 + 2 b q = limit^2 - v^2, the larger root. */
@@ -150,7 +150,7 @@ static void each_velocity(World *world, int32_t begin, int32_t end, bool keep)
     const int32_t *of_block = world->primal.bodies.of_block.data;
     const uint32_t *rows = world->grid.block_begin.data;
     Particles *p = &world->particles;
-    const float fall = (float)world->substep.substep_dt;
+    const float fall = (float)world->substep.dt;
     for (int32_t block = begin; block < end; block++) {
         const float bounce = (float)bodies[of_block[block]].bounce;
         if (bounce == 0.0f || sleep_is_still(world, block)) continue;

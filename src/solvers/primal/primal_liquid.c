@@ -32,9 +32,9 @@ bool primal_is_mixed(const World *world)
 }
 
 /* c K with K = rho g H / WEIGHT_SQUEEZES and c = 4 dt^2 / (dx^2 rho), or what the iterations hold in any liquid. */
-float primal_liquid_dilation(const World *world, const StepContext *step)
+float primal_liquid_dilation(const World *world, const Substep *substep)
 {
-    const double fall = gravity_fall(world, step);
+    const double fall = gravity_fall(world, substep);
     const double weight = fall > 0.0 && solver_holds_liquid(world) ? 4.0 * fall * liquid_depth(world) / WEIGHT_SQUEEZES : 0.0;
     return fmaxf(primal_stiffest(world->settings.iterations), (float)fmin(weight, 1e30));
 }
@@ -183,7 +183,7 @@ static void calm_block(World *world, const BodySum *body, int32_t block)
 {
     const uint32_t *begin = world->grid.block_begin.data;
     Particles *particles = &world->particles;
-    const float to_cells = (float)world->substep.substep_dt * (float)world->substep.cells_per_metre;
+    const float to_cells = (float)world->substep.dt * (float)world->substep.cells_per_metre;
     for (int a = 0; a < particles->dimension; a++) {
         for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
             particles->velocity[a][row] = kept_of(body, a, particles->velocity[a][row] * to_cells) / to_cells;
