@@ -24,7 +24,7 @@ static void add_product(float m[6], double scale, const double a[3])
 static void invert(const float m[6], float out[6])
 {
     static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
-    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) {
+    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) { /* for speed: walls along the axes give diagonals, whose inverse by the same law is this */
         const float least_of_all = (float)LEAST * fmaxf(m[0] + m[3] + m[5], 0.0f);
         for (int k = 0; k < 6; k++) out[k] = (k == 0 || k == 3 || k == 5) && m[k] > least_of_all ? 1.0f / m[k] : 0.0f;
         return;
@@ -69,8 +69,6 @@ static void invert(const float m[6], float out[6])
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
 }
-
-static Columns columns_of(const float m[6]) { return (Columns){{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}; }
 
 /* ---- Geometry ---- */
 
@@ -423,7 +421,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     }
     if (!found) return;
     node->entry = b->walls->entries++;
-    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){columns_of(matrix), index, corner_begin, b->walls->corners};
+    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
 }
 
 /* The density is mirrored in each face by its share. */
@@ -595,7 +593,7 @@ static void list_motion(Walls *walls, uint32_t i, int dimension)
     if (own == OWN_NONE && node->link_begin == node->link_moving) return;
     float inverse[6];
     invert(node->lump, inverse);
-    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){columns_of(inverse), i, node->link_begin, node->link_moving};
+    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){symmetric_columns(inverse), i, node->link_begin, node->link_moving};
 }
 
 /* M = sum m W A^2, what a node has itself included. */

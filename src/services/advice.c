@@ -143,9 +143,8 @@ static void no_gravity(Adviser *adviser)
 /* Whether an obstacle stands below a point. */
 static bool lands(const World *world, uint32_t material, const double from[3])
 {
-    const double strength = gravity_strength(world);
-    double along[3] = {0};
-    for (int a = 0; a < world->def.dimension; a++) along[a] = (double)world->settings.gravity[a] / strength;
+    double along[3];
+    gravity_direction(world, along);
     return way_to_obstacle(world, material, from, along, PBMPM_MAX_CELL * (double)world->def.cell_size) < INFINITY;
 }
 
@@ -433,9 +432,8 @@ static void sand_lands(Adviser *adviser)
 static double emitted_landing(const Adviser *adviser, uint32_t slot)
 {
     const World *world = adviser->world;
-    const double strength = gravity_strength(world), cell = (double)world->def.cell_size;
-    double fastest = 0.0, along[3] = {0};
-    for (int a = 0; a < world->def.dimension && strength > 0.0; a++) along[a] = (double)world->settings.gravity[a] / strength;
+    double fastest = 0.0, along[3];
+    const double strength = gravity_direction(world, along), cell = (double)world->def.cell_size;
     for (uint32_t e = 0; e < world->emitters.used && strength > 0.0; e++) {
         const Emitter *emitter = &world->emitters.slot[e];
         if (emitter->generation == 0 || !emitter->def.enabled || emitter->def.material.index != slot) continue;

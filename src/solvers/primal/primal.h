@@ -30,7 +30,6 @@
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 
-
 #include "world/world.h"
 
 /* The dilation of what stands for an incompressible liquid by itself: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
