@@ -58,7 +58,7 @@ void world_destroy(World *world)
     if (here) pthread_mutex_destroy(&world->making);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
-    lookup_free(&world->lookup, &world->memory);
+    particle_tree_free(&world->particle_tree, &world->memory);
     array_free(&world->memory, &world->submersion);
     colliders_free(&world->colliders, &world->memory);
     baked_free(&world->baked, &world->memory);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "matter/lookup.h"
+#include "matter/particle_tree.h"
 #include "shape/mass.h"
 
 enum { LONGEST = 64, MARGIN = 3 }; /* nodes along the solid, and around it */
@@ -155,7 +155,7 @@ static void find_open(Sounding *s)
 
 /* ---- What is filled ---- */
 
-static bool near_lattice(const LookupBox *box, void *context)
+static bool near_lattice(const ParticleBox *box, void *context)
 {
     const Sounding *s = context;
     const double dx = (double)s->world->def.cell_size;
@@ -188,7 +188,7 @@ static bool spread(Sounding *s, const double x[3], double volume)
     return true;
 }
 
-static void add_matter(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_matter(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Sounding *s = context;
@@ -387,12 +387,12 @@ pbmpm_result submerged_measure(World *world, const Collider *collider, int mater
 {
     Sounding s = {.world = world, .collider = collider, .dimension = world->def.dimension, .material = material};
     s.solid = solid_among(&collider->shape, s.dimension, &world->baked);
-    pbmpm_result result = lookup_build(&world->lookup, &world->memory, &world->particles, world->generation, world->pool);
+    pbmpm_result result = particle_tree_build(&world->particle_tree, &world->memory, &world->particles, world->generation, world->pool);
     if (result == PBMPM_OK) result = make_lattice(&s, world);
     if (result != PBMPM_OK) return result;
     find_open(&s);
     memset(s.filling, 0, s.nodes * sizeof *s.filling);
-    lookup_visit(&world->lookup, near_lattice, add_matter, &s);
+    particle_tree_visit(&world->particle_tree, near_lattice, add_matter, &s);
     *submersion = (pbmpm_submersion){.size = sizeof *submersion};
     for (int a = 0; a < 3; a++) submersion->centre[a] = s.first[a] + 0.5 * (s.count[a] - 1) * s.spacing;
     if (!(s.volume > 0.0)) return PBMPM_OK;

@@ -15,8 +15,8 @@
 #include "grid/islands.h"
 #include "grid/kernels.h"
 #include "grid/multilevel.h"
-#include "matter/lookup.h"
 #include "matter/materials.h"
+#include "matter/particle_tree.h"
 #include "matter/particles.h"
 #include "pbmpm/pbmpm.h"
 #include "world/colliders.h"
@@ -187,7 +187,7 @@ typedef struct World {
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     pthread_mutex_t making; /* see readers.h */
-    Lookup lookup;          /* of queries; empty until the first */
+    ParticleTree particle_tree; /* of queries; empty until the first */
     Array submersion;       /* see submerged.c; empty until it is first asked for */
     Background *background; /* null until a step is begun in the background */
 

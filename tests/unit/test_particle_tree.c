@@ -4,7 +4,7 @@
 #include <unity.h>
 
 #include "books.h"
-#include "matter/lookup.h"
+#include "matter/particle_tree.h"
 #include "random.h"
 
 enum { CAPACITY = 6000 };
@@ -13,7 +13,7 @@ static Books books;
 static Memory memory;
 static Pool *pool;
 static Particles particles;
-static Lookup lookup;
+static ParticleTree tree;
 
 void setUp(void)
 {
@@ -23,7 +23,7 @@ void setUp(void)
 
 void tearDown(void)
 {
-    lookup_free(&lookup, &memory);
+    particle_tree_free(&tree, &memory);
     particles_free(&particles, &memory);
     pool_destroy(&memory, pool, true);
     books_expect_closed(&books, &memory);
@@ -39,7 +39,7 @@ static void scatter(Random *random, int dimension, uint32_t count, bool mixed)
         if (i % 997 == 996) particle.position[1] += 2000.0;
         particles_append(&particles, &particle, 1);
     }
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 7, pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 7, pool));
 }
 
 /* ---- Visits ---- */
@@ -50,7 +50,7 @@ typedef struct Ball {
     bool seen[CAPACITY];
 } Ball;
 
-static bool near_ball(const LookupBox *box, void *context)
+static bool near_ball(const ParticleBox *box, void *context)
 {
     const Ball *ball = context;
     for (int a = 0; a < particles.dimension; a++)
@@ -58,7 +58,7 @@ static bool near_ball(const LookupBox *box, void *context)
     return true;
 }
 
-static void note_rows(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void note_rows(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     Ball *ball = context;
     TEST_ASSERT_TRUE(begin >= ball->next && begin < end && end <= particles.count);
@@ -80,7 +80,7 @@ static void check_visits(int dimension, uint32_t count, bool mixed)
     scatter(&random, dimension, count, mixed);
     for (int k = 0; k < QUESTIONS; k++) {
         ball = (Ball){{random_in(&random, -44.0, 44.0), random_in(&random, -7.0, 7.0), random_in(&random, -7.0, 7.0)}, 0, 0, {false}};
-        lookup_visit(&lookup, near_ball, note_rows, &ball);
+        particle_tree_visit(&tree, near_ball, note_rows, &ball);
         for (uint32_t row = 0; row < count; row++) {
             bool near = true;
             for (int a = 0; a < dimension; a++) near &= fabs(particles_coordinate(&particles, row, a) - ball.centre[a]) < 1.5;
@@ -108,9 +108,9 @@ static void test_nothing_to_visit(void)
     Random random = {1};
     static Ball ball;
     scatter(&random, 3, 0, false);
-    lookup_visit(&lookup, near_ball, note_rows, &ball);
+    particle_tree_visit(&tree, near_ball, note_rows, &ball);
     TEST_ASSERT_EQUAL_UINT32(0, ball.visited);
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, ball.centre, (double[3]){1, 0, 0}, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, ball.centre, (double[3]){1, 0, 0}, 0.0, 2.0)));
 }
 
 /* ---- Lines ---- */
@@ -146,7 +146,7 @@ static void test_lines_enter_no_later_than_cells(void)
             const double from = k % 3 ? 0.0 : -INFINITY;
             double first = INFINITY;
             for (uint32_t row = 0; row < particles.count; row++) first = fmin(first, entry_of_cell(row, start, direction, from, 2.0));
-            const double entry = lookup_entry(&lookup, &particles, start, direction, from, 2.0);
+            const double entry = particle_tree_entry(&tree, &particles, start, direction, from, 2.0);
             TEST_ASSERT_TRUE(entry >= from);
             if (!(entry <= first + 1e-9)) TEST_FAIL_MESSAGE("a line meets a cell before it enters a box");
         }
@@ -160,14 +160,14 @@ static void test_a_line_through_a_single_box(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 3, CAPACITY));
     for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{10.0 + i, 0, 0}, {0}, 1.0f, 0, 0}, 1);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 1, pool));
     const double along[3] = {1, 0, 0}, back[3] = {-1, 0, 0}, start[3] = {0, 0, 0}, beside[3] = {0, 2.5, 0}, behind[3] = {30, 0, 0};
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 8.0);
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 12.5, 2.0) == 12.5);
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, along, 21.5, 2.0)));
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, back, 0.0, 2.0)));
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, beside, along, 0.0, 2.0)));
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, behind, back, -INFINITY, 2.0) == 9.0);
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, start, along, 0.0, 2.0) == 8.0);
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, start, along, 12.5, 2.0) == 12.5);
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, start, along, 21.5, 2.0)));
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, start, back, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, beside, along, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, behind, back, -INFINITY, 2.0) == 9.0);
 }
 
 /* Between particles far from each other a box is empty: the line enters at the next of them. */
@@ -175,13 +175,13 @@ static void test_a_line_through_an_empty_box(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 2, CAPACITY));
     for (uint32_t i = 0; i < 10; i++) particles_append(&particles, &(NewParticle){{20000.0 * i, 0, 0}, {0}, 1.0f, 0, 0}, 1);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 1, pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 1, pool));
     const double along[3] = {1, 0, 0}, start[3] = {0, 0, 0}, above[3] = {0, 2.5, 0};
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 0.0, 2.0) == 0.0);
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 2.5, 2.0) == 19998.0);
-    TEST_ASSERT_TRUE(lookup_entry(&lookup, &particles, start, along, 100002.5, 2.0) == 119998.0);
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, start, along, 180002.5, 2.0)));
-    TEST_ASSERT_TRUE(isinf(lookup_entry(&lookup, &particles, above, along, 0.0, 2.0)));
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, start, along, 0.0, 2.0) == 0.0);
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, start, along, 2.5, 2.0) == 19998.0);
+    TEST_ASSERT_TRUE(particle_tree_entry(&tree, &particles, start, along, 100002.5, 2.0) == 119998.0);
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, start, along, 180002.5, 2.0)));
+    TEST_ASSERT_TRUE(isinf(particle_tree_entry(&tree, &particles, above, along, 0.0, 2.0)));
 }
 
 /* ---- Life ---- */
@@ -190,12 +190,12 @@ static void test_boxes_are_made_once_per_generation(void)
 {
     Random random = {2};
     scatter(&random, 2, 1000, false);
-    const LookupBox before = *(LookupBox *)lookup.box.data;
+    const ParticleBox before = *(ParticleBox *)tree.box.data;
     particles.cell[0][0] = 77;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 7, pool));
-    TEST_ASSERT_EQUAL_INT32(before.high[0], ((LookupBox *)lookup.box.data)->high[0]);
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 8, pool));
-    TEST_ASSERT_EQUAL_INT32(77, ((LookupBox *)lookup.box.data)->high[0]);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 7, pool));
+    TEST_ASSERT_EQUAL_INT32(before.high[0], ((ParticleBox *)tree.box.data)->high[0]);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 8, pool));
+    TEST_ASSERT_EQUAL_INT32(77, ((ParticleBox *)tree.box.data)->high[0]);
 }
 
 static void test_without_memory_the_next_question_tries_again(void)
@@ -203,10 +203,10 @@ static void test_without_memory_the_next_question_tries_again(void)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, particles_init(&particles, &memory, 2, CAPACITY));
     particles_append(&particles, &(NewParticle){{0}, {0}, 1.0f, 0, 0}, 1);
     books.fail_at = books.calls + 1;
-    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, lookup_build(&lookup, &memory, &particles, 3, pool));
+    TEST_ASSERT_EQUAL_INT(PBMPM_ERROR_OUT_OF_MEMORY, particle_tree_build(&tree, &memory, &particles, 3, pool));
     books.fail_at = 0;
-    TEST_ASSERT_EQUAL_INT(PBMPM_OK, lookup_build(&lookup, &memory, &particles, 3, pool));
-    TEST_ASSERT_EQUAL_UINT32(1, lookup.count[0]);
+    TEST_ASSERT_EQUAL_INT(PBMPM_OK, particle_tree_build(&tree, &memory, &particles, 3, pool));
+    TEST_ASSERT_EQUAL_UINT32(1, tree.count[0]);
 }
 
 int main(void)
