@@ -10,7 +10,7 @@
 #include "contact/reach.h"
 #include "contact/walls.h"
 #include "contact/wet_side.h"
-#include "shape/concave.h"
+#include "shape/tangent_planes.h"
 
 /* Colliders, walls, and what holds nodes. */
 enum { OBSTACLES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1 };
@@ -78,7 +78,7 @@ static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o,
     Plane plane[PLANES_MAX];
     obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
     for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
-    const int count = concave_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
+    const int count = tangent_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
     for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, plane[i].gap, plane[i].normal);
     return (uint32_t)count;
 }

@@ -289,7 +289,7 @@ typedef struct Waterline {
 } Waterline;
 
 /* Where a node at the surface looks: the middle of what the spline sees of the open side. */
-static void sight_of(const Sounding *s, size_t node, double point[3])
+static void eye_at(const Sounding *s, size_t node, double point[3])
 {
     double sum = 0.0, moment[3] = {0};
     int32_t index[3];
@@ -328,8 +328,8 @@ static double add_end(const Sounding *s, size_t node, double place[3])
         const double wet = (double)s->wet[node] - 0.5, wet_next = (double)s->wet[next] - 0.5;
         if ((wet > 0.0) == (wet_next > 0.0)) continue;
         double here[3], there[3];
-        sight_of(s, node, here);
-        sight_of(s, next, there);
+        eye_at(s, node, here);
+        eye_at(s, next, there);
         const double share = wet / (wet - wet_next), both = area + of_next;
         for (int b = 0; b < 3; b++) place[b] += both * (here[b] + share * (there[b] - here[b]));
         weight += both;

@@ -1,6 +1,6 @@
 /* The distance from a point to the nearest element of a surface. */
-#ifndef PBMPM_SRC_SHAPE_NEAREST_H
-#define PBMPM_SRC_SHAPE_NEAREST_H
+#ifndef PBMPM_SRC_SHAPE_BOX_TREE_H
+#define PBMPM_SRC_SHAPE_BOX_TREE_H
 
 #include "shape/surface.h"
 

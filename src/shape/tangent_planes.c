@@ -1,4 +1,4 @@
-#include "shape/concave.h"
+#include "shape/tangent_planes.h"
 
 #include <math.h>
 #include <string.h>
@@ -17,24 +17,24 @@ typedef struct Lookout {
 } Lookout;
 
 /* What is seen from an offset. */
-typedef struct Sight {
+typedef struct Sample {
     double distance, normal[3];
     double gap; /* from the node along the normal to the plane that touches the surface there */
-} Sight;
+} Sample;
 
 static void point_at(const Lookout *l, const double offset[3], double point[3])
 {
     for (int a = 0; a < 3; a++) point[a] = a < l->solid->dimension ? l->point[a] + offset[a] * l->cell_size : 0.0;
 }
 
-static Sight look(const Lookout *l, const double offset[3])
+static Sample look(const Lookout *l, const double offset[3])
 {
-    Sight sight;
+    Sample sample;
     double point[3];
     point_at(l, offset, point);
-    sight.distance = solid_distance(l->solid, point, sight.normal) / l->cell_size;
-    sight.gap = sight.distance - dot3(sight.normal, offset);
-    return sight;
+    sample.distance = solid_distance(l->solid, point, sample.normal) / l->cell_size;
+    sample.gap = sample.distance - dot3(sample.normal, offset);
+    return sample;
 }
 
 /* Planes closer than this in direction count as one. */
@@ -47,24 +47,24 @@ static bool is_known(const Lookout *l, const double normal[3])
     return false;
 }
 
-static void add_plane(Lookout *l, const Sight *sight)
+static void add_plane(Lookout *l, const Sample *sample)
 {
     if (l->count == PLANES_MAX) return;
     Plane *plane = &l->plane[l->count++];
-    memcpy(plane->normal, sight->normal, sizeof plane->normal);
-    plane->gap = fmax(sight->gap, 0.0);
+    memcpy(plane->normal, sample->normal, sizeof plane->normal);
+    plane->gap = fmax(sample->gap, 0.0);
 }
 
 /* Whether going through a plane along the first one leads into the solid, or deeper into it. So it does in a hollow; round a bulge or an
  * edge it leads away, and the plane must not hold the node. */
-static bool cuts(const Lookout *l, const Sight *sight)
+static bool cuts(const Lookout *l, const Sample *sample)
 {
-    const double *first = l->plane[0].normal, along = dot3(sight->normal, first);
+    const double *first = l->plane[0].normal, along = dot3(sample->normal, first);
     double way[3];
-    for (int a = 0; a < 3; a++) way[a] = -(sight->normal[a] - along * first[a]);
+    for (int a = 0; a < 3; a++) way[a] = -(sample->normal[a] - along * first[a]);
     const double slope = sqrt(dot3(way, way));
     if (slope < 0.1) return false;
-    const double length = fmax(sight->gap, 0.0) / slope + 0.5;
+    const double length = fmax(sample->gap, 0.0) / slope + 0.5;
     for (int a = 0; a < 3; a++) way[a] *= length / slope;
     return look(l, way).distance < fmin(l->distance, 0.0) - 0.05 * length;
 }
@@ -72,15 +72,15 @@ static bool cuts(const Lookout *l, const Sight *sight)
 /* Beside the nearest surface, others that a cell in each direction is nearest to. */
 static void look_around(Lookout *l, const double normal[3])
 {
-    Sight nearest = {.distance = l->distance, .gap = l->distance};
+    Sample nearest = {.distance = l->distance, .gap = l->distance};
     memcpy(nearest.normal, normal, sizeof nearest.normal);
     add_plane(l, &nearest);
     if (l->distance < -1.5) return; /* beyond the support of any particle outside */
     for (int i = 0; i < 2 * l->solid->dimension; i++) {
         double offset[3] = {0};
         offset[i / 2] = i % 2 ? 1.0 : -1.0;
-        const Sight sight = look(l, offset);
-        if (sight.gap <= l->margin && !is_known(l, sight.normal) && cuts(l, &sight)) add_plane(l, &sight);
+        const Sample sample = look(l, offset);
+        if (sample.gap <= l->margin && !is_known(l, sample.normal) && cuts(l, &sample)) add_plane(l, &sample);
     }
 }
 
@@ -89,22 +89,22 @@ static void look_around(Lookout *l, const double normal[3])
 static void look_ahead(Lookout *l, const double way[3])
 {
     const double length = sqrt(dot3(way, way));
-    Sight best = {.distance = INFINITY};
+    Sample best = {.distance = INFINITY};
     double gone = fmax(l->distance - l->margin, 0.5);
     for (bool last = false; !last && l->distance > 0.0; ) {
         double offset[3], point[3];
         last = gone >= length;
         for (int a = 0; a < 3; a++) offset[a] = length > 0.0 ? way[a] * fmin(gone / length, 1.0) : 0.0;
-        const Sight sight = look(l, offset);
-        if (sight.distance < 0.0) break;
-        if (sight.distance < best.distance && !is_known(l, sight.normal)) best = sight;
+        const Sample sample = look(l, offset);
+        if (sample.distance < 0.0) break;
+        if (sample.distance < best.distance && !is_known(l, sample.normal)) best = sample;
         point_at(l, offset, point);
         gone += fmax(solid_least(l->solid, point) / l->cell_size - l->margin, 0.5);
     }
     if (best.distance <= l->margin && dot3(best.normal, way) < 0.0) add_plane(l, &best);
 }
 
-int concave_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
+int tangent_planes(const Solid *solid, double cell_size, const double point[3], const Plane *nearest, const double way[3], double margin,
                    Plane planes[PLANES_MAX])
 {
     Lookout l = {.solid = solid, .cell_size = cell_size, .point = point, .distance = nearest->gap, .margin = margin, .plane = planes};

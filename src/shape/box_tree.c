@@ -1,4 +1,4 @@
-#include "shape/nearest.h"
+#include "shape/box_tree.h"
 
 #include <math.h>
 
