@@ -4,8 +4,8 @@
 #include <math.h>
 
 #include "base/sized.h"
-#include "services/effective.h"
-#include "services/way.h"
+#include "services/effective_moduli.h"
+#include "services/ray.h"
 #include "services/survey.h"
 #include "solvers/dual/dual.h"
 #include "solvers/passes.h"
@@ -145,7 +145,7 @@ static bool lands(const World *world, uint32_t material, const double from[3])
 {
     double along[3];
     gravity_direction(world, along);
-    return way_to_obstacle(world, material, from, along, PBMPM_MAX_CELL * (double)world->def.cell_size) < INFINITY;
+    return ray_to_obstacle(world, material, from, along, PBMPM_MAX_CELL * (double)world->def.cell_size) < INFINITY;
 }
 
 /* A wall of the domain where gravity leads, or NULL. */
@@ -439,7 +439,7 @@ static double emitted_landing(const Adviser *adviser, uint32_t slot)
         if (emitter->generation == 0 || !emitter->def.enabled || emitter->def.material.index != slot) continue;
         const double from[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
         const double far = PBMPM_MAX_CELL * cell, speed = (double)emitter->def.speed;
-        const double way = fmin(way_to_obstacle(world, slot, from, along, far), way_to_wall(world, from, along, far));
+        const double way = fmin(ray_to_obstacle(world, slot, from, along, far), ray_to_wall(world, from, along, far));
         if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->substep.dt / cell);
     }
     return fastest;

@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "services/way.h"
+#include "services/ray.h"
 #include "world/depth.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
@@ -148,7 +148,7 @@ static double cells_to_obstacle(const World *world, const Share *share, const do
     const double cell = (double)world->def.cell_size;
     double from[3] = {0};
     for (int a = 0; a < world->def.dimension; a++) from[a] = middle_of(world, share, a);
-    return fmin(way_to_obstacle(world, share->slot, from, along, far * cell), way_to_wall(world, from, along, far * cell)) / cell;
+    return fmin(ray_to_obstacle(world, share->slot, from, along, far * cell), ray_to_wall(world, from, along, far * cell)) / cell;
 }
 
 /* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
@@ -506,9 +506,9 @@ static bool sees(const World *world, const Share *share, const Solid *solid)
     }
     distance = sqrt(distance);
     for (int a = 0; a < world->def.dimension; a++) along[a] /= fmax(distance, 1e-300);
-    const double way = fmin(distance, way_to_obstacle(world, share->slot, from, along, distance));
+    const double way = fmin(distance, ray_to_obstacle(world, share->slot, from, along, distance));
     for (int a = 0; a < world->def.dimension; a++) hit[a] = from[a] + way * along[a];
-    return solid_gap(solid, hit) < cell && way_to_wall(world, from, along, way) == INFINITY;
+    return solid_gap(solid, hit) < cell && ray_to_wall(world, from, along, way) == INFINITY;
 }
 
 /* Whether a ball or a capsule reaches below a cell of liquid that nothing parts from it: that flows around it, or will. *looks: lines that may still be followed. */

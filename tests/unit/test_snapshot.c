@@ -10,7 +10,7 @@
 #include "base/generations.h"
 #include "books.h"
 #include "random.h"
-#include "services/edit.h"
+#include "services/edit_particles.h"
 #include "services/inspect.h"
 #include "services/lifecycle.h"
 #include "services/registry.h"

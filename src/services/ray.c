@@ -1,5 +1,5 @@
 /* By spheres that no obstacle reaches into (J. Hart, "Sphere tracing", The Visual Computer 12, 1996). */
-#include "services/way.h"
+#include "services/ray.h"
 
 #include <math.h>
 
@@ -23,7 +23,7 @@ static double room_ahead(const World *world, uint32_t slot, const double point[3
     return nearest;
 }
 
-double way_to_obstacle(const World *world, uint32_t slot, const double from[3], const double along[3], double far)
+double ray_to_obstacle(const World *world, uint32_t slot, const double from[3], const double along[3], double far)
 {
     enum { SPHERES = 256 };
     double way = 0.0;
@@ -37,7 +37,7 @@ double way_to_obstacle(const World *world, uint32_t slot, const double from[3], 
     return INFINITY;
 }
 
-double way_to_wall(const World *world, const double from[3], const double along[3], double far)
+double ray_to_wall(const World *world, const double from[3], const double along[3], double far)
 {
     double nearest = INFINITY;
     for (int a = 0; a < world->def.dimension && world->def.domain_enabled; a++) {

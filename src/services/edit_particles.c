@@ -1,4 +1,4 @@
-#include "services/edit.h"
+#include "services/edit_particles.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* Adding, removing, changing and finding particles on behalf of the caller. Arguments are checked here; on failure
  * nothing has changed. */
-#ifndef PBMPM_SRC_SERVICES_EDIT_H
-#define PBMPM_SRC_SERVICES_EDIT_H
+#ifndef PBMPM_SRC_SERVICES_EDIT_PARTICLES_H
+#define PBMPM_SRC_SERVICES_EDIT_PARTICLES_H
 
 #include "world/world.h"
 

@@ -1,4 +1,4 @@
-#include "services/effective.h"
+#include "services/effective_moduli.h"
 
 #include <math.h>
 #include <string.h>

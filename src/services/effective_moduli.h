@@ -1,6 +1,6 @@
 /* How stiff materials are with a world's settings. */
-#ifndef PBMPM_SRC_SERVICES_EFFECTIVE_H
-#define PBMPM_SRC_SERVICES_EFFECTIVE_H
+#ifndef PBMPM_SRC_SERVICES_EFFECTIVE_MODULI_H
+#define PBMPM_SRC_SERVICES_EFFECTIVE_MODULI_H
 
 #include "world/world.h"
 

@@ -1,4 +1,4 @@
-#include "services/lines.h"
+#include "services/debug_lines.h"
 
 #include <math.h>
 #include <string.h>
@@ -301,7 +301,7 @@ static void draw_asleep(Drawing *drawing, const World *world)
     }
 }
 
-uint32_t lines_draw(const World *world, uint32_t parts, pbmpm_line *lines, uint32_t capacity)
+uint32_t debug_lines_draw(const World *world, uint32_t parts, pbmpm_line *lines, uint32_t capacity)
 {
     static const struct {
         pbmpm_debug_part part;
