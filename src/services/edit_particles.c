@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "base/result.h"
 #include "contact/field.h"
-#include "services/inspect.h"
+#include "services/views.h"
 #include "solvers/eddy_damping.h"
 #include "world/sleep_rows.h"
 #include "world/sleep_wake.h"
@@ -371,7 +371,7 @@ static uint32_t settable_components(const World *world, pbmpm_field field)
     case PBMPM_DEFORMATION:
     case PBMPM_VOLUME_RATIO:
     case PBMPM_USER_VALUE:
-    case PBMPM_PRESSURE: return inspect_components(world, field);
+    case PBMPM_PRESSURE: return views_components(world, field);
     case PBMPM_MATERIAL:
     case PBMPM_PARTICLE:
     case PBMPM_MASS:
@@ -443,7 +443,7 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
 {
     Particles *p = &world->particles;
     const float *values = given; /* of 4 bytes each, whatever they are */
-    if (!inspect_is_field(field)) return inspect_no_field(field);
+    if (!views_is_field(field)) return views_no_field(field);
     const uint32_t components = settable_components(world, field);
     if (components == 0) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "this field cannot be set");
     if (!ids && count != p->count) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%u values for %u particles", count, p->count);

@@ -1,107 +1,10 @@
-#include "services/inspect.h"
+#include "services/stats.h"
 
 #include <math.h>
 #include <string.h>
 
-#include "base/numbers.h"
-#include "base/result.h"
 #include "services/readers.h"
 #include "world/island_groups.h"
-
-/* ---- Views ---- */
-
-/* A field whose components lie `apart` bytes from each other. */
-static pbmpm_view planes(const void *first, uint32_t components, size_t apart)
-{
-    return (pbmpm_view){.data = first, .components = components, .component_stride = (uint32_t)apart, .stride = 4};
-}
-
-/* A field whose components lie side by side. */
-static pbmpm_view packed(const void *first, uint32_t components)
-{
-    return (pbmpm_view){.data = first, .components = components, .component_stride = 4, .stride = 4 * components};
-}
-
-uint32_t inspect_components(const World *world, pbmpm_field field)
-{
-    const uint32_t d = (uint32_t)world->def.dimension;
-    switch (field) {
-    case PBMPM_POSITION:
-    case PBMPM_VELOCITY: return d;
-    case PBMPM_AFFINE_VELOCITY:
-    case PBMPM_DEFORMATION: return d * d;
-    case PBMPM_PARTICLE: return 2;
-    case PBMPM_VOLUME_RATIO:
-    case PBMPM_MATERIAL:
-    case PBMPM_MASS:
-    case PBMPM_PRESSURE:
-    case PBMPM_USER_VALUE:
-    case PBMPM_FIELD_FORCE32: break;
-    }
-    return 1;
-}
-
-bool inspect_is_field(pbmpm_field field) { return in_enum(field, PBMPM_POSITION, INSPECT_FIELDS - 1); }
-
-pbmpm_result inspect_no_field(pbmpm_field field) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "field %d does not exist", (int)field); }
-
-bool inspect_has(const World *world, pbmpm_field field)
-{
-    const Particles *p = &world->particles;
-    switch (field) {
-    case PBMPM_DEFORMATION: return p->deformation[0];
-    case PBMPM_PRESSURE: return p->pressure;
-    case PBMPM_USER_VALUE: return p->user_value;
-    case PBMPM_POSITION:
-    case PBMPM_VELOCITY:
-    case PBMPM_AFFINE_VELOCITY:
-    case PBMPM_VOLUME_RATIO:
-    case PBMPM_MATERIAL:
-    case PBMPM_PARTICLE:
-    case PBMPM_MASS:
-    case PBMPM_FIELD_FORCE32: break;
-    }
-    return true;
-}
-
-pbmpm_result inspect_view(World *world, pbmpm_field field, pbmpm_view *view)
-{
-    Particles *p = &world->particles;
-    const uint32_t d = (uint32_t)p->dimension;
-    pbmpm_view found;
-    switch (field) {
-    case PBMPM_POSITION: found = packed(readers_positions(world), d); break;
-    case PBMPM_VELOCITY: found = planes(p->velocity[0], d, p->array_bytes); break;
-    case PBMPM_AFFINE_VELOCITY: found = planes(p->affine[0], d * d, p->array_bytes); break;
-    case PBMPM_VOLUME_RATIO: found = packed(p->volume_ratio, 1); break;
-    case PBMPM_DEFORMATION:
-        if (!p->deformation[0])
-            return fail(PBMPM_ERROR_UNSUPPORTED, "a world that never had a particle of anything but liquid has no deformation gradients");
-        found = planes(p->deformation[0], d * d, p->array_bytes);
-        break;
-    case PBMPM_MATERIAL: found = packed(p->material, 1); break;
-    case PBMPM_PARTICLE: found = packed(p->id, 2); break;
-    case PBMPM_MASS: found = packed(readers_kilograms(world), 1); break;
-    case PBMPM_PRESSURE:
-        if (!p->pressure) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has pressures only once the dual solver was used");
-        found = packed(p->pressure, 1);
-        break;
-    case PBMPM_USER_VALUE:
-        if (!p->user_value) return fail(PBMPM_ERROR_UNSUPPORTED, "a world has user values only once a particle was given one");
-        found = packed(p->user_value, 1);
-        break;
-    case PBMPM_FIELD_FORCE32:
-    default: return inspect_no_field(field);
-    }
-    found.size = sizeof found;
-    found.count = p->count;
-    found.generation = world->generation;
-    if (p->count == 0) found.data = NULL;
-    *view = found;
-    return PBMPM_OK;
-}
-
-/* ---- Statistics ---- */
 
 /* Sums over particles, in double precision. */
 typedef struct Sums {
@@ -227,7 +130,7 @@ static void fill_grids(const World *world, pbmpm_stats *stats)
     stats->contacts = world->islands.contacts + colliders_contacts(&world->colliders);
 }
 
-void inspect_step_stats(World *world, pbmpm_stats *stats)
+void stats_of_step(World *world, pbmpm_stats *stats)
 {
     const StepRecord *record = &world->record;
     *stats = (pbmpm_stats){.size = sizeof *stats, .particle_count = world->particles.count};
@@ -260,9 +163,9 @@ void inspect_step_stats(World *world, pbmpm_stats *stats)
     stats->blocks_woken = record->blocks_woken;
 }
 
-void inspect_stats(World *world, pbmpm_stats *stats)
+void stats_of_world(World *world, pbmpm_stats *stats)
 {
-    inspect_step_stats(world, stats);
+    stats_of_step(world, stats);
     stats->lane_occupancy = lane_occupancy(world);
     if (stats->particle_count == 0) return;
     const Sums sums = sum_particles(world);
@@ -274,43 +177,4 @@ void inspect_stats(World *world, pbmpm_stats *stats)
     stats->volume_error_rms = (float)sqrt(sums.volume_error2 / stats->particle_count);
     stats->volume_error_max = (float)sums.volume_error_max;
     stats->max_speed = (float)sqrt(sums.speed2_max);
-}
-
-/* ---- Hash ---- */
-
-static uint64_t mix(uint64_t hash, const void *array, uint32_t count)
-{
-    const uint32_t *words = array;
-    for (uint32_t i = 0; i < count; i++) {
-        hash = (hash ^ words[i]) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
-    return hash;
-}
-
-/* A world that has room for pressures, but none yet, is as one that has no room. */
-static bool any_pressure(const Particles *p)
-{
-    for (uint32_t i = 0; i < p->count && p->pressure; i++)
-        if (p->pressure[i] != 0.0f) return true;
-    return false;
-}
-
-uint64_t inspect_hash(const World *world)
-{
-    const Particles *p = &world->particles;
-    uint64_t hash = mix(0x243f6a8885a308d3u, &p->count, 1);
-    for (int a = 0; a < p->dimension; a++) {
-        hash = mix(hash, p->cell[a], p->count);
-        hash = mix(hash, p->fraction[a], p->count);
-        hash = mix(hash, p->velocity[a], p->count);
-        for (int c = 0; c < p->dimension; c++) {
-            hash = mix(hash, p->affine[a * 3 + c], p->count);
-            if (p->deformation[0]) hash = mix(hash, p->deformation[a * 3 + c], p->count);
-        }
-    }
-    hash = mix(hash, p->volume_ratio, p->count);
-    if (any_pressure(p)) hash = mix(hash, p->pressure, p->count);
-    hash = mix(hash, p->material, p->count);
-    return mix(hash, p->mass, p->count);
 }
