@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "services/background.h"
 #include "solvers/dual/dual.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/primal/primal.h"

@@ -112,7 +112,7 @@ typedef struct GuessMeasures {
 
 /* What the guess of the pressure keeps. */
 typedef struct GuessState {
-    Array cells, sums; /* see guess.c */
+    Array cells, sums; /* see pressure_guess.c */
     Multilevel multilevel;
     bool closed; /* matter fills a closed box */
     GuessMeasures measures;

@@ -7,7 +7,7 @@
 #include "check.h"
 #include "world/depth.h"
 #include "dual_stages.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "isas.h"
 
 void setUp(void) {}

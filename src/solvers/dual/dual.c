@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "solvers/dual/acceleration.h"
 #include "solvers/dual/dual_error.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
 #include "solvers/moduli.h"
@@ -53,7 +53,7 @@ static const double CARRIED_SHARE = 0.5;
 static const double CARRIED_SHARE_OF_ONE = 0.45;
 
 /* The guess finds the pressures of cells anew, as a correction: all is kept, but see fine_carried(). Not where liquids differ in density: there the guess is
- * truncated too, by what the heavy one may rise (guess.c). With all kept liquids of 1:10 to 1:10,000 gained 0.3 to 111 % of energy at 60 Hz x 2, with three
+ * truncated too, by what the heavy one may rise (pressure_guess.c). With all kept liquids of 1:10 to 1:10,000 gained 0.3 to 111 % of energy at 60 Hz x 2, with three
  * quarters 0.1 %, with a half nothing. The price: oil on 6 cells of water stirs at 9 mm/s at 60 Hz x 5, not at 3.
  * Nor of liquid so crushed that growth_max() cuts short what it asks for (crushed_carried). In a slit between walls nothing answers to that, and it would add up from
  * substep to substep: 180 times what one asks for, which threw it out at 82 m/s at 240 Hz x 2 when the walls opened. With a half it leaves at 6 to 11. */

@@ -4,8 +4,8 @@
  * the pool has cells. Here the volume constraint is solved as if it were an equation, by conjugate gradients with a multilevel
  * preconditioner, for pressures at cell centres (cells.isph), among the cells that are under pressure or want to be. A few iterations reach
  * through the whole pool. What the guess leaves out, tension-free surfaces and elastic stresses, is the dual solver's. */
-#ifndef PBMPM_SRC_SOLVERS_DUAL_GUESS_H
-#define PBMPM_SRC_SOLVERS_DUAL_GUESS_H
+#ifndef PBMPM_SRC_SOLVERS_DUAL_PRESSURE_GUESS_H
+#define PBMPM_SRC_SOLVERS_DUAL_PRESSURE_GUESS_H
 
 #include "world/world.h"
 

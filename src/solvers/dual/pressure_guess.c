@@ -1,4 +1,4 @@
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 
 #include <float.h>
 #include <math.h>
