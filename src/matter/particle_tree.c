@@ -183,7 +183,7 @@ static void enter_box(Line *line, int level, uint32_t b)
 }
 
 double particle_tree_entry(const ParticleTree *tree, const Particles *particles, const double start[3], const double direction[3], double from,
-                    double margin)
+                           double margin)
 {
     Line line = {.tree = tree, .particles = particles, .from = from, .margin = margin, .nearest = INFINITY};
     for (int a = 0; a < tree->dimension; a++) {

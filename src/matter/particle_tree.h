@@ -37,6 +37,6 @@ void particle_tree_visit(const ParticleTree *tree, ParticleBoxTest *test, Partic
 /* The smallest t >= `from` at which start + t direction (cells; of length 1) is nearer than `margin` to a particle's cell along every axis, or a
  * little less: no more cells than a stretch has rows. INFINITY if there is none. `particles` are those that it was made for. */
 double particle_tree_entry(const ParticleTree *tree, const Particles *particles, const double start[3], const double direction[3], double from,
-                    double margin);
+                           double margin);
 
 #endif

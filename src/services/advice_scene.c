@@ -214,6 +214,6 @@ void advise_overlaps(Adviser *adviser)
         const double share = adviser->survey.heap[slot].overlapping;
         if (share <= FEW) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_OVERLAPS, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)FEW,
-                                     .text = "matter was put where there is other matter: it is crushed, and bursts or loses volume"});
+                                             .text = "matter was put where there is other matter: it is crushed, and bursts or loses volume"});
     }
 }
