@@ -59,7 +59,7 @@ static bool is_at_obstacle(const World *world, int32_t block)
 static void sum_block(const World *world, int32_t block, double *sum)
 {
     const size_t floats = (size_t)world->grid.block_cells * W, start = (size_t)block * floats;
-    const float *node = (const float *)world->grid.node.data + start, *push = world->args.node_push + start, *before = world->args.node_before + start;
+    const float *node = (const float *)world->grid.node.data + start, *push = world->args.dual.node_push + start, *before = world->args.grid.node_before + start;
     memset(sum, 0, SUMS * sizeof *sum);
     sum[AT_OBSTACLE] = is_at_obstacle(world, block) ? 1.0 : 0.0;
     for (size_t i = 0; i < floats; i += W) {
@@ -88,7 +88,7 @@ float eddy_damping_share(double gain, double kinetic) { return gain > 0.0 ? (flo
 float *eddy_damping_shares(World *world)
 {
     float *kept = is_wanted(world) ? world->dual.eddy_damping.kept.data : NULL;
-    world->args.affine_kept = kept;
+    world->args.dual.affine_kept = kept;
     return kept;
 }
 

@@ -86,8 +86,8 @@ static float carried(const World *world)
 
 void granular_bind(World *world)
 {
-    if (is_judged(world)) world->args.pressure = world->particles.pressure;
-    world->args.grains_carried = carried(world);
+    if (is_judged(world)) world->args.dual.pressure = world->particles.pressure;
+    world->args.dual.grains_carried = carried(world);
 }
 
 /* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */

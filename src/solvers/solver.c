@@ -80,28 +80,28 @@ void solver_bind(World *world, bool with_volume)
     KernelArgs *a = &world->args;
     const Substep *substep = &world->substep;
     const float calm_way = (float)(CALM_SPEED * substep->dt);
-    *a = (KernelArgs){.volume_ratio = p->volume_ratio,
-                      .mass = p->mass,
-                      .identity = (const uint32_t *)(const void *)p->id,
-                      .status = p->status,
-                      .run_begin = grid->run_begin,
-                      .run_key = grid->run_key,
-                      .block_run = grid->block_run.data,
-                      .neighbour = grid->neighbour.data,
-                      .particle_blocks = grid->particle_blocks,
-                      .tile = grid->tile.data,
-                      .tile_volume = with_volume ? grid->tile_volume.data : NULL,
-                      .node = grid->node.data,
-                      .node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
-                      .node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
-                      .node_volume = with_volume ? grid->node_volume.data : NULL,
-                      .node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
-                      .node_reach = grid->node_reach.data,
-                      .edged = with_volume ? grid->edged.data : NULL,
-                      .clamped = grid->clamped.data,
-                      .moved = grid->moved.data,
-                      .lost = grid->lost.data,
-                      .travel = grid->travel.data,
+    *a = (KernelArgs){.particles.volume_ratio = p->volume_ratio,
+                      .particles.mass = p->mass,
+                      .particles.identity = (const uint32_t *)(const void *)p->id,
+                      .particles.status = p->status,
+                      .grid.run_begin = grid->run_begin,
+                      .grid.run_key = grid->run_key,
+                      .grid.block_run = grid->block_run.data,
+                      .grid.neighbour = grid->neighbour.data,
+                      .grid.particle_blocks = grid->particle_blocks,
+                      .grid.tile = grid->tile.data,
+                      .grid.tile_volume = with_volume ? grid->tile_volume.data : NULL,
+                      .grid.node = grid->node.data,
+                      .grid.node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .grid.node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .grid.node_volume = with_volume ? grid->node_volume.data : NULL,
+                      .grid.node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
+                      .grid.node_reach = grid->node_reach.data,
+                      .grid.edged = with_volume ? grid->edged.data : NULL,
+                      .grid.clamped = grid->clamped.data,
+                      .grid.moved = grid->moved.data,
+                      .grid.lost = grid->lost.data,
+                      .grid.travel = grid->travel.data,
                       .material = world->materials.kernel,
                       .iterations = world->record.solver == PBMPM_SOLVER_PAPER ? world->settings.iterations : 0,
                       .flip = world->settings.flip,
@@ -116,11 +116,11 @@ void solver_bind(World *world, bool with_volume)
     follow_iterations(world);
     kinds[world->record.solver].set_materials(world);
     set_volume_control(world);
-    memcpy(a->fraction, p->fraction, sizeof a->fraction);
-    memcpy(a->cell, p->cell, sizeof a->cell);
-    memcpy(a->velocity, p->velocity, sizeof a->velocity);
-    memcpy(a->affine, p->affine, sizeof a->affine);
-    memcpy(a->deformation, p->deformation, sizeof a->deformation);
+    memcpy(a->particles.fraction, p->fraction, sizeof a->particles.fraction);
+    memcpy(a->particles.cell, p->cell, sizeof a->particles.cell);
+    memcpy(a->particles.velocity, p->velocity, sizeof a->particles.velocity);
+    memcpy(a->particles.affine, p->affine, sizeof a->particles.affine);
+    memcpy(a->particles.deformation, p->deformation, sizeof a->particles.deformation);
     multistep_bind(world);
     granular_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
@@ -222,7 +222,7 @@ static void fly(void *context, int32_t begin, int32_t end)
 static void let_fly(World *world)
 {
     if (world->grid.flights == 0) return;
-    world->args.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
+    world->args.dual.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
     pool_for(world->pool, world->grid.flights, BLOCK_GRAIN, fly, world);
 }
 

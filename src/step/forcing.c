@@ -208,8 +208,8 @@ static void change_block(const ForceJob *job, int32_t block, const double corner
         for (int a = 0; a < world->def.dimension; a++) reach = fmaxf(reach, fabsf(u[a]));
     }
     ((float *)world->grid.node_reach.data)[block] = reach;
-    if (!world->args.node_base) return;
-    memcpy(world->args.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
+    if (!world->args.grid.node_base) return;
+    memcpy(world->args.grid.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
 }
 
 static void change_blocks(void *context, int32_t begin, int32_t end)
@@ -247,12 +247,12 @@ pbmpm_result forces_apply(World *world)
     forces->on = job.on;
     if (job.on == 0) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    const bool keep = world->args.node_base != NULL;
+    const bool keep = world->args.grid.node_base != NULL;
     const pbmpm_result result = take_memory(world, job.on, floats, keep);
     if (result != PBMPM_OK) return result;
     if (keep) {
-        memcpy(forces->before.data, world->args.node_base, floats * sizeof(float));
-        world->args.node_before = forces->before.data;
+        memcpy(forces->before.data, world->args.grid.node_base, floats * sizeof(float));
+        world->args.grid.node_before = forces->before.data;
     }
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, change_blocks, &job);
     return PBMPM_OK;

@@ -353,7 +353,7 @@ pbmpm_result sleep_prepare(World *world)
 {
     Sleep *sleep = &world->sleep;
     const Particles *p = &world->particles;
-    world->args.drift = sleep->drift.data;
+    world->args.grid.drift = sleep->drift.data;
     if (!p->pressure || sleep->still_rows == 0) return PBMPM_OK;
     if (!array_reserve(&world->memory, &sleep->pressure, sleep->still_rows, sizeof(float)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressures of %u particles that sleep", sleep->still_rows);

@@ -65,7 +65,7 @@ typedef struct EddyDamping {
     Bodies bodies;
     EddyAccount account[ISLAND_GROUPS + 1]; /* of each set of kinds */
     Array sums, body_sums; /* per node block, and per body */
-    Array kept;            /* see KernelArgs.affine_kept */
+    Array kept;            /* see KernelArgs.dual.affine_kept */
 } EddyDamping;
 
 /* Sand of the islands with one set of kinds, see granular.h. */

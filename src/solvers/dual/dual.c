@@ -138,17 +138,17 @@ static void bind_cells(World *world)
     KernelArgs *a = &world->args;
     const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     float *cells = world->dual.cells.data;
-    a->cell_mass = cells;
-    a->cell_growth = cells + nodes;
-    a->cell_softness = cells + 2 * nodes;
-    a->cell_pressure = cells + 3 * nodes;
-    a->cell_pressure_old = cells + 4 * nodes;
-    a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
-    a->settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
-    a->elastic_guesses = shares_world(world);
-    a->cell_change2 = world->dual.cell_change2.data;
-    a->cell_uphill = world->dual.cell_uphill.data;
-    a->cell_relaxation = smallest_relaxation(world);
+    a->cells.mass = cells;
+    a->cells.growth = cells + nodes;
+    a->cells.softness = cells + 2 * nodes;
+    a->cells.pressure = cells + 3 * nodes;
+    a->cells.pressure_old = cells + 4 * nodes;
+    a->cells.strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
+    a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
+    a->cells.elastic_guesses = shares_world(world);
+    a->cells.change2 = world->dual.cell_change2.data;
+    a->cells.uphill = world->dual.cell_uphill.data;
+    a->cells.relaxation = smallest_relaxation(world);
 }
 
 /* The largest growth that crushed liquid is asked for in 1/60 s, and per substep of a single iteration. What grows by a share per substep moves faster the
@@ -171,22 +171,22 @@ static void bind(World *world)
 {
     KernelArgs *a = &world->args;
     Particles *p = &world->particles;
-    a->pressure = p->pressure;
-    a->pressure_old = particles_spare(p, CLASS_SCALAR, 0);
-    a->node_push = world->dual.node_push.data;
-    a->change2 = world->dual.change2.data;
-    a->uphill = world->dual.uphill.data;
-    a->momentum = 0.0f;
-    a->growth_max = growth_max(world);
-    a->crushed_carried = (float)fmin(1.0, CARRIED_SHARE / dual_carried_share(world));
-    a->fine_carried = fine_carried(world);
+    a->dual.pressure = p->pressure;
+    a->dual.pressure_old = particles_spare(p, CLASS_SCALAR, 0);
+    a->dual.node_push = world->dual.node_push.data;
+    a->dual.change2 = world->dual.change2.data;
+    a->dual.uphill = world->dual.uphill.data;
+    a->dual.momentum = 0.0f;
+    a->dual.growth_max = growth_max(world);
+    a->dual.crushed_carried = (float)fmin(1.0, CARRIED_SHARE / dual_carried_share(world));
+    a->dual.fine_carried = fine_carried(world);
     const int d = p->dimension, parts = d * (d + 1) / 2;
     for (int i = 0; i < 2 * parts && p->deformation[0]; i++) {
         float *array = i < d * d ? particles_spare(p, CLASS_MATRIX, i) : particles_spare(p, CLASS_VECTOR, i - d * d);
         if (i < parts)
-            a->stress[i] = array;
+            a->dual.stress[i] = array;
         else
-            a->stress_old[i - parts] = array;
+            a->dual.stress_old[i - parts] = array;
     }
 }
 
@@ -198,14 +198,14 @@ static double sum_blocks(const Array *array, int32_t blocks)
     return sum;
 }
 
-/* Displacements from the multipliers, extrapolated by args.momentum. *still is for the arguments of nodes, and has to live until the loops run. */
+/* Displacements from the multipliers, extrapolated by args.dual.momentum. *still is for the arguments of nodes, and has to live until the loops run. */
 static void add_push(World *world, Loops *loops, const ContactFrame *contacts, KernelArgs *still)
 {
     const Kernels *kernels = world->kernels;
     *still = world->args;
     if (in_cells(world)) {
         solver_add_rows(loops, world, kernels->cells_push, &world->args); /* of the extrapolated multipliers */
-        still->momentum = 0.0f;
+        still->dual.momentum = 0.0f;
     }
     solver_add_nodes(loops, world, kernels->push_nodes, still, contacts);
 }
@@ -232,7 +232,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
     Loops loops;
     loops_open(&loops, world->pool);
     guess_begin(world, contacts);
-    a->probing = in_cells(world);
+    a->cells.probing = in_cells(world);
     add_guess(world, &loops, contacts, kernels->cells_carry);
     if (sketch) {
         loops_run(&loops);
@@ -240,7 +240,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
         add_solids(world, &loops);
     }
     const double before = guess_gain(world, &loops);
-    a->probing = 0;
+    a->cells.probing = 0;
     guess_solve(world, contacts, iterations);
     add_guess(world, &loops, contacts, kernels->cells_add);
     if (!(guess_gain(world, &loops) >= before)) {
@@ -249,7 +249,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
         loops_run(&loops);
     }
     const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
-    memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
+    memcpy(a->cells.pressure_old, a->cells.pressure, cells * sizeof(float));
 }
 
 /* First multipliers, and the displacements that they make. Returns the mass of the particles. */
@@ -263,7 +263,7 @@ static double start(World *world, const ContactFrame *contacts, DualSketch *sket
     if (in_cells(world) || guesses > 0) {
         solver_add_rows(&loops, world, kernels->cells_begin, &world->args);
         solver_add_nodes(&loops, world, kernels->cells_mean, &world->args, NULL);
-        if (world->args.cell_strain && !joint_is_chosen(world)) add_solids(world, &loops);
+        if (world->args.cells.strain && !joint_is_chosen(world)) add_solids(world, &loops);
     } else {
         solver_add_rows(&loops, world, kernels->dual_begin, &world->args);
     }
@@ -350,7 +350,7 @@ static void iterate_all(World *world, const ContactFrame *contacts, double mass)
         if (!more || watched) dual_compare_displacements(world, &loops);
         if (more) add_iterate(world, &loops); /* the next one; nobody decides in between */
         loops_run(&loops);
-        if (!more || watched) dual_find_response(&modes, residual, sqrt(dual_compared(world) / mass), (double)world->args.momentum);
+        if (!more || watched) dual_find_response(&modes, residual, sqrt(dual_compared(world) / mass), (double)world->args.dual.momentum);
     }
     /* What ended the iterations stands as it was found. */
     if (record->stop != PBMPM_STOP_ERROR) record->predicted_error = dual_predicted_error(&modes, record->residual);

@@ -96,8 +96,8 @@ static void open_guess(Guess *g, World *world, const ContactFrame *contacts)
     g->measures = world->guess.measures;
     g->step = g->keep = g->mean = 0.0f;
     g->probe = world->args;
-    g->probe.probing = 1;
-    g->probe.cell_trace = g->response;
+    g->probe.cells.probing = 1;
+    g->probe.cells.trace = g->response;
     loops_open(&g->loops, world->pool);
 }
 
@@ -162,7 +162,7 @@ static Totals run_and_sum(Guess *g, CellWork *work)
 
 static double dot(const Guess *g, const float *a, const float *b, size_t begin, size_t end)
 {
-    const float *mass = g->world->args.cell_mass;
+    const float *mass = g->world->args.cells.mass;
     double sum[LANES] = {0};
     for (size_t i = begin; i < end; i += LANES)
         for (size_t k = 0; k < LANES; k++) sum[k] += (double)(mass[i + k] * a[i + k] * b[i + k]);
@@ -173,7 +173,7 @@ static double dot(const Guess *g, const float *a, const float *b, size_t begin, 
 static void respond(Guess *g, float *of)
 {
     const World *world = g->world;
-    g->probe.cell_pressure = g->probe.cell_pressure_old = of;
+    g->probe.cells.pressure = g->probe.cells.pressure_old = of;
     solver_add_rows(&g->loops, world, world->kernels->cells_push, &g->probe);
     solver_add_nodes(&g->loops, world, world->kernels->respond_nodes, &g->probe, NULL);
     walls_add(&world->walls, g->contacts, &g->loops, true, NULL);
@@ -194,7 +194,7 @@ static float energy_of_node(const float *u) { return 4.0f * u[3] * (u[0] * u[0] 
  * sums up to sum_c m_c s_c r_c, with r the means of tr D: both transfers are each other's transpose. */
 static float work_on_node(const Guess *g, size_t node)
 {
-    const float *u = g->world->args.node + node * K_NODE_WIDTH;
+    const float *u = g->world->args.grid.node + node * K_NODE_WIDTH;
     return walls_list(&g->world->walls, (uint32_t)node) ? 4.0f * walls_work(&g->world->walls, (uint32_t)node, u) : energy_of_node(u);
 }
 
@@ -207,14 +207,14 @@ static bool is_closed(const World *world, double energy, double mass) { return e
 static void press_everywhere(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    const float *mass = g->world->args.cell_mass;
+    const float *mass = g->world->args.cells.mass;
     for (size_t i = begin; i < end; i++) g->response[i] = mass[i] > 0.0f ? 1.0f : 0.0f;
 }
 
 /* What a node answers to a pressure of cells with, over what one of the measured density does. */
 static float lightness_of(const Guess *g, size_t node)
 {
-    const float *density = g->world->args.node_density;
+    const float *density = g->world->args.grid.node_density;
     return g->measures.density > 0.0f && density && density[node] > 0.0f ? g->measures.density / density[node] : 1.0f;
 }
 
@@ -222,12 +222,12 @@ static float lightness_of(const Guess *g, size_t node)
  * -m_i grad s / 4; at a surface s itself counts, by the displacement that a pressure of 1 everywhere gives. */
 static void weigh_cells(const Guess *g, size_t begin, size_t end, double *sum)
 {
-    const float *node = g->world->grid.node.data, *mass = g->world->args.cell_mass;
+    const float *node = g->world->grid.node.data, *mass = g->world->args.cells.mass;
     float *stiffness = g->better, *load = g->direction;
     for (size_t i = begin; i < end; i++) {
         const float *u = node + i * K_NODE_WIDTH;
         const float light = lightness_of(g, i), energy = energy_of_node(u);
-        g->soft[i] = g->world->args.cell_softness[i] + g->measures.least;
+        g->soft[i] = g->world->args.cells.softness[i] + g->measures.least;
         stiffness[i] = u[3] * light * light;
         load[i] = energy + mass[i] * g->soft[i];
         sum[0] += (double)(work_on_node(g, i) / (light * light) + mass[i] / light * g->soft[i]); /* as if all were as dense */
@@ -276,7 +276,7 @@ static void take_mean_of_better(const Guess *g, size_t begin, size_t end, double
 /* What the levels do not do, and what they are given. */
 static void scale_residual(const Guess *g, size_t begin, size_t end)
 {
-    const float *mass = g->world->args.cell_mass;
+    const float *mass = g->world->args.cells.mass;
     const float own = (float)g->world->def.dimension;
     for (size_t i = begin; i < end; i++) {
         g->better[i] = g->residual[i] / (own * lightness_of(g, i) + g->soft[i]);
@@ -299,9 +299,9 @@ static double precondition(Guess *g)
 /* By how much the matter in a cell is to grow: liquid too dense, solids crushed. */
 static float growth_of(const KernelArgs *a, GuessAsked asked, size_t cell)
 {
-    const float missing = a->cell_growth[cell];
+    const float missing = a->cells.growth[cell];
     const float fallen = sqrtf(asked.fallen2 * missing), most = fallen < GUESS_GROWTH_MAX ? fallen : GUESS_GROWTH_MAX, share = asked.share * missing;
-    return (share < most ? share : most) + (a->cell_strain ? a->cell_strain[cell] : 0.0f);
+    return (share < most ? share : most) + (a->cells.strain ? a->cells.strain[cell] : 0.0f);
 }
 
 static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
@@ -309,8 +309,8 @@ static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)
     (void)sum;
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
-        const float r = growth_of(a, g->measures.asked, i) - g->response[i] - a->cell_pressure[i] * a->cell_softness[i];
-        g->mask[i] = a->cell_mass[i] > g->measures.little && (a->cell_pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
+        const float r = growth_of(a, g->measures.asked, i) - g->response[i] - a->cells.pressure[i] * a->cells.softness[i];
+        g->mask[i] = a->cells.mass[i] > g->measures.little && (a->cells.pressure[i] > 0.0f || r > 0.0f) ? 1.0f : 0.0f;
         g->residual[i] = r * g->mask[i];
     }
 }
@@ -339,7 +339,7 @@ static void soften_response(const Guess *g, size_t begin, size_t end, double *su
 /* The same from the nodes alone, where the response itself is not wanted any more. */
 static void sum_curvature(const Guess *g, size_t begin, size_t end, double *sum)
 {
-    const float *mass = g->world->args.cell_mass;
+    const float *mass = g->world->args.cells.mass;
     for (size_t i = begin; i < end; i++) {
         const float s = g->direction[i];
         sum[0] += (double)(work_on_node(g, i) + mass[i] * g->soft[i] * s * s);
@@ -349,7 +349,7 @@ static void sum_curvature(const Guess *g, size_t begin, size_t end, double *sum)
 static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure;
+    float *pressure = g->world->args.cells.pressure;
     for (size_t i = begin; i < end; i++) {
         pressure[i] += g->step * g->direction[i];
         g->residual[i] -= g->step * g->response[i];
@@ -360,7 +360,7 @@ static void step_and_go_on(const Guess *g, size_t begin, size_t end, double *sum
 static void step_and_stop(const Guess *g, size_t begin, size_t end, double *sum)
 {
     (void)sum;
-    float *pressure = g->world->args.cell_pressure;
+    float *pressure = g->world->args.cells.pressure;
     for (size_t i = begin; i < end; i++) {
         const float next = pressure[i] + g->step * g->direction[i];
         pressure[i] = next > 0.0f && next < K_INCREMENT_MAX ? next : 0.0f;
@@ -401,9 +401,9 @@ static void sum_gain(const Guess *g, size_t begin, size_t end, double *sum)
 {
     const KernelArgs *a = &g->world->args;
     for (size_t i = begin; i < end; i++) {
-        const float *u = a->node + i * K_NODE_WIDTH, *base = a->node_base + i * K_NODE_WIDTH, *q = a->node_push + i * K_NODE_WIDTH;
-        const float growth = growth_of(a, g->measures.asked, i), p = a->cell_pressure[i];
-        float gain = 0.25f * a->cell_mass[i] * p * (growth - 0.5f * a->cell_softness[i] * p);
+        const float *u = a->grid.node + i * K_NODE_WIDTH, *base = a->grid.node_base + i * K_NODE_WIDTH, *q = a->dual.node_push + i * K_NODE_WIDTH;
+        const float growth = growth_of(a, g->measures.asked, i), p = a->cells.pressure[i];
+        float gain = 0.25f * a->cells.mass[i] * p * (growth - 0.5f * a->cells.softness[i] * p);
         if (walls_list(&g->world->walls, (uint32_t)i))
             gain += walls_value(&g->world->walls, (uint32_t)i, u, base, q);
         else
@@ -426,7 +426,7 @@ static void take_back(void *context, int32_t begin, int32_t end)
 {
     const World *world = *(World **)context;
     const size_t cells = (size_t)world->grid.block_cells, first = (size_t)begin * cells, count = (size_t)(end - begin) * cells;
-    memcpy(world->args.cell_pressure + first, world->args.cell_pressure_old + first, count * sizeof(float));
+    memcpy(world->args.cells.pressure + first, world->args.cells.pressure_old + first, count * sizeof(float));
 }
 
 void guess_take_back(World *world, Loops *loops) { LOOPS_ADD(loops, grid_nodes(&world->grid, GRAIN), take_back, &world); }

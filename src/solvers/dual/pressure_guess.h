@@ -20,11 +20,11 @@ double guess_density(const World *world);
 /* Prepares the preconditioner. The nodes are used and left in disorder. */
 void guess_begin(World *world, const ContactFrame *contacts);
 
-/* Improves args.cell_pressure, whose displacements the nodes hold, by up to `iterations` steps; args.cell_pressure_old keeps it as it was. The nodes are left
+/* Improves args.cells.pressure, whose displacements the nodes hold, by up to `iterations` steps; args.cells.pressure_old keeps it as it was. The nodes are left
  * in disorder. */
 void guess_solve(World *world, const ContactFrame *contacts, int iterations);
 
-/* Runs the loops, after which the nodes hold the displacements of args.cell_pressure, and returns how good that is: greater is better. */
+/* Runs the loops, after which the nodes hold the displacements of args.cells.pressure, and returns how good that is: greater is better. */
 double guess_gain(World *world, Loops *loops);
 
 /* Adds a loop that goes back to the pressures before guess_solve(). */

@@ -44,8 +44,8 @@ static void bind_couples(Primal *p)
     uint32_t *among_liquid = world->primal.among_liquid.data;
     if (!primal_is_mixed(world)) return;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) among_liquid[block] = primal_body_of(p, block)->with_liquid;
-    for (size_t k = 0; k < couples_of(world); k++) world->args.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
-    world->args.among_liquid = among_liquid;
+    for (size_t k = 0; k < couples_of(world); k++) world->args.primal.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
+    world->args.primal.among_liquid = among_liquid;
 }
 
 /* ---- Memory ---- */
@@ -109,10 +109,10 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
         p.step[i] = vector + (size_t)(4 + 2 * i) * length;
         p.change[i] = p.step[i] + length;
     }
-    world->args.node_force = p.force;
-    world->args.block_energy = state->block_energy.data;
+    world->args.primal.node_force = p.force;
+    world->args.primal.block_energy = state->block_energy.data;
     p.joint = joint_is_chosen(world);
-    world->args.fed = p.joint ? NULL : state->fed.data;
+    world->args.primal.fed = p.joint ? NULL : state->fed.data;
     return p;
 }
 
@@ -597,7 +597,7 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
 /* See multistep.h. A solution that is far from done must not be extrapolated either: its error would feed the next step. */
 static void forget_past(Primal *p)
 {
-    if (!p->world->args.block_share) return;
+    if (!p->world->args.primal.block_share) return;
     primal_over_blocks(p, sum_change);
     const bool done = p->world->record.residual <= FAR_FROM_DONE * sqrt(p->total[0] / p->mass);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
@@ -626,7 +626,7 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     const bool balanced = body->leans && (!body->with_liquid || p->mixed);
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
-        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
+        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
     constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }

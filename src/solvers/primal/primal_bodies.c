@@ -14,7 +14,7 @@ BodySum *primal_body_of(const Primal *p, int32_t block)
 
 bool primal_is_multistep(const Primal *p, int32_t block)
 {
-    const float *share = p->world->args.block_share;
+    const float *share = p->world->args.primal.block_share;
     return share && share[block] < 1.0f;
 }
 
@@ -22,7 +22,7 @@ bool primal_is_multistep(const Primal *p, int32_t block)
 static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const bool multistep = primal_is_multistep(p, block);
-    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
+    const float *pull = p->world->args.gravity, *without_forces = p->world->args.grid.node_before;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
         sum[3] += mass;

@@ -23,7 +23,7 @@ static const double MOST = 1.0;      /* of the change: the velocity at the end o
 
 static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    const float *before = p->world->args.node_before;
+    const float *before = p->world->args.grid.node_before;
     if (!primal_rigid_of(p, block)->bounces) return;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];

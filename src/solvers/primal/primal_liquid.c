@@ -84,7 +84,7 @@ static void earn(Primal *p)
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
         if (body[i].with_liquid) lost += fmax(0.0, body[i].before + body[i].work - body[i].after);
     p->world->primal.credit += lost * solver_joule(p->world);
-    p->world->args.may_feed = p->world->primal.credit > 0.0;
+    p->world->args.primal.may_feed = p->world->primal.credit > 0.0;
 }
 
 static void spend(World *world)
@@ -213,7 +213,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         const BodySum *body = &bodies[of_block[block]];
         if (body->with_liquid && body->kept < 1.0f) calm_block(world, body, block);
-        if (world->args.fed && world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
+        if (world->args.primal.fed && world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
     }
 }
 
@@ -222,6 +222,6 @@ void primal_calm(World *world, const ContactFrame *contacts)
     primal_bounce(world, contacts);
     primal_turn(world);
     if (!solver_holds_liquid(world)) return;
-    if (world->args.fed) spend(world);
+    if (world->args.primal.fed) spend(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }
