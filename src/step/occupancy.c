@@ -16,7 +16,7 @@ static void weights_of(double f, double w[3])
     w[2] = 0.5 * (0.5 + f) * (0.5 + f);
 }
 
-/* False: some node that it touches is not in the occupancy. `place` in cells. */
+/* False: some node that it touches is not among those of the occupancy. `place` in cells. */
 bool occupancy_find(const Occupancy *occupancy, int dimension, const double place[3], Spot *spot)
 {
     size_t stride = 1;

@@ -5,7 +5,7 @@
 #include "world/world.h"
 
 enum {
-    OCCUPANCY_WIDE = 2,            /* nodes to either side of a particle's own that count */
+    OCCUPANCY_WIDE = 2, /* nodes to either side of a particle's own that count */
     OCCUPANCY_RIM = OCCUPANCY_WIDE + 3 /* outside of the domain: two that do not know all of their particles, and one that is closed; and what rounding takes */
 };
 
@@ -18,7 +18,7 @@ typedef struct Occupancy {
     double room; /* what a closed room around the nodes has [cells]; infinite where it is open */
 } Occupancy;
 
-/* A point between the nodes of the occupancy. */
+/* A place between those nodes. */
 typedef struct Spot {
     size_t corner; /* of its stencil */
     double w[3][3];
@@ -29,7 +29,7 @@ double occupancy_nodes(const Occupancy *occupancy);
 /* Adds up the volumes of all particles that touch the nodes, and finds the room that there is. */
 void occupancy_measure(const World *world, Occupancy *occupancy);
 
-/* False: some node that a particle there touches is not in the occupancy. `place` in cells. */
+/* False: some node that a particle there touches is not among them. `place` in cells. */
 bool occupancy_find(const Occupancy *occupancy, int dimension, const double place[3], Spot *spot);
 
 /* Adds a particle of a rest volume [cells]. */
