@@ -1,6 +1,7 @@
 /* Steps in the background: the same results, whoever runs them, in the mode and on the threads that the host expects. */
 #include <dirent.h>
 #include <pthread.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
