@@ -51,6 +51,8 @@ public:
         bodies_.push_back(wanted);
         return bodies_.size() - 1;
     }
+    /** How many were added. */
+    std::size_t body_count() const noexcept { return bodies_.size(); }
     /** Number `number` of those that were added. */
     body &body_at(std::size_t number) noexcept { return assert(number < bodies_.size()), bodies_[number]; }
     /** Ends the coupling, and destroys the collider. Other bodies keep their numbers. */
