@@ -9,13 +9,13 @@ var _lifted = [0, 0, 0, 0] # particles high above each place, at most
 
 func build():
 	wall(Vector3(1, -0.05, 0.4), Vector3(1.1, 0.05, 0.5), Color(0.75, 0.72, 0.68))
-	wall(Vector3(0.45, 0.15, 0.4), Vector3(0.05, 0.15, 0.4), Color(0.75, 0.72, 0.68)) # of the basin
+	wall(Vector3(0.45, 0.2, 0.4), Vector3(0.05, 0.2, 0.4), Color(0.75, 0.72, 0.68)) # of the basin
 	look(Vector3(1.0, 1.5, 2.4), Vector3(1.0, 0.2, 0.4), 45)
 	var ball = SphereMesh.new()
 	ball.material = paint(HAND)
 	var seen = MeshInstance.new()
 	seen.mesh = ball
-	seen.scale = Vector3(0.15, 0.15, 0.15) # the radius of the force
+	seen.scale = Vector3(0.12, 0.12, 0.12) # the radius of the force
 	$World/Hand.add_child(seen)
 
 
@@ -36,7 +36,7 @@ func _played():
 
 
 func _place(heap):
-	return Vector3([0.2, 0.8, 1.25, 1.7][heap], 0.35, 0.4)
+	return Vector3([0.2, 0.78, 1.3, 1.8][heap], 0.35, 0.4)
 
 
 func _heap():
