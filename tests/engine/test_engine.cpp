@@ -51,7 +51,7 @@ static void coordinates_keep_their_laws(const engine::coordinates &host)
         for (const quaternion &turn : turns) {
             const quaternion q = engine::detail::normalised(turn);
             /* Turned and then mapped is mapped and then turned. */
-            CHECK(near(host.direction(engine::detail::turned(q, v)), engine::detail::turned(host.rotation(q), host.direction(v))));
+            CHECK(near(host.direction(engine::turned(q, v)), engine::turned(host.rotation(q), host.direction(v))));
             const quaternion back = host.host_rotation(host.rotation(q));
             CHECK(near({back[0], back[1], back[2]}, {q[0], q[1], q[2]}) && back[3] == q[3]);
         }
@@ -73,7 +73,7 @@ static void unreal_is_in_centimetres_with_z_up()
     CHECK(near(host.host_angular_impulse({0, -1, 0}), {0, 0, 1e4f}));
     /* A quarter turn about z takes Unreal's x to y, and so the world's first axis to its third. */
     const quaternion yaw = host.rotation({0, 0, 0.70710678f, 0.70710678f});
-    CHECK(near(engine::detail::turned(yaw, {1, 0, 0}), {0, 0, 1}));
+    CHECK(near(engine::turned(yaw, {1, 0, 0}), {0, 0, 1}));
     CHECK(near(engine::unity.vector({1, 2, 3}), {1, 2, -3}) && near(engine::godot.vector({1, 2, 3}), {1, 2, 3}));
 }
 
@@ -85,8 +85,8 @@ static void capsules_lie_along_their_axis(const engine::coordinates &host)
             const pbmpm::shape shape = host.capsule({0, 0, 0}, q, 1, 2, along);
             vector3 axis{};
             axis[static_cast<std::size_t>(along)] = 1;
-            const vector3 wanted = host.direction(engine::detail::turned(q, axis));
-            vector3 is = engine::detail::turned({shape.rotation[0], shape.rotation[1], shape.rotation[2], shape.rotation[3]}, {1, 0, 0});
+            const vector3 wanted = host.direction(engine::turned(q, axis));
+            vector3 is = engine::turned({shape.rotation[0], shape.rotation[1], shape.rotation[2], shape.rotation[3]}, {1, 0, 0});
             /* A capsule has no front. */
             if (is[0] * wanted[0] + is[1] * wanted[1] + is[2] * wanted[2] < 0) is = {-is[0], -is[1], -is[2]};
             CHECK(near(is, wanted));

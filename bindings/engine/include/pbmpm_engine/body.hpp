@@ -35,12 +35,6 @@ inline quaternion normalised(const quaternion &q) noexcept
     const float length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     return length > 0 ? quaternion{q[0] / length, q[1] / length, q[2] / length, q[3] / length} : quaternion{0, 0, 0, 1};
 }
-/* The vector after the turn: v + 2 w (u x v) + 2 u x (u x v) of the quaternion (u, w). */
-constexpr vector3 turned(const quaternion &q, const vector3 &v) noexcept
-{
-    const vector3 u{q[0], q[1], q[2]}, across = cross(u, v);
-    return sum(sum(v, across, 2 * q[3]), cross(u, across), 2);
-}
 /* The turn by `angular_velocity` for `dt`, after `rotation`. */
 inline quaternion turned_on(const quaternion &rotation, const vector3 &angular_velocity, float dt) noexcept
 {
@@ -51,6 +45,13 @@ inline quaternion turned_on(const quaternion &rotation, const vector3 &angular_v
 }
 
 } // namespace detail
+
+/** A vector after a turn: v + 2 w (u x v) + 2 u x (u x v), with the quaternion (u, w). */
+constexpr vector3 turned(const quaternion &turn, const vector3 &v) noexcept
+{
+    const vector3 u{turn[0], turn[1], turn[2]}, across = detail::cross(u, v);
+    return detail::sum(detail::sum(v, across, 2 * turn[3]), detail::cross(u, across), 2);
+}
 
 /** A body that a physics engine moves, and its collider, which is kinematic and measures its impulse.
  *
@@ -72,9 +73,9 @@ public:
     /** Sends the collider where the body will be after `dt`. Errors: those of pbmpm_collider_move(). */
     expected<void> before_step(const world_ref &world, float dt) noexcept
     {
-        const vector3 centre = detail::sum(detail::sum(motion_.position, detail::turned(motion_.rotation, centre_)), motion_.velocity, dt);
+        const vector3 centre = detail::sum(detail::sum(motion_.position, turned(motion_.rotation, centre_)), motion_.velocity, dt);
         motion_.rotation = detail::turned_on(motion_.rotation, motion_.angular_velocity, dt);
-        motion_.position = detail::sum(centre, detail::turned(motion_.rotation, centre_), -1);
+        motion_.position = detail::sum(centre, turned(motion_.rotation, centre_), -1);
         return world.collider_move(collider_, motion_.position, motion_.rotation);
     }
     /** Adds what matter gave in the step to the push, and lets gravity act. Errors: those of pbmpm_collider_impulse() and pbmpm_collider_submerged(). */
@@ -92,7 +93,7 @@ public:
         }
         for (std::size_t i = 0; i < 3; i++) last_[i] = (asked[i] + virtual_share * last_[i]) / (1 + virtual_share);
         /* From the collider's position to the centre of mass. */
-        const vector3 away = detail::turned(motion_.rotation, centre_);
+        const vector3 away = turned(motion_.rotation, centre_);
         push_.angular = detail::sum(detail::sum(push_.angular, turning), detail::cross(away, asked), -1);
         push_.linear = detail::sum(push_.linear, last_);
         motion_.velocity = detail::sum(detail::sum(motion_.velocity, last_, 1 / mass_), gravity, dt);

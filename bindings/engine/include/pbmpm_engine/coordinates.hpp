@@ -70,13 +70,17 @@ public:
     /** `along`: the host's axis that it lies along; `half_length`: of the segment between the centres of its round ends. */
     shape capsule(const vector3 &position, const quaternion &turn, float radius, float half_length, int along) const noexcept
     {
-        constexpr float half = 0.70710678f; /* sine and cosine of an eighth of a turn */
-        /* The library's capsules lie along the first axis. This turns it to the second or the third. */
-        const quaternion lay[3] = {{0, 0, 0, 1}, {0, 0, half, half}, {0, -half, 0, half}};
-        shape it = placed_at(PBMPM_CAPSULE, position, product(rotation(turn), lay[axis(along)]));
+        shape it = placed_at(PBMPM_CAPSULE, position, capsule_rotation(turn, along));
         it.radius = length(radius);
         it.half_extents[0] = length(half_length);
         return it;
+    }
+    /** The rotation of such a capsule, for calls that move it. The library's capsules lie along the first axis: this turns it to another one. */
+    quaternion capsule_rotation(const quaternion &turn, int along) const noexcept
+    {
+        constexpr float half = 0.70710678f; /* sine and cosine of an eighth of a turn */
+        constexpr quaternion lay[3] = {{0, 0, 0, 1}, {0, 0, half, half}, {0, -half, 0, half}};
+        return product(rotation(turn), lay[axis(along)]);
     }
     shape plane(const vector3 &position, const vector3 &normal) const noexcept
     {
