@@ -52,7 +52,7 @@ void FPbmpmModule::ShutdownModule()
 {
 	if (bPbmpmIsLoaded)
 	{
-		pbmpm::shutdown();
+		static_cast<void>(pbmpm::shutdown()); // what it refuses is another call under way, and none is
 	}
 	bPbmpmIsLoaded = false;
 	if (Library)

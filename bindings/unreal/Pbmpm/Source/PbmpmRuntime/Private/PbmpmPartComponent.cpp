@@ -22,7 +22,7 @@ template <class BakeType> static pbmpm::expected<pbmpm_baked_id> Load(FPbmpmWorl
 	{
 		return Size.error();
 	}
-	std::vector<std::byte> Bytes(SIZE_T(*Size));
+	std::vector<std::byte> Bytes(static_cast<SIZE_T>(*Size));
 	if (const auto Baked = Bake(Bytes); !Baked)
 	{
 		return Baked.error();

@@ -16,7 +16,9 @@ DEFINE_STAT(STAT_PbmpmStep);
 DEFINE_STAT(STAT_PbmpmError);
 DEFINE_STAT(STAT_PbmpmLost);
 
+/* Here, where the matter's type is complete. */
 UPbmpmSubsystem::UPbmpmSubsystem() = default;
+UPbmpmSubsystem::UPbmpmSubsystem(FVTableHelper& Helper) : Super(Helper) {}
 UPbmpmSubsystem::~UPbmpmSubsystem() = default;
 
 bool UPbmpmSubsystem::DoesSupportWorldType(const EWorldType::Type WorldType) const
@@ -50,16 +52,26 @@ void UPbmpmSubsystem::EndWorld(const UPbmpmWorldComponent& Settings)
 {
 	if (Owner == &Settings)
 	{
-		Deinitialize();
+		Close();
 	}
 }
 
 void UPbmpmSubsystem::Deinitialize()
 {
+	Close();
+	Super::Deinitialize();
+}
+
+/* Parts stay: they begin again with the next world. */
+void UPbmpmSubsystem::Close()
+{
+	for (int32 Index = 0; Index < BegunCount; Index++)
+	{
+		Parts[Index]->End(*Matter);
+	}
 	BegunCount = 0;
 	Owner = nullptr;
 	Matter.Reset();
-	Super::Deinitialize();
 }
 
 void UPbmpmSubsystem::Add(UPbmpmPartComponent& Part)

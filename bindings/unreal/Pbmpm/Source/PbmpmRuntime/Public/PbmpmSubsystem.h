@@ -21,6 +21,7 @@ class PBMPMRUNTIME_API UPbmpmSubsystem : public UTickableWorldSubsystem
 
 public:
 	UPbmpmSubsystem();
+	UPbmpmSubsystem(FVTableHelper& Helper);
 	virtual ~UPbmpmSubsystem() override;
 	virtual void Deinitialize() override;
 	virtual void Tick(float DeltaTime) override;
@@ -45,6 +46,7 @@ protected:
 
 private:
 	void BeginParts();
+	void Close();
 	void Report() const;
 
 	TUniquePtr<FPbmpmWorld> Matter;
