@@ -56,8 +56,8 @@ constexpr vector3 turned(const quaternion &turn, const vector3 &v) noexcept
 /** A body that a physics engine moves, and its collider, which is kinematic and measures its impulse.
  *
  *  Each frame the host says how the body moves, by set_motion(). Before a step the collider is sent where the body's velocity takes it. After it the body has a push,
- *  which the host gives to its physics engine. If a frame has several steps, the body goes on from step to step by its velocity, its weight and its pushes. Then its angular
- *  velocity stays as the host said.
+ *  which the host gives to its physics engine. If a frame has several steps, the body goes on between them: by its velocity, its weight and its pushes. Its
+ *  angular velocity stays as the host said.
  *
  *  The push is smoothed by the virtual mass of rigid.h: a body that is lighter than the matter that moves along would otherwise oscillate. */
 class body {

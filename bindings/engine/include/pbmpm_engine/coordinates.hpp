@@ -10,8 +10,8 @@ namespace pbmpm::engine {
 
 /** How a host's axes and unit of length lie to those of a world, which are metres on right-handed axes.
  *
- *  Let M be the map of axes, a permutation with signs. A vector v of the host is M v of the world. A turn R is M R M^-1, so the axes of a body are mapped
- *  like those of the world. Where M is a mirror (its determinant is -1) an angular velocity w is -M w, and so is the vector part of a quaternion. */
+ *  Let M be the map of axes, a permutation with signs. A vector v of the host is M v of the world. A turn R is M R M^-1. So the axes of a body are
+ *  mapped like those of the world. Where M is a mirror (its determinant is -1) an angular velocity w is -M w. So is the vector part of a quaternion. */
 class coordinates {
 public:
     /** Component i of a world's vector is `sign[i]` (1 or -1) times component `axis[i]` of the host's. `metres`: a unit of the host's length [m], above 0. */

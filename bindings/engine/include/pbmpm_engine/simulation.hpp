@@ -18,7 +18,7 @@ struct options {
     bool background = false; /**< true: the last step of a frame runs while the host does something else. Then what is drawn is a step older. */
 };
 
-/** A world, its clock, the bodies that are coupled to it, and colliders and emitters that follow something of the host's.
+/** A world and its clock; bodies that are coupled to it; colliders and emitters that follow something of the host's.
  *  One thread at a time uses it. Errors are those of the library's calls that it makes. */
 class simulation {
 public:
@@ -66,7 +66,8 @@ public:
         return {};
     }
 
-    /** Sends a kinematic collider or an emitter on its way. It will be there with the last step of the next frame that has steps, and each step takes an equal part of the way. */
+    /** Sends a kinematic collider or an emitter on its way. It arrives with the last step of the next frame that has steps. Each step takes an equal
+     *  part of the way. */
     template <class Id> void follow(Id what, const vector3 &position, const quaternion &rotation)
     {
         static_assert(std::is_same_v<Id, pbmpm_collider_id> || std::is_same_v<Id, pbmpm_emitter_id>);
