@@ -19,17 +19,25 @@ passed=0 failed=0
 out=$PWD/build/godot
 rm -rf "$out"
 mkdir -p "$out"
-for sample in drink raft sandbox; do
-    stage "Playing $sample"
-    PBMPM_PLAY=$out HOME=$out LC_ALL=C.UTF-8 timeout 600 xvfb-run -a -s "-screen 0 1280x720x24" godot3 --path bindings/godot --audio-driver Dummy --fixed-fps 60 \
-        "res://samples/$sample.tscn" >"$out/$sample.log" 2>&1 || echo "ended with an error" >>"$out/$sample.log"
-    grep -i "^$sample: " "$out/$sample.log" || true
-    if grep -qi "^$sample: as expected" "$out/$sample.log" && ! grep -qE "SCRIPT ERROR|pbmpm: |ended with an error" "$out/$sample.log"; then
+
+# play NAME ARGUMENT...: runs Godot, and looks at what NAME says of itself.
+play() {
+    name=$1; shift
+    stage "Playing $name"
+    PBMPM_PLAY=$out HOME=$out LC_ALL=C.UTF-8 timeout 600 xvfb-run -a -s "-screen 0 1280x720x24" godot3 --path bindings/godot --audio-driver Dummy --fixed-fps 60 "$@" \
+        >"$out/$name.log" 2>&1 || echo "SCRIPT ERROR: it ended with an error" >>"$out/$name.log"
+    grep -i "^$name: " "$out/$name.log" || true
+    if grep -qi "^$name: as expected" "$out/$name.log" && ! grep -qE "SCRIPT ERROR|FAILED" "$out/$name.log"; then
         passed=$((passed + 1))
     else
-        tail -n 20 "$out/$sample.log"
+        tail -n 20 "$out/$name.log"
         failed=$((failed + 1))
     fi
+}
+play faults -s res://tests/faults.gd
+for sample in drink raft sandbox; do
+    play $sample "res://samples/$sample.tscn"
+    ! grep -q "pbmpm: " "$out/$sample.log" || stop "the library refused something; full text: build/godot/$sample.log"
 done
 ls "$out"/*.png
 echo "$passed passed, $failed failed"

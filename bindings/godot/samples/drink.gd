@@ -1,5 +1,5 @@
 # Pour a drink: a jet fills a glass, then two cubes of ice fall in.
-extends "stage.gd"
+extends "res://samples/stage.gd"
 
 const GLASS = Color(0.7, 0.85, 0.95, 0.25)
 const ICE = Color(0.92, 0.97, 1.0, 0.75)

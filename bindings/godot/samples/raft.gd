@@ -1,5 +1,5 @@
 # A raft on a river: a bed of heights, a spring upstream, a drain below the fall at its end, and a raft that Godot's physics moves.
-extends "stage.gd"
+extends "res://samples/stage.gd"
 
 const BANK = Color(0.55, 0.47, 0.36)
 const WOOD = Color(0.62, 0.4, 0.2)

@@ -1,5 +1,5 @@
 # A sandbox: water, jelly, sand and clay, and a hand that grabs what is near it. The mouse moves the hand while its button is held; the wheel lifts it.
-extends "stage.gd"
+extends "res://samples/stage.gd"
 
 const HAND = Color(0.9, 0.2, 0.2, 0.35)
 

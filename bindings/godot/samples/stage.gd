@@ -2,10 +2,7 @@
 # writes pictures there at the times in `shots`, prints a table of times, and ends.
 extends Spatial
 
-const Material = preload("res://addons/pbmpm/material.gd")
 const Collider = preload("res://addons/pbmpm/collider.gd")
-const Emitter = preload("res://addons/pbmpm/emitter.gd")
-const Drain = preload("res://addons/pbmpm/drain.gd")
 
 export(float) var seconds = 6.0
 export(PoolRealArray) var shots = PoolRealArray([1.0, 3.0, 5.0])

@@ -1,5 +1,5 @@
 # An obstacle. It follows its node where `moves` is set. Below a RigidBody it is coupled: matter pushes the body, and the body pushes matter.
-extends "part.gd"
+extends "res://addons/pbmpm/part.gd"
 
 export(bool) var moves = false
 export(String, "coulomb", "stick", "slip") var friction = "coulomb"

@@ -1,5 +1,5 @@
 # Takes matter out.
-extends "part.gd"
+extends "res://addons/pbmpm/part.gd"
 
 
 func _init():

@@ -1,5 +1,5 @@
 # A source of matter. It may move.
-extends "part.gd"
+extends "res://addons/pbmpm/part.gd"
 
 export(Resource) var material
 export(bool) var emitting = true setget set_emitting

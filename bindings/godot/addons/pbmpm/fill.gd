@@ -1,5 +1,5 @@
 # Matter at the beginning.
-extends "part.gd"
+extends "res://addons/pbmpm/part.gd"
 
 export(Resource) var material
 export(Vector3) var velocity = Vector3() # [m/s]

@@ -1,5 +1,5 @@
 # A force on matter. It may move; then change `velocity` and `strength` as you like, they are taken anew in each frame.
-extends "part.gd"
+extends "res://addons/pbmpm/part.gd"
 
 export(String, "uniform", "radial", "vortex", "drag", "grab") var kind = "grab"
 export(bool) var enabled = true
