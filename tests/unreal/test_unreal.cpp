@@ -2,15 +2,19 @@
 #include "PbmpmBallsComponent.h"
 #include "PbmpmColliderComponent.h"
 #include "PbmpmDrainComponent.h"
+#include "PbmpmDrink.h"
 #include "PbmpmEmitterComponent.h"
 #include "PbmpmFillComponent.h"
 #include "PbmpmForceComponent.h"
 #include "PbmpmMaterial.h"
 #include "PbmpmModule.h"
 #include "PbmpmNiagaraComponent.h"
+#include "PbmpmRaft.h"
+#include "PbmpmSandbox.h"
 #include "PbmpmSubsystem.h"
 #include "PbmpmWorldComponent.h"
 
+#include "Components/StaticMeshComponent.h"
 #include "Engine/StaticMesh.h"
 #include "HAL/PlatformProcess.h"
 #include "LandscapeProxy.h"
@@ -46,7 +50,7 @@ struct FLevel
 	FLevel() { World.StubSubsystem = &Subsystem; }
 	void Play(UActorComponent& Component)
 	{
-		Component.StubWorld = &World;
+		Component.StubLevel = &World;
 		Component.BeginPlay();
 		Playing.push_back(&Component);
 	}
@@ -246,6 +250,7 @@ static void BodiesFloat()
 	Fill.Material = &Water;
 	Fill.HalfExtents = FVector(80, 80, 25);
 	Place(Fill, FVector(80, 80, 25));
+	Raft.StubSimulates = true;
 	Raft.StubMass = 36; // half of the water's density
 	Raft.StubInertia = 12000;
 	Place(Raft, FVector(80, 80, 65));
@@ -360,13 +365,87 @@ static void WorldsEndAndBeginAgain()
 	Level.End();
 }
 
+/* A sample in a level. What simulates falls and is pushed, and hits nothing. */
+template <class SampleType> struct FSampleLevel : FLevel
+{
+	SampleType Sample;
+
+	explicit FSampleLevel(const FVector& Place = FVector())
+	{
+		Sample.RootComponent->SetRelativeLocation(Place);
+		for (const auto& [Name, Object] : Sample.StubObjects)
+		{
+			if (UActorComponent* Component = dynamic_cast<UActorComponent*>(Object.get()))
+			{
+				Play(*Component);
+			}
+		}
+	}
+	void Run(int Frames)
+	{
+		for (int Frame = 0; Frame < Frames; Frame++)
+		{
+			Sample.Tick(1.0f / 60);
+			Tick(1.0f / 60);
+			for (const auto& [Name, Object] : Sample.StubObjects)
+			{
+				UPrimitiveComponent* Body = dynamic_cast<UPrimitiveComponent*>(Object.get());
+				if (Body && Body->IsSimulatingPhysics())
+				{
+					Body->StubSimulate(1.0f / 60);
+				}
+			}
+		}
+	}
+	SIZE_T Count() const { return Subsystem.GetPoints().size(); }
+};
+
+static void SamplesPlay()
+{
+	{
+		FSampleLevel<APbmpmDrink> Level(FVector(1000, -2000, 300)); // and not at the level's origin
+		Level.Run(1);
+		const SIZE_T Before = Level.Count();
+		Level.Run(30);
+		CHECK(Before > 9000 && Level.Count() > Before + 2000);
+		const FVector Mean = MeanOf(Level.Subsystem.GetPoints());
+		CHECK(Mean.Z > 304 && Mean.Z < 340 && std::abs(Mean.X - 1000) < 10 && std::abs(Mean.Y + 2000) < 10);
+		Level.End();
+	}
+	{
+		FSampleLevel<APbmpmRaft> Level;
+		Level.Run(60);
+		const FVector Place = Level.Sample.Raft->GetComponentTransform().GetLocation();
+		CHECK(Level.Count() > 10000 && Place.Z > 10 && Place.Z < 70 && Place.X > 155);
+		Level.End();
+	}
+	{
+		FSampleLevel<APbmpmSandbox> Level;
+		Level.Run(1);
+		const SIZE_T All = Level.Count();
+		int32 High = 0;
+		for (int Frame = 0; Frame < 60; Frame++)
+		{
+			Level.Sample.MoveHand(FVector(180, 40, 20 + Frame), 1.0f / 60, true);
+			Level.Run(1);
+		}
+		for (const pbmpm::engine::point& Point : Level.Subsystem.GetPoints())
+		{
+			High += Level.Subsystem.GetMaterial(Point) == Level.Sample.Clay && Point.position[2] > 40;
+		}
+		CHECK(Level.Count() == All && High > 100);
+		Level.End();
+	}
+	CHECK(FStubLog::Get().Errors == 0);
+}
+
 int main()
 {
 	AModuleSaysWhyItCannotLoad();
 	FPbmpmModule Module;
 	Module.StartupModule();
 	CHECK(FPbmpmModule::IsLoaded());
-	for (void (*Test)() : {MatterFallsAndIsDrawn, ForcesActAlongUnrealsAxes, EmittersAndDrainsKeepAccount, BodiesFloat, MeshesAndLandscapesHoldMatter, WorldsEndAndBeginAgain})
+	for (void (*Test)() : {MatterFallsAndIsDrawn, ForcesActAlongUnrealsAxes, EmittersAndDrainsKeepAccount, BodiesFloat, MeshesAndLandscapesHoldMatter, WorldsEndAndBeginAgain, SamplesPlay})
 	{
 		FStubLog::Get() = FStubLog();
 		Test();

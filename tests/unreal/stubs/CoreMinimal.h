@@ -25,6 +25,7 @@ using TCHAR = char16_t;
 #define TEXT(Text) u##Text
 #define PLATFORM_WINDOWS 0
 #define INDEX_NONE (-1)
+#define PI 3.14159265f
 #define THIRD_PARTY_INCLUDES_START
 #define THIRD_PARTY_INCLUDES_END
 
@@ -92,6 +93,8 @@ inline const TCHAR* StubTchars(const char* Text)
 }
 #define UTF8_TO_TCHAR(Text) StubTchars(Text)
 
+inline const FName NAME_None;
+
 struct FStubLog
 {
 	static FStubLog& Get()
@@ -151,6 +154,12 @@ struct FQuat
 	double X = 0, Y = 0, Z = 0, W = 1;
 	FQuat() = default;
 	FQuat(double InX, double InY, double InZ, double InW) : X(InX), Y(InY), Z(InZ), W(InW) {}
+	FQuat(const FVector& Axis, double Angle) : X(Axis.X * std::sin(Angle / 2)), Y(Axis.Y * std::sin(Angle / 2)), Z(Axis.Z * std::sin(Angle / 2)), W(std::cos(Angle / 2)) {}
+	FQuat operator*(const FQuat& Q) const
+	{
+		const FVector U(X, Y, Z), V(Q.X, Q.Y, Q.Z), S = V * W + U * Q.W + FVector::CrossProduct(U, V);
+		return FQuat(S.X, S.Y, S.Z, W * Q.W - X * Q.X - Y * Q.Y - Z * Q.Z);
+	}
 	FVector RotateVector(const FVector& V) const
 	{
 		const FVector U(X, Y, Z), Across = FVector::CrossProduct(U, V);
@@ -277,6 +286,7 @@ template <class Type> class TObjectPtr
 {
 public:
 	TObjectPtr(Type* Pointer = nullptr) : It(Pointer) {}
+	template <class OtherType, class = std::enable_if_t<std::is_convertible_v<OtherType*, Type*>>> TObjectPtr(const TObjectPtr<OtherType>& Other) : It(Other) {}
 	operator Type*() const { return It; }
 	Type* operator->() const { return It; }
 

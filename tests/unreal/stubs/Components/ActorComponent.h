@@ -17,8 +17,9 @@ public:
 	virtual void BeginPlay() {}
 	virtual void EndPlay(const EEndPlayReason::Type) {}
 	virtual void TickComponent(float, ELevelTick, FActorComponentTickFunction*) {}
-	UWorld* GetWorld() const { return StubWorld; }
-	AActor* GetOwner() const { return nullptr; }
+	UWorld* GetWorld() const { return StubLevel; }
+	AActor* GetOwner() const { return StubOwner; }
 	FActorComponentTickFunction PrimaryComponentTick;
-	UWorld* StubWorld = nullptr;
+	UWorld* StubLevel = nullptr;
+	AActor* StubOwner = nullptr;
 };

@@ -1,8 +1,5 @@
 #pragma once
-#include "Components/PrimitiveComponent.h"
-class UStaticMeshComponent : public UPrimitiveComponent
-{
-};
+#include "Components/StaticMeshComponent.h"
 class UInstancedStaticMeshComponent : public UStaticMeshComponent
 {
 public:

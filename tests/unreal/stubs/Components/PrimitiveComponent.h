@@ -8,7 +8,7 @@ enum Type { NoCollision };
 class UPrimitiveComponent : public USceneComponent
 {
 public:
-	virtual bool IsSimulatingPhysics(FName = FName()) const { return StubMass > 0; }
+	virtual bool IsSimulatingPhysics(FName = FName()) const { return StubSimulates; }
 	virtual float GetMass() const { return StubMass; }
 	FVector GetCenterOfMass(FName = FName()) const { return GetComponentTransform().GetLocation(); }
 	FVector GetPhysicsLinearVelocity(FName = FName()) { return StubVelocity; }
@@ -21,6 +21,9 @@ public:
 		StubTransform = FTransform(StubTransform.GetRotation(), StubTransform.GetLocation() + StubVelocity * Seconds, StubTransform.GetScale3D());
 		StubVelocity = StubVelocity + FVector(0, 0, -981) * Seconds;
 	}
-	float StubMass = 0, StubInertia = 1;
+	virtual void SetSimulatePhysics(bool bSimulate) { StubSimulates = bSimulate; }
+	void SetMassOverrideInKg(FName, float Mass, bool = true) { StubMass = Mass; }
+	bool StubSimulates = false;
+	float StubMass = 1, StubInertia = 1e6f;
 	FVector StubVelocity, StubTurning;
 };

@@ -1,5 +1,7 @@
 #include "PbmpmWorld.h"
 
+#include "GameFramework/Actor.h"
+
 #include "PbmpmMaterial.h"
 #include "PbmpmStats.h"
 #include "PbmpmTasks.h"
@@ -35,12 +37,15 @@ static void SetBox(float (&Low)[3], float (&High)[3], const FVector& Min, const 
 
 TUniquePtr<FPbmpmWorld> FPbmpmWorld::Create(const UPbmpmWorldComponent& Settings)
 {
+	const AActor* Owner = Settings.GetOwner();
+	const FVector Place = Owner ? Owner->GetActorLocation() : FVector::ZeroVector;
+	const FVector Min = Place + Settings.DomainMin, Max = Place + Settings.DomainMax;
 	pbmpm::engine::options Wanted;
 	const pbmpm::task_hooks Hooks = PbmpmTaskHooks();
 	Wanted.world.cell_size = Coordinates.length(Settings.CellSize);
 	Wanted.world.particle_capacity = uint32(FMath::Max(Settings.ParticleCapacity, 0));
 	Wanted.world.domain_enabled = Settings.bClosed;
-	SetBox(Wanted.world.domain_min, Wanted.world.domain_max, Settings.DomainMin, Settings.DomainMax);
+	SetBox(Wanted.world.domain_min, Wanted.world.domain_max, Min, Max);
 	Wanted.world.tasks = &Hooks;
 	Set(Wanted.settings.gravity, Coordinates.vector(Plain(Settings.Gravity)));
 	Wanted.settings.substeps = Settings.Substeps;
@@ -58,7 +63,7 @@ TUniquePtr<FPbmpmWorld> FPbmpmWorld::Create(const UPbmpmWorldComponent& Settings
 	{
 		pbmpm::kill_bounds Bounds;
 		Bounds.enabled = 1;
-		SetBox(Bounds.low, Bounds.high, Settings.DomainMin, Settings.DomainMax);
+		SetBox(Bounds.low, Bounds.high, Min, Max);
 		Succeeded(Made->reading().set_kill_bounds(Bounds), TEXT("The domain"));
 	}
 	return TUniquePtr<FPbmpmWorld>(new FPbmpmWorld(std::move(*Made), Wanted.world.particle_capacity));

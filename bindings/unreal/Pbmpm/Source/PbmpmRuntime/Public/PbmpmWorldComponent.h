@@ -59,7 +59,7 @@ public:
 	UPROPERTY(EditAnywhere, Category = "Pbmpm")
 	bool bClosed = false;
 
-	/** Corners of the domain [cm]. */
+	/** Corners of the domain, from where the actor stands when play begins [cm]. */
 	UPROPERTY(EditAnywhere, Category = "Pbmpm")
 	FVector DomainMin = FVector(-500.0, -500.0, -500.0);
 
