@@ -12,7 +12,7 @@ namespace Pbmpm.Components
 
         // JsonUtility fills fields of these names, and keeps what the file does not give
         public string format = "";
-        public int version;
+        public int version = 0;
         public Changes settings = new Changes();
 
         [Serializable]
