@@ -79,7 +79,8 @@ namespace Pbmpm.Components
         void AdvanceHere()
         {
             Finish();
-            for (var steps = 0; steps < catchUp && clock.Take(StepSeconds); steps++)
+            var most = Mathf.Max(1, Mathf.RoundToInt(catchUp / StepSeconds));
+            for (var steps = 0; steps < most && clock.Take(StepSeconds); steps++)
             {
                 BeforeStep();
                 StepMarker.Begin();

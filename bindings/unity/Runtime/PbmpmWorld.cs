@@ -48,8 +48,8 @@ namespace Pbmpm.Components
         [Tooltip("Where steps are taken. FixedUpdate for bodies that matter pushes.")]
         public Pace pace = Pace.Update;
 
-        [Tooltip("Steps that a frame may catch up. More time than that is given up.")]
-        public int catchUp = 2;
+        [Tooltip("Longest time that a frame simulates [s]. What exceeds it by more than a step is given up, and counted.")]
+        public float catchUp = 1 / 30f;
 
         [Tooltip("Steps run beside the frame; what is seen is a step older.")]
         public bool background;

@@ -216,6 +216,7 @@ namespace UnityEngine
         public static float Max(float a, float b) => a > b ? a : b;
         public static int Max(int a, int b) => a > b ? a : b;
         public static float Abs(float a) => Math.Abs(a);
+        public static int RoundToInt(float f) => (int)Math.Round(f);
         public static int Clamp(int value, int min, int max) => value < min ? min : value > max ? max : value;
         public static float Sin(float angle) => (float)Math.Sin(angle);
         public static float Cos(float angle) => (float)Math.Cos(angle);

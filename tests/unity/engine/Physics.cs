@@ -33,6 +33,11 @@ namespace UnityEngine
         public float height { get; set; } = 1;
     }
 
+    public sealed class MeshCollider : Collider
+    {
+        public Mesh sharedMesh { get; set; }
+    }
+
     public static class Physics
     {
         public static Vector3 gravity { get; set; } = new Vector3(0, -9.81f, 0);
@@ -89,7 +94,12 @@ namespace UnityEngine
     {
         internal float[,] Heights = new float[2, 2];
 
-        public int heightmapResolution => Heights.GetLength(0);
+        public int heightmapResolution
+        {
+            get { return Heights.GetLength(0); }
+            set { Heights = new float[value, value]; }
+        }
+
         public Vector3 size { get; set; }
 
         public float[,] GetHeights(int xBase, int yBase, int width, int height)
@@ -100,6 +110,16 @@ namespace UnityEngine
         public void SetHeights(int xBase, int yBase, float[,] heights)
         {
             Heights = (float[,])heights.Clone();
+        }
+    }
+
+    public sealed class Terrain : Behaviour
+    {
+        public static GameObject CreateTerrainGameObject(TerrainData assignTerrain)
+        {
+            var made = new GameObject("Terrain");
+            made.AddComponent<Terrain>();
+            return made;
         }
     }
 }

@@ -82,6 +82,7 @@ namespace UnityEngine
         public static void Frame(float seconds)
         {
             Time.deltaTime = seconds;
+            Time.time += seconds;
             Time.frameCount++;
             Starts();
             Fixed(seconds);
@@ -203,6 +204,29 @@ namespace UnityEngine
         public static void LogException(Exception exception, Object context)
         {
             Told.Add(exception.Message);
+        }
+    }
+
+    /// <summary>A mouse that rests, and whose button is down if it is set so.</summary>
+    public class Input
+    {
+        /// <summary>Not part of Unity.</summary>
+        public static bool Held;
+
+        static int since = -1;
+
+        public static Vector3 mousePosition => Vector3.zero;
+
+        public static bool GetMouseButton(int button)
+        {
+            if (!Held) since = -1;
+            else if (since < 0) since = Time.frameCount;
+            return Held;
+        }
+
+        public static bool GetMouseButtonDown(int button)
+        {
+            return GetMouseButton(button) && since == Time.frameCount;
         }
     }
 }

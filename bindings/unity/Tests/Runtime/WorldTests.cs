@@ -35,6 +35,18 @@ namespace Pbmpm.Tests
         }
 
         [Test]
+        public void ALongFrameIsCutAndAFineRateIsNot()
+        {
+            stage.World.rate = 120;
+            stage.Begin();
+            for (var frame = 0; frame < 50; frame++) stage.World.Advance(0.02f); // 2.4 steps each
+            Assert.AreEqual(1, (float)stage.World.Simulation.Stats.SimulatedSeconds, 1 / 120f);
+            Assert.AreEqual(0, (float)stage.World.LostTime);
+            stage.World.Advance(1);
+            Assert.AreEqual(1 - 4 / 120f - 1 / 120f, (float)stage.World.LostTime, 1 / 120f);
+        }
+
+        [Test]
         public void PlayingTwiceComesToTheSame()
         {
             var hashes = new ulong[2];
