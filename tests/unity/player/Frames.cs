@@ -43,15 +43,25 @@ static class Frames
         var steps = (int)world.Statistics.StepCount;
         var late = world.LateFrames;
         Player.Stop();
+        var start = Stopwatch.GetTimestamp();
         var wanted = Scene.HashOfCalls(steps);
+        var alone = (Stopwatch.GetTimestamp() - start) * 1000.0 / Stopwatch.Frequency / steps;
         Array.Sort(times);
-        Console.WriteLine("{0} frames after {1}, {2} steps{3}, {4} particles: {5:F2} ms median, {6:F2} ms 99 %, {7:F2} ms longest", frames, WarmUp, steps,
-                          background ? " in the background, " + late + " late frames" : "", particles, times[frames / 2], times[frames * 99 / 100], times[frames - 1]);
+        Console.WriteLine("{0} frames after {1}, {2} steps{3}, {4} particles: {5:F2} ms median, {6:F2} ms 99 %, {7:F2} ms longest, {8:F2} ms mean", frames, WarmUp, steps,
+                          background ? " in the background, " + late + " late frames" : "", particles, times[frames / 2], times[frames * 99 / 100], times[frames - 1], Mean(times));
+        Console.WriteLine("the same by the C# binding alone: {0:F2} ms a step, mean", alone);
         Console.WriteLine("{0} instances drawn, {1} buffers left", UnityEngine.Graphics.Drawn, ComputeBuffer.Alive);
         Console.WriteLine("garbage: {0} bytes, by {1}", bytes, garbage.Way);
         Console.WriteLine("hash {0:x16}, by the C# binding {1:x16}", hash, wanted);
         foreach (var line in UnityEngine.Debug.Told) Console.WriteLine("told: " + line);
         return bytes == 0 && hash == wanted && ComputeBuffer.Alive == 0 && UnityEngine.Debug.Told.Count == 0 ? 0 : 1;
+    }
+
+    static double Mean(double[] times)
+    {
+        var sum = 0.0;
+        foreach (var one in times) sum += one;
+        return sum / times.Length;
     }
 
     /// <summary>For a step in the background, as in a game whose frames take longer than a step.</summary>

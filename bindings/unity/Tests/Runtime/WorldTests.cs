@@ -41,7 +41,7 @@ namespace Pbmpm.Tests
             stage.Begin();
             for (var frame = 0; frame < 50; frame++) stage.World.Advance(0.02f); // 2.4 steps each
             Assert.AreEqual(1, (float)stage.World.Simulation.Stats.SimulatedSeconds, 1 / 120f);
-            Assert.AreEqual(0, (float)stage.World.LostTime);
+            Assert.AreEqual(0, stage.World.LostTime);
             stage.World.Advance(1);
             Assert.AreEqual(1 - 4 / 120f - 1 / 120f, (float)stage.World.LostTime, 1 / 120f);
         }
