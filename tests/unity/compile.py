@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import subprocess
 import sys
@@ -69,12 +70,20 @@ def compile_samples(package: Path, output: Path) -> None:
     compile_one(output / "SampleScripts.dll", sources, references, ("-define:ENABLE_LEGACY_INPUT_MANAGER",))
 
 
+def compile_readme(package: Path, output: Path) -> None:
+    """Its example, as a user's script."""
+    example = output / "Example.cs"
+    example.write_text("\n".join(re.findall(r"```csharp\n(.*?)```", (package / "README.md").read_text(encoding="utf-8"), re.DOTALL)), encoding="utf-8")
+    compile_one(output / "Example.dll", [example], ["UnityEngine.dll", "Pbmpm.Core.dll", "Pbmpm.Components.dll"])
+
+
 def main(package: Path, output: Path) -> None:
     output.mkdir(parents=True, exist_ok=True)
     compile_engine(output)
     compile_package(package, output, DEFINES)  # as in a player
     compile_package(package, output, (*DEFINES, "UNITY_EDITOR", CHECKS))  # as in the editor; this one is run
     compile_samples(package, output)
+    compile_readme(package, output)
     player = HERE / "player"
     references = ["UnityEngine.dll", "Pbmpm.Core.dll", "Pbmpm.Components.dll"]
     compile_one(output / "RunTests.exe", [player / "RunTests.cs"], [*references, "TestFramework.dll"])

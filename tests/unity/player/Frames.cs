@@ -18,23 +18,12 @@ static class Frames
         var litter = Array.IndexOf(words, "litter") >= 0;
         Player.Play(Assembly.Load("Pbmpm.Components"));
         var scene = new Scene.OfComponents(background);
-        for (var frame = 0; frame < WarmUp; frame++)
-        {
-            scene.Advance(frame);
-            Wait(scene);
-        }
+        for (var frame = 0; frame < WarmUp; frame++) Advance(scene, frame, litter);
 
         var times = new double[frames];
         var garbage = new Garbage();
         garbage.Begin();
-        for (var frame = 0; frame < frames; frame++)
-        {
-            var begin = Stopwatch.GetTimestamp();
-            scene.Advance(WarmUp + frame);
-            times[frame] = (Stopwatch.GetTimestamp() - begin) * 1000.0 / Stopwatch.Frequency;
-            Wait(scene);
-            if (litter) GC.KeepAlive(new byte[64]);
-        }
+        for (var frame = 0; frame < frames; frame++) times[frame] = Advance(scene, WarmUp + frame, litter);
         var bytes = garbage.Bytes();
 
         var world = scene.World;
@@ -64,10 +53,15 @@ static class Frames
         return sum / times.Length;
     }
 
-    /// <summary>For a step in the background, as in a game whose frames take longer than a step.</summary>
-    static void Wait(Scene.OfComponents scene)
+    /// <summary>A frame; returns its ms. A step in the background is waited for after it, as in a game whose frames take longer than a step.</summary>
+    static double Advance(Scene.OfComponents scene, int frame, bool litter)
     {
+        var begin = Stopwatch.GetTimestamp();
+        scene.Advance(frame);
+        var ms = (Stopwatch.GetTimestamp() - begin) * 1000.0 / Stopwatch.Frequency;
         GC.KeepAlive(scene.World.Simulation);
+        if (litter) GC.KeepAlive(new byte[64]);
+        return ms;
     }
 }
 
