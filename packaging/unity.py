@@ -31,7 +31,7 @@ class Plugin:
 
     path: str
     target: str
-    """Of packaging: the library is taken from build/TARGET/lib."""
+    """Of packaging: the library is taken from build/TARGET/lib, or from the folder that is named after the system alone."""
     platform: str
     """Unity's name of the players."""
     system: str
@@ -40,7 +40,9 @@ class Plugin:
 
     def built(self) -> Path:
         """Where the library would be, links followed."""
-        return (ROOT / "build" / self.target / "lib" / Path(self.path).name).resolve()
+        name = Path("lib") / Path(self.path).name
+        whole, system = (ROOT / "build" / folder / name for folder in (self.target, self.target.split("-")[0]))
+        return (whole if whole.exists() else system).resolve()
 
 
 PLUGINS = (

@@ -16,13 +16,11 @@ namespace Pbmpm.Components
 
         public Vector4[] Colours => colours;
 
-        /// <summary>The material that an index is of; null without one.</summary>
-        public PbmpmMaterial At(uint index)
+        /// <summary>By which particles name a material. One that is not in the world gets an index that none has.</summary>
+        public uint IndexOf(PbmpmMaterial material)
         {
-            for (var i = 0; i < ids.Count; i++)
-                if (ids[i].Index == index)
-                    return materials[i];
-            return null;
+            var known = materials.IndexOf(material);
+            return known >= 0 ? ids[known].Index : Constants.MaxMaterials;
         }
 
         public int Count => materials.Count;

@@ -33,7 +33,7 @@ namespace Pbmpm.Components
         public int LateFrames { get; private set; }
 
         /// <summary>Share of the way from the state before the last step to now, at which to draw.</summary>
-        public float Alpha => clock.Alpha(StepSeconds);
+        public float Alpha => clock.Alpha(StepSeconds, pace == Pace.FixedUpdate ? Time.time - Time.fixedTime : 0);
 
         /// <summary>What the last step cost. What goes over all particles, volume errors among it, is 0 unless someone watches.</summary>
         public Stats Statistics => statistics;

@@ -142,6 +142,12 @@ namespace Pbmpm.Components
             return id;
         }
 
+        /// <summary>Tells the world that a script changed its settings.</summary>
+        public void Change()
+        {
+            changed = true;
+        }
+
         // Parts
 
         internal void Join(PbmpmPart part)
@@ -218,6 +224,7 @@ namespace Pbmpm.Components
 
         internal void Open()
         {
+            if (Library.Log == null) Library.Log = Tell;
             origin = transform.position;
             read = preset == null ? null : PbmpmPreset.Read(preset);
             simulation = new World(Definition());
@@ -249,6 +256,12 @@ namespace Pbmpm.Components
             for (var i = 0; i < parts.Count; i++) parts[i].Forget();
             waiting.AddRange(parts);
             parts.Clear();
+        }
+
+        /// <summary>A line of the library's log. Of refused calls exceptions tell.</summary>
+        static void Tell(LogLevel level, string line)
+        {
+            if (level == LogLevel.Warning) Debug.LogWarning("pbmpm: " + line);
         }
 
         /// <summary>Tells what went wrong once, instead of in each frame.</summary>

@@ -36,9 +36,11 @@ namespace Pbmpm.Components
         }
 
         /// <summary>Share of the way from the state before the last step to now, at which to draw: 0 to 1.</summary>
-        public float Alpha(double step)
+        /// <param name="step">Seconds of a step.</param>
+        /// <param name="since">Seconds of the frame that were not added yet.</param>
+        public float Alpha(double step, double since = 0)
         {
-            return (float)Math.Min(1, Debt / step);
+            return (float)Math.Min(1, (Debt + since) / step);
         }
     }
 }

@@ -99,6 +99,7 @@ namespace UnityEngine
             {
                 unfixed -= Time.fixedDeltaTime;
                 Time.deltaTime = Time.fixedDeltaTime;
+                Time.fixedTime += Time.fixedDeltaTime;
                 Send(Message.FixedUpdate);
                 Physics.Simulate(Time.fixedDeltaTime);
             }
@@ -178,11 +179,12 @@ namespace UnityEngine
         public static float maximumDeltaTime { get; set; } = 1 / 3f;
         public static int frameCount { get; internal set; }
         public static float time { get; internal set; }
+        public static float fixedTime { get; internal set; }
 
         internal static void Begin()
         {
             frameCount = 0;
-            time = 0;
+            time = fixedTime = 0;
         }
     }
 
@@ -194,6 +196,11 @@ namespace UnityEngine
         public static void Log(object message)
         {
             Console.WriteLine(message);
+        }
+
+        public static void LogWarning(object message)
+        {
+            Told.Add(message.ToString());
         }
 
         public static void LogError(object message, Object context)

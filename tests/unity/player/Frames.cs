@@ -16,6 +16,7 @@ static class Frames
         var frames = words.Length > 0 ? int.Parse(words[0]) : 1000;
         var background = Array.IndexOf(words, "background") >= 0;
         var litter = Array.IndexOf(words, "litter") >= 0;
+        if (background) UnityEngine.Rendering.GraphicsSettings.currentRenderPipeline = ScriptableObject.CreateInstance<Pipeline>();
         Player.Play(Assembly.Load("Pbmpm.Components"));
         var scene = new Scene.OfComponents(background);
         for (var frame = 0; frame < WarmUp; frame++) Advance(scene, frame, litter);
@@ -63,6 +64,11 @@ static class Frames
         if (litter) GC.KeepAlive(new byte[64]);
         return ms;
     }
+}
+
+/// <summary>Has renderers take the way of the scriptable pipelines.</summary>
+sealed class Pipeline : UnityEngine.Rendering.RenderPipelineAsset
+{
 }
 
 /// <summary>Bytes of managed memory that were asked for since it began.</summary>

@@ -8,6 +8,7 @@ namespace UnityEngine
     public enum LogType
     {
         Error = 0,
+        Warning = 2,
         Exception = 4,
     }
 }

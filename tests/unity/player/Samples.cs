@@ -31,6 +31,7 @@ static class Samples
                           stats.SimulatedSeconds, stats.MsTotal, stats.VolumeErrorRms * 100, stats.MaxSpeed);
         foreach (var body in UnityEngine.Object.FindObjectsOfType<PbmpmRigidbody>())
             Console.WriteLine("  {0}: {1}, {2:F2} submerged", body.name, body.transform.position, body.Submerged);
+        foreach (var note in world.Simulation.Advice(world.StepSeconds)) Console.WriteLine("  advice: " + note);
         foreach (var line in UnityEngine.Debug.Told) Console.WriteLine("  told: " + line);
         fails |= UnityEngine.Debug.Told.Count > 0 || stats.ParticleCount < least || stats.DeletedTotal > 0;
         Player.Stop();

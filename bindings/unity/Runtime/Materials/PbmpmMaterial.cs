@@ -36,7 +36,7 @@ namespace Pbmpm.Components
 
         protected abstract void Describe(ref MaterialDef definition);
 
-        void OnValidate()
+        protected void OnValidate()
         {
             Change();
         }

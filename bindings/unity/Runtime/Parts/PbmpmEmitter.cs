@@ -42,12 +42,12 @@ namespace Pbmpm.Components
 
         protected override void Add(World core, Shape at)
         {
-            id = core.AddEmitter(Definition(EmitterDef.Default), at);
+            id = core.AddEmitter(Definition(EmitterDef.Default, at.Radius), at);
         }
 
         protected override void Alter(World core, Shape at)
         {
-            core.SetEmitter(id, Definition(core.GetEmitter(id)));
+            core.SetEmitter(id, Definition(core.GetEmitter(id), at.Radius));
             core.SetEmitter(id, at);
         }
 
@@ -61,12 +61,12 @@ namespace Pbmpm.Components
             core.RemoveEmitter(id);
         }
 
-        EmitterDef Definition(EmitterDef definition)
+        EmitterDef Definition(EmitterDef definition, float radius)
         {
             definition.Material = Owner.IdOf(material);
             definition.Region = disc ? EmitterRegion.Disc : EmitterRegion.Volume;
             definition.Enabled = runs ? 1 : 0;
-            definition.Rate = disc && flow <= 0 ? Mathf.PI * shape.radius * shape.radius * speed : flow;
+            definition.Rate = disc && flow <= 0 ? Mathf.PI * radius * radius * speed : flow;
             definition.Speed = speed;
             definition.Direction = direction;
             definition.Spread = spread * Mathf.Deg2Rad;

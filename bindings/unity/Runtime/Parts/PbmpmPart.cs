@@ -100,7 +100,7 @@ namespace Pbmpm.Components
         }
 
         /// <summary>A world that was enabled after it.</summary>
-        void Start()
+        protected void Start()
         {
             if (owner != null) return;
             OnEnable();
@@ -113,7 +113,7 @@ namespace Pbmpm.Components
             owner = null;
         }
 
-        void OnValidate()
+        protected void OnValidate()
         {
             changed = true;
         }
@@ -139,7 +139,7 @@ namespace Pbmpm.Components
             owner = null;
         }
 
-        void OnDrawGizmos()
+        protected void OnDrawGizmos()
         {
             shape.DrawGizmo(Placement.Of(transform), GizmoColor);
         }

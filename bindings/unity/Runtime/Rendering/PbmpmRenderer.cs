@@ -6,9 +6,12 @@ namespace Pbmpm.Components
     /// <summary>What renderers of particles share: the particles on the GPU, drawn between the last two states, and a material.</summary>
     public abstract class PbmpmRenderer : MonoBehaviour
     {
+        const float AllMatter = -1;
+
         static readonly int ParticlesName = Shader.PropertyToID("_PbmpmParticles");
         static readonly int OriginName = Shader.PropertyToID("_PbmpmOrigin");
         static readonly int RadiusName = Shader.PropertyToID("_PbmpmRadius");
+        static readonly int OnlyName = Shader.PropertyToID("_PbmpmOnly");
         static readonly int ColoursName = Shader.PropertyToID("_PbmpmColours");
 
         [Tooltip("None: the one above it, or else the first of the scene.")]
@@ -16,6 +19,9 @@ namespace Pbmpm.Components
 
         [Tooltip("Of a particle [m]; 0: fits the world's cells.")]
         public float radius;
+
+        [Tooltip("What it draws. None: all matter.")]
+        public PbmpmMaterial only;
 
         NativeArray<ParticleRecord> records;
         ComputeBuffer buffer;
@@ -90,6 +96,7 @@ namespace Pbmpm.Components
             material.SetBuffer(ParticlesName, buffer);
             material.SetVector(OriginName, source.Outward(Vector3.zero));
             material.SetFloat(RadiusName, radius > 0 ? radius : RadiusInCells * source.cellSize);
+            material.SetFloat(OnlyName, only != null ? source.Colours.IndexOf(only) : AllMatter);
             if (painted == source.Colours.Revision) return;
             material.SetVectorArray(ColoursName, source.Colours.Colours);
             painted = source.Colours.Revision;

@@ -28,6 +28,7 @@ public sealed class PourADrink : MonoBehaviour
         var world = body.AddComponent<PbmpmWorld>();
         world.size = new Vector3(0.4f, 0.4f, 0.4f);
         world.cellSize = 0.0125f;
+        world.iterations = 10;
         world.rate = 120; // the smaller the cells, the more steps gravity needs
         world.capacity = 30000;
         world.pace = Pace.FixedUpdate;

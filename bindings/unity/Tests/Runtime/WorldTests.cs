@@ -169,6 +169,22 @@ namespace Pbmpm.Tests
         }
 
         [Test]
+        public void WhatTheLibraryWarnsOfIsTold()
+        {
+            LogAssert.Expect(LogType.Warning, new Regex("^pbmpm: "));
+            stage.World.walls = false;
+            stage.AddBlock(stage.Water);
+            stage.Begin();
+            stage.Step(1);
+            // Onto the last cell that there is, and out of it within the next step
+            var there = new[] { new Vector3(stage.World.cellSize * Constants.MaxCell - 1, 0, 0) };
+            var fast = new[] { new Vector3(200, 0, 0) };
+            stage.World.Simulation.AddParticles(stage.World.IdOf(stage.Water), there, fast);
+            stage.Step(1);
+            Assert.AreEqual(1ul, stage.World.Simulation.Stats.DeletedTotal);
+        }
+
+        [Test]
         public void MaterialsMayChange()
         {
             var jelly = ScriptableObject.CreateInstance<PbmpmElastic>();

@@ -33,7 +33,7 @@ Shader "Pbmpm/Points"
                 sprite.corner = PbmpmCorner(vertexId);
                 float3 middle = mul(UNITY_MATRIX_V, float4(PbmpmPlace(particle), 1)).xyz;
                 float4 place = float4(middle + float3(sprite.corner * _PbmpmRadius, 0), 1);
-                sprite.position = mul(UNITY_MATRIX_P, place);
+                sprite.position = PbmpmClip(particle, mul(UNITY_MATRIX_P, place));
                 sprite.colour = _PbmpmColours[_PbmpmParticles[particle].material & 255].rgb;
                 return sprite;
             }

@@ -25,7 +25,7 @@ Shader "Hidden/Pbmpm/Surface"
         sprite.corner = PbmpmCorner(vertexId);
         float3 middle = mul(_PbmpmView, float4(PbmpmPlace(particle), 1)).xyz;
         sprite.depth = -middle.z;
-        sprite.position = mul(_PbmpmProjection, float4(middle + float3(sprite.corner * _PbmpmRadius, 0), 1));
+        sprite.position = PbmpmClip(particle, mul(_PbmpmProjection, float4(middle + float3(sprite.corner * _PbmpmRadius, 0), 1)));
         return sprite;
     }
 
