@@ -25,14 +25,14 @@ def entry_points(code: str) -> dict[str, str]:
     return {stage: name for stage, name in re.findall(r"#pragma (vertex|fragment) (\w+)", code)}
 
 
-def parse(code: str, stage: str, entry: str, api: str, folder: Path) -> str:
-    """What is wrong with it; empty if nothing."""
+def parse(code: str, stage: str, entry: str, api: str, folder: Path, binary: Path = Path("/dev/null")) -> str:
+    """What is wrong with it; empty if nothing. Then the SPIR-V that it becomes is in `binary`."""
     plain = re.sub(r"^\s*#pragma.*$", "", code, flags=re.MULTILINE)
     with tempfile.NamedTemporaryFile("w", suffix=".hlsl", encoding="utf-8") as file:
         file.write(f"#define {api} 1\n{plain}")
         file.flush()
         command = ["glslangValidator", "-D", "-V", "-S", STAGES[stage], "-e", entry, f"-I{folder}", f"-I{ROOT / 'tests' / 'unity' / 'shaders'}"]
-        command += ["--auto-map-bindings", "--auto-map-locations", "-o", "/dev/null", file.name]
+        command += ["--auto-map-bindings", "--auto-map-locations", "-o", str(binary), file.name]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     return "" if done.returncode == 0 else done.stdout + done.stderr
 

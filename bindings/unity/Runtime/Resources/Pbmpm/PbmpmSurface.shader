@@ -122,28 +122,28 @@ Shader "Hidden/Pbmpm/Surface"
 
             static const float Nothing = 1e5; // [m], as far as no liquid is
 
-            // Where a pixel lies in clip space. OpenGL counts its rows from below.
-            float2 Clip(int2 pixel, float2 size)
+            // Where a pixel with a value of the depth texture lies in clip space. OpenGL counts its rows from below, and its depths from -1.
+            float4 Clip(int2 pixel, float2 size, float depth)
             {
                 float2 place = (float2(pixel) + 0.5) / size * 2 - 1;
             #if defined(SHADER_API_GLCORE) || defined(SHADER_API_GLES3)
-                return place;
+                return float4(place, 2 * depth - 1, 1);
             #else
-                return float2(place.x, -place.y);
+                return float4(place.x, -place.y, depth, 1);
             #endif
             }
 
             // The point of the surface in the eye's frame.
             float3 Point(int2 pixel, float2 size)
             {
-                float4 ray = mul(_PbmpmUnprojection, float4(Clip(pixel, size), 0.5, 1));
+                float4 ray = mul(_PbmpmUnprojection, Clip(pixel, size, 0.5));
                 return ray.xyz / -ray.z * _PbmpmDepths.Load(int3(pixel, 0));
             }
 
             // Of the scene that is drawn already, from the eye [m].
             float SceneDepth(int2 pixel, float2 size)
             {
-                float4 place = mul(_PbmpmUnprojection, float4(Clip(pixel, size), _CameraDepthTexture.Load(int3(pixel, 0)), 1));
+                float4 place = mul(_PbmpmUnprojection, Clip(pixel, size, _CameraDepthTexture.Load(int3(pixel, 0))));
                 return -place.z / place.w;
             }
 
