@@ -90,7 +90,10 @@ def _plugin_importer(plugin: Plugin) -> str:
         _section("'': Any", False, "        Exclude Editor: 0\n" + excluded),
         _section("Any: ", False, None),
         _section("Editor: Editor", True, f"        CPU: {plugin.cpu}\n        DefaultValueInitialized: true\n        OS: {plugin.system}\n"),
-        *(_section(f"Standalone: {name}", name == plugin.platform, f"        CPU: {plugin.cpu if name == plugin.platform else 'None'}\n") for name in PLATFORMS),
+        *(
+            _section(f"Standalone: {name}", name == plugin.platform, f"        CPU: {plugin.cpu if name == plugin.platform else 'None'}\n")
+            for name in PLATFORMS
+        ),
     ]
     extra = (
         "  serializedVersion: 2\n  iconMap: {}\n  executionOrder: {}\n  defineConstraints: []\n  isPreloaded: 0\n  isOverridable: 0\n"

@@ -30,5 +30,7 @@ stage "Frames"
 play Frames.exe "$frames"
 play Frames.exe "$frames" background
 play Frames.exe 100 litter && stop "garbage of the frames was not seen"
+stage "Play, stop and play again, with and without a reload"
+play Reload.exe
 stage "Samples"
 play Samples.exe 120

@@ -1,6 +1,6 @@
 """Compiles the assembled package as Unity would: each assembly definition with the references that it names and no others.
 
-    compile.py PACKAGE OUTPUT    with the compiler in PBMPM_CSC (mcs -langversion:7.2), against stand-ins for the engine and the editor
+compile.py PACKAGE OUTPUT    with the compiler in PBMPM_CSC (mcs -langversion:7.2), against stand-ins for the engine and the editor
 """
 
 from __future__ import annotations
@@ -88,6 +88,7 @@ def main(package: Path, output: Path) -> None:
     references = ["UnityEngine.dll", "Pbmpm.Core.dll", "Pbmpm.Components.dll"]
     compile_one(output / "RunTests.exe", [player / "RunTests.cs"], [*references, "TestFramework.dll"])
     compile_one(output / "Frames.exe", [player / "Frames.cs", player / "Scene.cs"], references)
+    compile_one(output / "Reload.exe", [player / "Reload.cs", player / "Scene.cs"], references)
     compile_one(output / "Samples.exe", [player / "Samples.cs"], [*references, "SampleScripts.dll"])
 
 

@@ -15,7 +15,7 @@ from pathlib import Path
 import moderngl
 import numpy as np
 from PIL import Image
-from shaders import ROOT, SHADERS, entry_points, parse, programs
+from shaders import SHADERS, entry_points, parse, programs
 
 import pbmpm
 

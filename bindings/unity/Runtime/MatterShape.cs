@@ -78,6 +78,7 @@ namespace Pbmpm.Components
             return box != null || sphere != null || capsule != null;
         }
 
+        /// <summary>A box with its middle and edges [m].</summary>
         public void SetBox(Vector3 middle, Vector3 edges)
         {
             form = Form.Box;
@@ -85,6 +86,7 @@ namespace Pbmpm.Components
             size = edges;
         }
 
+        /// <summary>A ball with its middle and radius [m].</summary>
         public void SetSphere(Vector3 middle, float newRadius)
         {
             form = Form.Sphere;
@@ -92,6 +94,7 @@ namespace Pbmpm.Components
             radius = newRadius;
         }
 
+        /// <summary>A capsule with its middle, its radius, and its length from tip to tip along y [m].</summary>
         public void SetCapsule(Vector3 middle, float newRadius, float newHeight)
         {
             form = Form.Capsule;

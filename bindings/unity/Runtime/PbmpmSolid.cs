@@ -29,6 +29,7 @@ namespace Pbmpm.Components
 
         [NonSerialized] BakedSolid read;
 
+        /// <summary>Whether worlds can load it.</summary>
         public bool IsBaked => data.Length > 0;
 
         /// <summary>Middle of the box around it [m].</summary>

@@ -44,6 +44,7 @@ namespace Pbmpm.Components
             watchers++;
         }
 
+        /// <summary>Ends what <see cref="Watch"/> began.</summary>
         public void Unwatch()
         {
             watchers--;

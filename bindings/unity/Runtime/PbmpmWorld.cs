@@ -58,6 +58,7 @@ namespace Pbmpm.Components
         [Tooltip("low, medium or high of 'pbmpm tune', a JSON file: replaces what it names below, and the rate.")]
         public TextAsset preset;
 
+        [Tooltip("Convergent is for everything; the others are for comparison, or to save time. See docs/choosing.md.")]
         public Solver solver = Solver.Convergent;
 
         [Tooltip("Per substep, 1 to 1000. More are stiffer.")]
@@ -107,6 +108,7 @@ namespace Pbmpm.Components
             }
         }
 
+        /// <summary>Whether the library's world is there: while the component is enabled.</summary>
         public bool IsOpen => simulation != null;
 
         /// <summary>The same for parts, which the world calls while no step runs.</summary>

@@ -34,7 +34,7 @@ namespace Pbmpm.Components
     {
         public Vector3 Position;
         public Quaternion Rotation;
-        public Vector3 Scale;
+        public Vector3 Scale; // of the transform, in the world
 
         public static Placement Of(Transform transform)
         {

@@ -27,6 +27,9 @@ static class Frames
         for (var frame = 0; frame < frames; frame++) times[frame] = Advance(scene, WarmUp + frame, litter);
         var bytes = garbage.Bytes();
 
+        UnityEngine.GUI.Shown = new System.Collections.Generic.List<string>();
+        Player.Frame(0);
+        Console.WriteLine("HUD: " + string.Join("", UnityEngine.GUI.Shown.ToArray()));
         var world = scene.World;
         var particles = world.ParticleCount;
         var hash = world.Simulation.StateHash;

@@ -7,6 +7,7 @@ namespace Pbmpm.Components
     [AddComponentMenu("pbmpm/Collider")]
     public sealed class PbmpmCollider : PbmpmPart
     {
+        [Tooltip("What it does to motion along its surface: Coulomb's law, holding fast, or nothing.")]
         public Friction friction = Friction.Coulomb;
 
         [Tooltip("Coulomb coefficient, 0 to 100.")]

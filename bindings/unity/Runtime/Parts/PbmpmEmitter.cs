@@ -6,6 +6,7 @@ namespace Pbmpm.Components
     [AddComponentMenu("pbmpm/Emitter")]
     public sealed class PbmpmEmitter : PbmpmPart
     {
+        [Tooltip("Of its particles. Needed.")]
         public PbmpmMaterial material;
 
         [Tooltip("Whether matter comes out of a disc of the shape's radius, in place of the whole shape.")]

@@ -7,6 +7,7 @@ namespace Pbmpm.Components
     [AddComponentMenu("pbmpm/Fill")]
     public sealed class PbmpmFill : PbmpmPart
     {
+        [Tooltip("Of its particles. Needed.")]
         public PbmpmMaterial material;
 
         [Tooltip("Of every particle [m/s], in the transform's axes.")]

@@ -6,6 +6,7 @@ namespace Pbmpm.Components
     [AddComponentMenu("pbmpm/Force")]
     public sealed class PbmpmForce : PbmpmPart
     {
+        [Tooltip("Uniform and radial push, vortex whirls, drag is a wind or a brake, grab takes matter along.")]
         public ForceKind kind = ForceKind.Uniform;
 
         [Tooltip("Whether it acts now.")]

@@ -16,6 +16,7 @@ namespace Pbmpm.Components
         [Tooltip("Its world. None: the one above it, or else the first of the scene.")]
         public PbmpmWorld world;
 
+        [Tooltip("Around its transform.")]
         public MatterShape shape = new MatterShape();
 
         PbmpmWorld owner;
