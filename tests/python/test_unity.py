@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from pathlib import Path
@@ -77,6 +78,15 @@ def test_a_flaw_is_told(source: Path, file: str, old: str | None, new: str | Non
 def test_a_script_without_a_meta_is_told(package: Path) -> None:
     (package / "Runtime" / "New.cs").write_text("class New {}\n", encoding="utf-8")
     assert validate.problems(package, assembled=True) == ["no .meta: Runtime/New.cs"]
+
+
+def test_presets_have_the_fields_that_unity_reads() -> None:
+    from pbmpm.lab.scenes.preset import FORMAT_NAME, Preset, PresetSettings
+
+    text = (unity.SOURCE / "Runtime" / "PbmpmPreset.cs").read_text(encoding="utf-8")
+    assert set(re.findall(r"^            public \w+ (\w+) = ", text, re.MULTILINE)) == set(PresetSettings.model_fields)
+    assert f'"{FORMAT_NAME}"' in text
+    assert f"version != {Preset.model_fields['version'].default}" in text
 
 
 @pytest.mark.skipif(shutil.which("glslangValidator") is None, reason="glslangValidator is needed (Debian: glslang-tools)")

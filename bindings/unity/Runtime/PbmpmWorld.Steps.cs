@@ -50,9 +50,9 @@ namespace Pbmpm.Components
             watchers--;
         }
 
-        void Update()
+        void LateUpdate()
         {
-            if (pace == Pace.Update) Advance(Time.deltaTime);
+            if (pace == Pace.Frame) Advance(Time.deltaTime);
         }
 
         void FixedUpdate()

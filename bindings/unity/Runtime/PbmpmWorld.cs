@@ -7,8 +7,8 @@ namespace Pbmpm.Components
     /// <summary>Where a world takes its steps.</summary>
     public enum Pace
     {
-        /// <summary>Once a frame, as many steps as are due.</summary>
-        Update,
+        /// <summary>Once a frame, as many steps as are due, after scripts and animations have moved things.</summary>
+        Frame,
         /// <summary>With the physics: for rigid bodies that matter pushes.</summary>
         FixedUpdate,
     }
@@ -46,7 +46,7 @@ namespace Pbmpm.Components
         public float rate = 60;
 
         [Tooltip("Where steps are taken. FixedUpdate for bodies that matter pushes.")]
-        public Pace pace = Pace.Update;
+        public Pace pace = Pace.Frame;
 
         [Tooltip("Longest time that a frame simulates [s]. What exceeds it by more than a step is given up, and counted.")]
         public float catchUp = 1 / 30f;
@@ -101,7 +101,7 @@ namespace Pbmpm.Components
         {
             get
             {
-                if (simulation == null) throw new InvalidOperationException("pbmpm: the world '" + name + "' is not enabled");
+                RequireOpen();
                 Finish();
                 EnterWaiting();
                 return simulation;
@@ -133,6 +133,8 @@ namespace Pbmpm.Components
         public MaterialId IdOf(PbmpmMaterial material)
         {
             if (material == null) throw new ArgumentNullException(nameof(material), "pbmpm: a part of the world '" + name + "' has no material");
+            RequireOpen();
+            Finish();
             return palette.IdOf(material, simulation);
         }
 
@@ -148,6 +150,11 @@ namespace Pbmpm.Components
         public void Change()
         {
             changed = true;
+        }
+
+        void RequireOpen()
+        {
+            if (simulation == null) throw new InvalidOperationException("pbmpm: the world '" + name + "' is not enabled");
         }
 
         // Parts

@@ -27,8 +27,8 @@ public sealed class RaftOnARiver : MonoBehaviour
         body.transform.SetParent(transform);
         var world = body.AddComponent<PbmpmWorld>();
         world.size = new Vector3(7, 3, 3);
-        world.cellSize = 0.1f;
-        world.capacity = 80000;
+        world.cellSize = 0.125f;
+        world.capacity = 40000;
         world.pace = Pace.FixedUpdate;
         body.AddComponent<PbmpmSurface>();
         body.AddComponent<PbmpmHud>();
@@ -89,7 +89,7 @@ public sealed class RaftOnARiver : MonoBehaviour
 
     void AddRaft()
     {
-        var size = new Vector3(0.9f, 0.3f, 0.7f);
+        var size = new Vector3(1, 0.4f, 0.8f);
         var raft = Make<PbmpmRigidbody>("raft", new Vector3(-0.5f, 0, 0));
         raft.gameObject.AddComponent<BoxCollider>().size = size;
         raft.GetComponent<Rigidbody>().mass = 400 * size.x * size.y * size.z;

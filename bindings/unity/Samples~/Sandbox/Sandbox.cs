@@ -50,7 +50,7 @@ public sealed class Sandbox : MonoBehaviour
         var fill = new GameObject(typeof(T).Name).AddComponent<PbmpmFill>();
         fill.transform.SetParent(transform);
         fill.transform.position = place;
-        fill.shape.SetBox(Vector3.zero, new Vector3(0.6f, 0.9f, 0.8f));
+        fill.shape.SetBox(Vector3.zero, new Vector3(0.7f, 0.9f, 0.8f));
         var material = ScriptableObject.CreateInstance<T>();
         material.color = color;
         fill.material = material;
