@@ -40,7 +40,7 @@ namespace Pbmpm.Components
         /// <param name="since">Seconds of the frame that were not added yet.</param>
         public float Alpha(double step, double since = 0)
         {
-            return (float)Math.Min(1, (Debt + since) / step);
+            return (float)Math.Max(0, Math.Min(1, (Debt + since) / step));
         }
     }
 }

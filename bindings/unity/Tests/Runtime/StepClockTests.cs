@@ -36,6 +36,15 @@ namespace Pbmpm.Tests
         }
 
         [Test]
+        public void TheShareIsOneWhateverTheFrameSays()
+        {
+            var clock = new StepClock();
+            Assert.AreEqual(0, clock.Alpha(Step, -1e-6), 0);
+            Assert.AreEqual(0.5f, clock.Alpha(Step, Step / 2), 1e-6f);
+            Assert.AreEqual(1, clock.Alpha(Step, 1), 0);
+        }
+
+        [Test]
         public void TimeThatRunsBackCountsAsNone()
         {
             var clock = new StepClock();
