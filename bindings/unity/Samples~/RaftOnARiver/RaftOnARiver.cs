@@ -17,6 +17,7 @@ public sealed class RaftOnARiver : MonoBehaviour
         AddSpring(water);
         AddDrain();
         AddRaft();
+        AddRake();
         if (Camera.main != null) Camera.main.transform.position = world.transform.position + new Vector3(0, 2, -6);
     }
 
@@ -94,6 +95,12 @@ public sealed class RaftOnARiver : MonoBehaviour
         raft.gameObject.AddComponent<BoxCollider>().size = size;
         raft.GetComponent<Rigidbody>().mass = 400 * size.x * size.y * size.z;
         raft.GetComponent<PbmpmCollider>().shape.SetBox(Vector3.zero, size);
+    }
+
+    /// <summary>Holds the raft before the end of the world, and lets water pass.</summary>
+    void AddRake()
+    {
+        Make<BoxCollider>("rake", new Vector3(3.4f, 0, 0)).size = new Vector3(0.2f, 4, 4);
     }
 
     T Make<T>(string label, Vector3 place) where T : Component
