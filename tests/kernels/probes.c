@@ -8,13 +8,13 @@
     EnergyAll energy_all2_##isa, energy_all3_##isa;                                                                           \
     CloseAll close_all2_##isa, close_all3_##isa;                                                                              \
     YieldAll yield_all2_##isa, yield_all3_##isa, cut_all2_##isa, cut_all3_##isa;                                              \
-    CrowdAll crowd_all2_##isa, crowd_all3_##isa;                                                                              \
+    GiveUpAll give_up_all2_##isa, give_up_all3_##isa;                                                                         \
     WriteLayout layout_of_material3_##isa, layout_of_args3_##isa;
 #define MATRICES(isa)                                                                                                         \
     {{rotate_all2_##isa, decompose_all2_##isa, stress_all2_##isa, pressure_all2_##isa, energy_all2_##isa, close_all2_##isa, yield_all2_##isa, cut_all2_##isa,                     \
-      crowd_all2_##isa},                                                                                                      \
+      give_up_all2_##isa},                                                                                                    \
      {rotate_all3_##isa, decompose_all3_##isa, stress_all3_##isa, pressure_all3_##isa, energy_all3_##isa, close_all3_##isa, yield_all3_##isa, cut_all3_##isa,                     \
-      crowd_all3_##isa}}
+      give_up_all3_##isa}}
 #define LAYOUTS(isa) {layout_of_material3_##isa, layout_of_args3_##isa}
 
 DECLARE(sse4)

@@ -49,7 +49,7 @@ static void check_rounds(DualStage *stage)
     dual_check_push(stage);
     for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
         dual_check_iterate(stage);
-        stage->scene.world->args.momentum = (float)momenta[k];
+        stage->scene.world->args.dual.momentum = (float)momenta[k];
         dual_check_push(stage);
         dual_check_displacements(stage, momenta[k]);
     }
