@@ -6,22 +6,8 @@ using UnityEngine.TestTools;
 
 namespace Pbmpm.Tests
 {
-    public sealed class PartTests
+    public sealed class PartTests : StageTests
     {
-        Stage stage;
-
-        [SetUp]
-        public void SetUp()
-        {
-            stage = new Stage();
-        }
-
-        [TearDown]
-        public void TearDown()
-        {
-            stage.End();
-        }
-
         [Test]
         public void FillsLeaveRoomForObstacles()
         {

@@ -1,4 +1,4 @@
-using System.Collections;
+using NUnit.Framework;
 using Pbmpm.Components;
 using UnityEngine;
 
@@ -63,6 +63,24 @@ namespace Pbmpm.Tests
         public void Step(int steps)
         {
             for (var i = 0; i < steps; i++) World.Advance(World.StepSeconds);
+        }
+    }
+
+    /// <summary>Tests that have a tank each.</summary>
+    public abstract class StageTests
+    {
+        internal Stage stage;
+
+        [SetUp]
+        public void SetUp()
+        {
+            stage = new Stage();
+        }
+
+        [TearDown]
+        public void TearDown()
+        {
+            stage.End();
         }
     }
 }

@@ -8,22 +8,8 @@ using UnityEngine.TestTools;
 
 namespace Pbmpm.Tests
 {
-    public sealed class WorldTests
+    public sealed class WorldTests : StageTests
     {
-        Stage stage;
-
-        [SetUp]
-        public void SetUp()
-        {
-            stage = new Stage();
-        }
-
-        [TearDown]
-        public void TearDown()
-        {
-            stage.End();
-        }
-
         [UnityTest]
         public IEnumerator FramesTakeSteps()
         {
