@@ -11,6 +11,7 @@
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/primal/primal.h"
+#include "skin/skin.h"
 
 pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 {
@@ -58,6 +59,7 @@ void world_destroy(World *world)
     if (here) pthread_mutex_destroy(&world->making);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
+    skin_free(world);
     lookup_free(&world->lookup, &world->memory);
     array_free(&world->memory, &world->submersion);
     colliders_free(&world->colliders, &world->memory);
