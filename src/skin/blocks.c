@@ -111,10 +111,10 @@ static bool sort_runs(SkinBlocks *blocks, Memory *memory)
 }
 
 /* Points of the lattice beside that of a particle's cell where the field may differ from 0, and one more below: the corners of all cubes that a surface
- * may cut. With subdivision 2 a particle is up to 1 point beside its cell's, its spline reaches 1 farther, the filter 1 below and 2 above. */
+ * may cut. With subdivision 2 a particle is up to 1 point beside its cell's, its spline reaches 1 farther, the filter 3 below and 4 above; see field.h. */
 static const struct {
     int32_t below, above;
-} reach_of[3] = {{0, 0}, {2, 1}, {4, 4}};
+} reach_of[3] = {{0, 0}, {3, 2}, {6, 6}};
 
 static bool is_touched(const SkinBlocks *blocks, const SkinBlock *block, const int32_t way[3])
 {
@@ -222,5 +222,12 @@ bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)
 {
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
         if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->vertices) return true;
+    return false;
+}
+
+bool blocks_near_sums(const SkinBlocks *blocks, const SkinBlock *block)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
+        if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->summed) return true;
     return false;
 }

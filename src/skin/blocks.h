@@ -31,6 +31,7 @@ typedef struct SkinBlock {
     int32_t low[3], high[3];             /* its cells with particles, from its first */
     uint32_t first_run, runs;
     bool splatted, summed;   /* its box, the sums over boxes at its points: not all 0 */
+    bool wanted;             /* the field is to be worked out here */
     float least, most;       /* of the field */
     uint32_t first_vertex, vertices, first_triangle, triangles;
 } SkinBlock;
@@ -70,7 +71,8 @@ void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_PO
 /* Of an array with a box for each block that has particles: what the boxes that are splatted say of the points of a block, added up. False: none of them does. */
 bool blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS]);
 
-/* Whether a block or one beside it has vertices. */
+/* Whether a block or one beside it has vertices, or sums. */
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block);
+bool blocks_near_sums(const SkinBlocks *blocks, const SkinBlock *block);
 
 #endif

@@ -40,7 +40,10 @@ typedef struct SplatJob {
     int channel;
     float level;
     float *values;
-    bool adds, at_surface;
+    bool adds, at_surface; /* to what is there; only near the surface */
+    int axis;
+    const float *from;
+    float *to;
     uint8_t *outside;
 } SplatJob;
 
@@ -77,57 +80,119 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
 static void sum_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
-    const FieldWork *work = job->work;
+    const SkinBlocks *blocks = job->work->blocks;
+    for (int32_t b = begin; b < end; b++) blocks_at(blocks, b)->summed = blocks_sum(blocks, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
+}
+
+static void choose_blocks(void *context, int32_t begin, int32_t end)
+{
+    const SplatJob *job = context;
+    const SkinBlocks *blocks = job->work->blocks;
     for (int32_t b = begin; b < end; b++) {
-        blocks_at(work->blocks, b)->summed = blocks_sum(work->blocks, b, work->boxes, work->sums + (size_t)b * BLOCK_POINTS);
+        SkinBlock *block = blocks_at(blocks, b);
+        block->wanted = job->at_surface ? blocks_near_surface(blocks, block) : !job->adds || blocks_near_sums(blocks, block);
     }
 }
 
-/* Point k of a block from those at k - 2 to k + 1, one axis after the other: in place, since what is read lies behind what is written. */
-static void filter(float box[BOX_POINTS])
+enum { TAPS = 8, LINE = 3 * BLOCK_AXIS };
+
+/* The filter of S, and that of (1, 3, 3, 1) / 8 and S. A tap is for the point that is so far below: the first for that `below` points below. */
+static const struct {
+    int taps, below;
+    float tap[TAPS];
+} filter_of[3] = {{0},
+                  {3, 1, {-0.125f, 1.25f, -0.125f}},
+                  {8, 4, {-1 / 64.0f, -3 / 64.0f, 7 / 64.0f, 29 / 64.0f, 29 / 64.0f, 7 / 64.0f, -3 / 64.0f, -1 / 64.0f}}};
+
+/* The points of a neighbour along an axis, -1, 0 or 1; null if nothing is there. */
+static const float *points_beside(const SplatJob *job, const SkinBlock *block, int side)
 {
-    const int row = BOX_AXIS, plane = BOX_AXIS * BOX_AXIS;
-    for (int at = 0; at + 3 * plane < BOX_POINTS; at++) box[at] = 0.125f * (box[at] + box[at + 3 * plane]) + 0.375f * (box[at + plane] + box[at + 2 * plane]);
-    for (int at = 0; at + 3 * row < BLOCK_AXIS * plane; at++)
-        box[at] = 0.125f * (box[at] + box[at + 3 * row]) + 0.375f * (box[at + row] + box[at + 2 * row]);
-    for (int at = 0; at + 3 < (BLOCK_AXIS - 1) * plane + BLOCK_AXIS * row; at++)
-        box[at] = 0.125f * (box[at] + box[at + 3]) + 0.375f * (box[at + 1] + box[at + 2]);
+    static const int step[3] = {1, 3, 9};
+    const int32_t other = block->neighbour[BLOCK_NEIGHBOURS / 2 + side * step[job->axis]];
+    return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : NULL;
 }
 
-/* Whether anything was given to a block or one beside it. */
-static bool has_sums(const SkinBlocks *blocks, const SkinBlock *block)
+static void filter_along_x(const SplatJob *job, const float *const beside[3], float out[BLOCK_POINTS])
 {
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
-        if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->summed) return true;
-    return false;
+    const int subdivision = job->work->blocks->subdivision, taps = filter_of[subdivision].taps, first = BLOCK_AXIS - filter_of[subdivision].below;
+    for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS) {
+        float line[LINE], sum[BLOCK_AXIS] = {0};
+        for (int side = 0; side < 3; side++)
+            for (int i = 0; i < BLOCK_AXIS; i++) line[side * BLOCK_AXIS + i] = beside[side] ? beside[side][row + i] : 0.0f;
+        for (int t = 0; t < taps; t++)
+            for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter_of[subdivision].tap[t] * line[first + t + i];
+        memcpy(out + row, sum, sizeof sum);
+    }
+}
+
+/* Rows along x at once; `step` leads from one point of the axis to the next. */
+static void filter_across_x(const SplatJob *job, const float *const beside[3], int step, float out[BLOCK_POINTS])
+{
+    const int subdivision = job->work->blocks->subdivision, taps = filter_of[subdivision].taps;
+    for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS) {
+        const int at = row / step % BLOCK_AXIS, others = row - at * step;
+        float sum[BLOCK_AXIS] = {0};
+        for (int t = 0; t < taps; t++) {
+            const int point = at + t - filter_of[subdivision].below + BLOCK_AXIS;
+            const float *points = beside[point / BLOCK_AXIS];
+            if (!points) continue;
+            points += others + point % BLOCK_AXIS * step;
+            for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter_of[subdivision].tap[t] * points[i];
+        }
+        memcpy(out + row, sum, sizeof sum);
+    }
+}
+
+static void bound_block(SkinBlock *block, const float values[BLOCK_POINTS])
+{
+    float least[BLOCK_AXIS], most[BLOCK_AXIS];
+    memcpy(least, values, sizeof least);
+    memcpy(most, values, sizeof most);
+    for (int row = BLOCK_AXIS; row < BLOCK_POINTS; row += BLOCK_AXIS)
+        for (int i = 0; i < BLOCK_AXIS; i++) {
+            least[i] = values[row + i] < least[i] ? values[row + i] : least[i];
+            most[i] = values[row + i] > most[i] ? values[row + i] : most[i];
+        }
+    block->least = least[0];
+    block->most = most[0];
+    for (int i = 1; i < BLOCK_AXIS; i++) {
+        block->least = least[i] < block->least ? least[i] : block->least;
+        block->most = most[i] > block->most ? most[i] : block->most;
+    }
 }
 
 static void filter_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
-    const FieldWork *work = job->work;
+    static const int step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
     for (int32_t b = begin; b < end; b++) {
-        float box[BOX_POINTS];
-        float *values = job->values + (size_t)b * BLOCK_POINTS;
-        if (job->adds && !has_sums(work->blocks, blocks_at(work->blocks, b))) continue;
-        blocks_gather(blocks_at(work->blocks, b), work->sums, box);
-        /* After it point k of the block stands at k of the box. */
-        if (work->blocks->subdivision == 2) filter(box);
-        const int first = work->blocks->subdivision == 2 ? 0 : BOX_MARGIN;
-        for (int k = 0; k < BLOCK_AXIS; k++)
-            for (int j = 0; j < BLOCK_AXIS; j++) {
-                const float *from = &box[((k + first) * BOX_AXIS + j + first) * BOX_AXIS + first];
-                float *to = &values[(k * BLOCK_AXIS + j) * BLOCK_AXIS];
-                for (int i = 0; i < BLOCK_AXIS; i++) to[i] = job->adds ? to[i] + from[i] : from[i];
-            }
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        if (!block->wanted) continue;
+        const float *beside[3];
+        float out[BLOCK_POINTS], *to = job->to + (size_t)b * BLOCK_POINTS;
+        for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
+        if (job->axis == 0)
+            filter_along_x(job, beside, out);
+        else
+            filter_across_x(job, beside, step[job->axis], out);
+        for (int i = 0; i < BLOCK_POINTS; i++) to[i] = job->adds && job->axis == 2 ? to[i] + out[i] : out[i];
+        if (job->axis == 2 && !job->at_surface) bound_block(block, to);
     }
 }
 
+/* Along x to `lines`, along y back, along z to the values. */
 static void collect(SplatJob *job)
 {
     const FieldWork *work = job->work;
-    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, sum_blocks, job);
-    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, filter_blocks, job);
+    const int32_t count = work->blocks->count;
+    float *stage[4] = {work->sums, work->lines, work->sums, job->values};
+    pool_for(work->pool, count, FIELD_GRAIN, sum_blocks, job);
+    pool_for(work->pool, count, FIELD_GRAIN, choose_blocks, job);
+    for (job->axis = 0; job->axis < 3; job->axis++) {
+        job->from = stage[job->axis];
+        job->to = stage[job->axis + 1];
+        pool_for(work->pool, count, FIELD_GRAIN, filter_blocks, job);
+    }
 }
 
 void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values)
@@ -137,37 +202,15 @@ void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at
     collect(&job);
 }
 
-/* ---- Bounds ---- */
-
-static void bound_blocks(void *context, int32_t begin, int32_t end)
-{
-    const SplatJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        const float *values = job->values + (size_t)b * BLOCK_POINTS;
-        block->least = block->most = values[0];
-        for (int i = 1; i < BLOCK_POINTS; i++) {
-            block->least = values[i] < block->least ? values[i] : block->least;
-            block->most = values[i] > block->most ? values[i] : block->most;
-        }
-    }
-}
-
-void field_bound(const FieldWork *work, const float *values)
-{
-    SplatJob job = {.work = work, .values = (float *)values};
-    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, bound_blocks, &job);
-}
-
 /* ---- Thin matter ----
  *
- * A layer of single particles fills no more than 3/8, and F = 1/2 is nowhere. So particles in thin matter count more: s = max(1, c L / F(x_p)) times, at the level L. A layer
- * of particles a cell's half apart has the profile F(z) = F(0) w(z) / w(0), and w(0) / w(1/4) = 12/11. So with c = 12/11 the surface F = L is 1/4 from
- * its middle, where it belongs. On a thread of particles it is 1 % of a cell too near. Inside matter and at flat surfaces, where F(x_p) is 0.68, s is 1;
- * at edges and corners, which the spline rounds, it is larger.
- * A thread asks for s = 3.9, and a particle alone for 10: a ball that the lattice would catch by chance. s is at most 4, so it is no part of the surface but spray; see splats.h. */
+ * A layer of single particles fills no more than 0.45, and F = 1/2 is nowhere. So particles in thin matter count more: s = max(1, c L / F(x_p)) times, at the level L.
+ * A layer of particles a cell's half apart has the profile F(z) = s/2 g(z) with g = S W: g(0) = 29/32, g(1/4) = 105/128. So with c = g(0) / g(1/4) = 116/105 the surface F = L
+ * is 1/4 from its middle, where it belongs. Inside matter and at flat surfaces, where F(x_p) is 0.74, s is 1; at corners, which the spline rounds, it is larger.
+ * A thread of particles asks for s = 2.7, and a particle alone for 6: a ball that the lattice would catch by chance. s is at most 4, so that one is no part of the
+ * surface but spray; see points.c. */
 
-static const float THIN_SHARE = 12.0f / 11.0f, THICKEN_MOST = 4.0f;
+static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
 
 /* F at a place, between the 8 points around it. */
 static float between(const float box[BOX_POINTS], const float local[3], float shift)

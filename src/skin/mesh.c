@@ -12,6 +12,13 @@ static const int box_step[3] = {1, BOX_AXIS, BOX_AXIS * BOX_AXIS};
 /* Point (x, y, z) of the block in its box. */
 static int box_at(int x, int y, int z) { return ((z + BOX_MARGIN) * BOX_AXIS + y + BOX_MARGIN) * BOX_AXIS + x + BOX_MARGIN; }
 
+/* Bit a: the edge along axis a from the first corner of a cube is cut. Corners 1, 2 and 4 are the ends of those. */
+static uint8_t cut_edges(uint8_t inside)
+{
+    const int ends = (inside >> 1 & 3) | (inside >> 2 & 4);
+    return (uint8_t)(inside & 1 ? ends ^ 7 : ends);
+}
+
 /* ---- Counting ---- */
 
 /* Whether the surface passes between points of the block and those above them. */
@@ -45,25 +52,21 @@ static void find_cases(const SkinMesh *mesh, const float box[BOX_POINTS], uint8_
 
 static void count_blocks(void *context, int32_t begin, int32_t end)
 {
-    static const uint8_t cut_edges[2][8] = {{0, 1, 2, 3, 4, 5, 6, 7}, {7, 6, 5, 4, 3, 2, 1, 0}};
     static const uint8_t ones[8] = {0, 1, 1, 2, 1, 2, 2, 3};
     const SkinMesh *mesh = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(mesh->blocks, b);
+        uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
+        uint16_t *start = mesh->start + (size_t)b * BLOCK_POINTS;
         float box[BOX_POINTS];
-        uint8_t cases[BLOCK_POINTS];
         block->vertices = block->triangles = 0;
         if (!may_cut(mesh, block)) continue;
         blocks_gather(block, mesh->field, box);
-        find_cases(mesh, box, cases);
+        find_cases(mesh, box, inside);
         for (int i = 0; i < BLOCK_POINTS; i++) {
-            const size_t at = (size_t)b * BLOCK_POINTS + (size_t)i;
-            /* Corners 1, 2 and 4 are the ends of the edges of corner 0. */
-            const int ends = (cases[i] >> 1 & 3) | (cases[i] >> 2 & 4);
-            mesh->cut[at] = cut_edges[cases[i] & 1][ends];
-            mesh->start[at] = (uint16_t)block->vertices;
-            block->vertices += ones[mesh->cut[at]];
-            block->triangles += mesh->cases->triangles[cases[i]];
+            start[i] = (uint16_t)block->vertices;
+            block->vertices += ones[cut_edges(inside[i])];
+            block->triangles += mesh->cases->triangles[inside[i]];
         }
     }
 }
@@ -96,7 +99,7 @@ static void visit_edges(const SkinMesh *mesh, int32_t b, const float box[BOX_POI
 {
     uint32_t vertex = blocks_at(mesh->blocks, b)->first_vertex;
     for (int i = 0; i < BLOCK_POINTS; i++) {
-        const uint8_t cut = mesh->cut[(size_t)b * BLOCK_POINTS + (size_t)i];
+        const uint8_t cut = cut_edges(mesh->inside[(size_t)b * BLOCK_POINTS + (size_t)i]);
         for (int a = 0; a < 3 && cut >> a; a++) {
             if (!(cut >> a & 1)) continue;
             CutEdge edge = {.vertex = vertex++, .point = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)}, .axis = a};
@@ -229,7 +232,7 @@ static uint32_t vertex_on(const SkinMesh *mesh, int32_t b, const int point[3], i
     const int32_t owner = blocks_at(mesh->blocks, b)->neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
     const size_t i = (size_t)owner * BLOCK_POINTS + (size_t)point_at(at[0], at[1], at[2]);
     uint32_t vertex = blocks_at(mesh->blocks, owner)->first_vertex + mesh->start[i];
-    for (int a = 0; a < case_axis(edge); a++) vertex += mesh->cut[i] >> a & 1;
+    for (int a = 0; a < case_axis(edge); a++) vertex += cut_edges(mesh->inside[i]) >> a & 1;
     return vertex;
 }
 
@@ -248,16 +251,13 @@ static void write_indices(void *context, int32_t begin, int32_t end)
     const SkinMesh *mesh = job->mesh;
     for (int32_t b = begin; b < end; b++) {
         const SkinBlock *block = blocks_at(mesh->blocks, b);
-        float box[BOX_POINTS];
-        uint8_t cases[BLOCK_POINTS];
+        const uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
         size_t place = (size_t)block->first_triangle * 3;
         if (!block->triangles) continue;
-        blocks_gather(block, mesh->field, box);
-        find_cases(mesh, box, cases);
         for (int i = 0; i < BLOCK_POINTS; i++) {
             const int point[3] = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)};
-            for (int e = 0; e < 3 * mesh->cases->triangles[cases[i]]; e++)
-                put_index(job, place++, vertex_on(mesh, b, point, mesh->cases->edge[cases[i]][e]));
+            for (int e = 0; e < 3 * mesh->cases->triangles[inside[i]]; e++)
+                put_index(job, place++, vertex_on(mesh, b, point, mesh->cases->edge[inside[i]][e]));
         }
     }
 }

@@ -13,7 +13,7 @@ typedef struct SkinMesh {
     const Cases *cases;
     Pool *pool;
     const float *field; /* BLOCK_POINTS per block, and so are these */
-    uint8_t *cut;       /* bit a: the edge along axis a is cut */
+    uint8_t *inside;    /* of the cube above the point: its inside corners */
     uint16_t *start;    /* vertices of the block before those of the point */
     float level;
     double spacing; /* of points [m] */
@@ -26,7 +26,7 @@ typedef struct MeshStream {
     size_t stride;
 } MeshStream;
 
-/* Counts, and numbers the vertices. field_bound() comes before. */
+/* Counts, and numbers the vertices. */
 void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
 
 void mesh_write_places(const SkinMesh *mesh, MeshStream positions, MeshStream normals);

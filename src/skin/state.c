@@ -69,8 +69,9 @@ static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
     if (!found) return false;
     const size_t count = (size_t)skin->blocks.count * BLOCK_POINTS;
     return state_reserve(world, &skin->boxes, (size_t)skin->blocks.with_rows * BOX_POINTS, sizeof(float)) &&
-           state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->field, count, sizeof(float)) &&
-           state_reserve(world, &skin->cut, count, sizeof(uint8_t)) && state_reserve(world, &skin->start, count, sizeof(uint16_t));
+           state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->lines, count, sizeof(float)) &&
+           state_reserve(world, &skin->field, count, sizeof(float)) &&
+           state_reserve(world, &skin->inside, count, sizeof(uint8_t)) && state_reserve(world, &skin->start, count, sizeof(uint16_t));
 }
 
 SkinMatter state_matter(const World *world, const SkinKey *key)
@@ -82,7 +83,7 @@ SkinMatter state_matter(const World *world, const SkinKey *key)
 
 FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
 {
-    return (FieldWork){&skin->blocks, matter, world->pool, skin->boxes.data, skin->sums.data};
+    return (FieldWork){&skin->blocks, matter, world->pool, skin->boxes.data, skin->sums.data, skin->lines.data};
 }
 
 SkinMesh state_mesh(const World *world, const Skin *skin)
@@ -92,7 +93,7 @@ SkinMesh state_mesh(const World *world, const Skin *skin)
         .cases = &skin->cases,
         .pool = world->pool,
         .field = skin->field.data,
-        .cut = skin->cut.data,
+        .inside = skin->inside.data,
         .start = skin->start.data,
         .level = skin->key.level,
         .spacing = (double)world->def.cell_size / skin->blocks.subdivision,
@@ -111,11 +112,7 @@ pbmpm_result state_make(World *world, Skin *skin, SkinKey *key)
     const FieldWork work = state_work(world, skin, &matter);
     blocks_link(&skin->blocks, world->pool);
     field_make(&work, field_volume, 0, false, skin->field.data);
-    field_bound(&work, skin->field.data);
-    if (key->keeps_thin) {
-        field_thicken(&work, key->level, skin->field.data);
-        field_bound(&work, skin->field.data);
-    }
+    if (key->keeps_thin) field_thicken(&work, key->level, skin->field.data);
     skin->key = *key;
     const SkinMesh mesh = state_mesh(world, skin);
     mesh_count(&mesh, &skin->vertices, &skin->triangles);
@@ -126,7 +123,7 @@ void skin_free(World *world)
 {
     Skin *skin = world->skin;
     if (!skin) return;
-    Array *arrays[] = {&skin->boxes,   &skin->sums,   &skin->field,   &skin->cut,        &skin->start,
+    Array *arrays[] = {&skin->boxes,   &skin->sums,   &skin->lines,   &skin->field,   &skin->inside,     &skin->start,
                        &skin->volumes, &skin->values, &skin->outside, &skin->chunk_begin};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     blocks_free(&skin->blocks, &world->memory);

@@ -23,7 +23,7 @@ struct Skin {
     SkinKey key;
     SkinBlocks blocks;
     Cases cases;
-    Array boxes, sums, field, cut, start; /* see field.h and mesh.h */
+    Array boxes, sums, lines, field, inside, start; /* see field.h and mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
     Array outside, chunk_begin;           /* of points, see points.c */
     uint64_t vertices, triangles;
