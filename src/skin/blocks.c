@@ -37,7 +37,7 @@ static int32_t want_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
     const size_t count = (size_t)blocks->count;
     if (!grow_table(blocks, memory) || !array_grow(memory, &blocks->block, count + 1, sizeof(SkinBlock), count * sizeof(SkinBlock))) return GRID_NOWHERE;
     SkinBlock *block = blocks_at(blocks, blocks->count);
-    *block = (SkinBlock){.low = {INT32_MAX, INT32_MAX, INT32_MAX}, .high = {INT32_MIN, INT32_MIN, INT32_MIN}};
+    *block = (SkinBlock){.cells = cells_none(), .splatted = cells_none()};
     memcpy(block->place, place, sizeof block->place);
     *slot_of(blocks, place) = ++blocks->count;
     return blocks->count - 1;
@@ -48,15 +48,11 @@ static int32_t floor_divide(int32_t a, int32_t b) { return a / b - (a % b < 0); 
 /* Whether a row is in the block, whose bounds then hold it. */
 static bool bound_row(const SkinBlocks *blocks, SkinBlock *block, const Particles *p, uint32_t row)
 {
-    int32_t local[3];
-    for (int a = 0; a < 3; a++) {
-        local[a] = p->cell[a][row] - blocks->anchor[a] - block->place[a] * blocks_cells(blocks);
-        if (local[a] < 0 || local[a] >= blocks_cells(blocks)) return false;
-    }
-    for (int a = 0; a < 3; a++) {
-        if (local[a] < block->low[a]) block->low[a] = local[a];
-        if (local[a] > block->high[a]) block->high[a] = local[a];
-    }
+    int32_t cell[3];
+    blocks_cell(blocks, block, p, row, cell);
+    for (int a = 0; a < 3; a++)
+        if (cell[a] < 0 || cell[a] >= blocks_cells(blocks)) return false;
+    cells_add(&block->cells, cell);
     return true;
 }
 
@@ -110,19 +106,25 @@ static bool sort_runs(SkinBlocks *blocks, Memory *memory)
     return true;
 }
 
-/* Points of the lattice beside that of a particle's cell where the field may differ from 0, and one more below: the corners of all cubes that a surface
- * may cut. With subdivision 2 a particle is up to 1 point beside its cell's, its spline reaches 1 farther, the filter 3 below and 4 above; see field.h. */
-static const struct {
+/* Points of the lattice beside that of a particle's cell. With subdivision 2 a particle is up to 1 point beside its cell's, the narrow spline reaches 1
+ * farther, the filter of W 1 below and 2 above, and that of S 2 more; see field.h. */
+typedef struct Reach {
     int32_t below, above;
-} reach_of[3] = {{0, 0}, {3, 2}, {6, 6}};
+} Reach;
 
-static bool is_touched(const SkinBlocks *blocks, const SkinBlock *block, const int32_t way[3])
+/* What W reaches, and one more below: the corners of all cubes that a surface may cut. */
+static const Reach touched[3] = {{0, 0}, {2, 1}, {4, 4}};
+/* All that a particle changes. */
+static const Reach changed[3] = {{0, 0}, {2, 2}, {5, 6}};
+
+/* Whether that of cells of a block leads into the neighbour at `way`. */
+static bool leads_to(const SkinBlocks *blocks, const CellBox *cells, Reach reach, const int32_t way[3])
 {
     for (int a = 0; a < 3; a++) {
-        if (way[a] < 0 && block->low[a] * blocks->subdivision >= reach_of[blocks->subdivision].below) return false;
-        if (way[a] > 0 && block->high[a] * blocks->subdivision + reach_of[blocks->subdivision].above < BLOCK_AXIS) return false;
+        if (way[a] < 0 && cells->low[a] * blocks->subdivision >= reach.below) return false;
+        if (way[a] > 0 && cells->high[a] * blocks->subdivision + reach.above < BLOCK_AXIS) return false;
     }
-    return true;
+    return cells_any(cells);
 }
 
 static bool find_touched(SkinBlocks *blocks, Memory *memory)
@@ -133,7 +135,7 @@ static bool find_touched(SkinBlocks *blocks, Memory *memory)
             int32_t way[3], place[3];
             grid_neighbour_offset(n, 3, way);
             for (int a = 0; a < 3; a++) place[a] = block->place[a] + way[a];
-            if (is_touched(blocks, block, way) && want_block(blocks, memory, place) == GRID_NOWHERE) return false;
+            if (leads_to(blocks, &block->cells, touched[blocks->subdivision], way) && want_block(blocks, memory, place) == GRID_NOWHERE) return false;
         }
     return true;
 }
@@ -204,18 +206,15 @@ static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, 
         }
 }
 
-bool blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
+void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
 {
-    bool any = false;
     memset(sum, 0, BLOCK_POINTS * sizeof *sum);
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
         const int32_t other = blocks_at(blocks, b)->neighbour[n];
-        if (other == GRID_NOWHERE || other >= blocks->with_rows || !blocks_at(blocks, other)->splatted) continue;
+        if (other == GRID_NOWHERE || !cells_any(&blocks_at(blocks, other)->splatted)) continue;
         /* The neighbour at `way` sees this block at -way. */
         add_stretches(&seen[2 - n % 3], &seen[2 - n / 3 % 3], &seen[2 - n / 9], boxes + (size_t)other * BOX_POINTS, sum);
-        any = true;
     }
-    return any;
 }
 
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)
@@ -225,9 +224,13 @@ bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)
     return false;
 }
 
-bool blocks_near_sums(const SkinBlocks *blocks, const SkinBlock *block)
+bool blocks_see_splats(const SkinBlocks *blocks, const SkinBlock *block)
 {
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
-        if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->summed) return true;
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
+        int32_t back[3];
+        if (block->neighbour[n] == GRID_NOWHERE) continue;
+        grid_neighbour_offset(BLOCK_NEIGHBOURS - 1 - n, 3, back);
+        if (leads_to(blocks, &blocks_at(blocks, block->neighbour[n])->splatted, changed[blocks->subdivision], back)) return true;
+    }
     return false;
 }

@@ -25,12 +25,17 @@ typedef struct BlockRun {
     uint32_t begin, end;
 } BlockRun;
 
+/* Cells of a block, counted from its first; none if low is above high. */
+typedef struct CellBox {
+    int32_t low[3], high[3];
+} CellBox;
+
 typedef struct SkinBlock {
     int32_t place[3]; /* in blocks, from the anchor */
     int32_t neighbour[BLOCK_NEIGHBOURS]; /* as grid_neighbour_offset() has them; GRID_NOWHERE: not there */
-    int32_t low[3], high[3];             /* its cells with particles, from its first */
+    CellBox cells;                       /* with particles */
+    CellBox splatted;                    /* those whose particles its box is of */
     uint32_t first_run, runs;
-    bool splatted, summed;   /* its box, the sums over boxes at its points: not all 0 */
     bool wanted;             /* the field is to be worked out here */
     float least, most;       /* of the field */
     uint32_t first_vertex, vertices, first_triangle, triangles;
@@ -51,13 +56,29 @@ static inline SkinBlock *blocks_at(const SkinBlocks *blocks, int32_t b) { return
 static inline const BlockRun *blocks_run(const SkinBlocks *blocks, uint32_t r) { return (const BlockRun *)blocks->run.data + r; }
 static inline int32_t blocks_cells(const SkinBlocks *blocks) { return BLOCK_AXIS / blocks->subdivision; }
 
+static inline CellBox cells_none(void) { return (CellBox){{INT32_MAX, INT32_MAX, INT32_MAX}, {INT32_MIN, INT32_MIN, INT32_MIN}}; }
+static inline bool cells_any(const CellBox *box) { return box->low[0] <= box->high[0]; }
+
+static inline void cells_add(CellBox *box, const int32_t cell[3])
+{
+    for (int a = 0; a < 3; a++) {
+        if (cell[a] < box->low[a]) box->low[a] = cell[a];
+        if (cell[a] > box->high[a]) box->high[a] = cell[a];
+    }
+}
+
+/* The cell of a particle, from the first of a block. */
+static inline void blocks_cell(const SkinBlocks *blocks, const SkinBlock *block, const Particles *p, uint32_t row, int32_t cell[3])
+{
+    for (int a = 0; a < 3; a++) cell[a] = p->cell[a][row] - blocks->anchor[a] - block->place[a] * blocks_cells(blocks);
+}
+
 /* The place of a particle in points, from the first point of a block. */
 static inline void blocks_locate(const SkinBlocks *blocks, const SkinBlock *block, const Particles *p, uint32_t row, float local[3])
 {
-    for (int a = 0; a < 3; a++) {
-        const int32_t first = blocks->anchor[a] + block->place[a] * blocks_cells(blocks);
-        local[a] = (float)blocks->subdivision * ((float)(p->cell[a][row] - first) + p->fraction[a][row]);
-    }
+    int32_t cell[3];
+    blocks_cell(blocks, block, p, row, cell);
+    for (int a = 0; a < 3; a++) local[a] = (float)blocks->subdivision * ((float)cell[a] + p->fraction[a][row]);
 }
 
 /* Finds the blocks of the rows that count, in their order. False: no memory. */
@@ -68,11 +89,12 @@ void blocks_free(SkinBlocks *blocks, Memory *memory);
 
 /* Of an array with BLOCK_POINTS numbers per block: writes those of a box; 0 where no block is. */
 void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS]);
-/* Of an array with a box for each block that has particles: what the boxes that are splatted say of the points of a block, added up. False: none of them does. */
-bool blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS]);
+/* Of an array with a box for each block that has particles: what the boxes that are splatted say of the points of a block, added up. */
+void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS]);
 
-/* Whether a block or one beside it has vertices, or sums. */
+/* Whether a block or one beside it has vertices. */
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block);
-bool blocks_near_sums(const SkinBlocks *blocks, const SkinBlock *block);
+/* Whether the field at its points depends on a box that is splatted. */
+bool blocks_see_splats(const SkinBlocks *blocks, const SkinBlock *block);
 
 #endif

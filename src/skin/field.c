@@ -61,8 +61,8 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(work->blocks, b);
         float *box = work->boxes + (size_t)b * BOX_POINTS;
-        block->splatted = !job->at_surface || blocks_near_surface(work->blocks, block);
-        if (!block->splatted) continue;
+        block->splatted = !job->at_surface || blocks_near_surface(work->blocks, block) ? block->cells : cells_none();
+        if (!cells_any(&block->splatted)) continue;
         memset(box, 0, BOX_POINTS * sizeof *box);
         for (uint32_t r = 0; r < block->runs; r++) {
             const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
@@ -81,65 +81,61 @@ static void sum_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
     const SkinBlocks *blocks = job->work->blocks;
-    for (int32_t b = begin; b < end; b++) blocks_at(blocks, b)->summed = blocks_sum(blocks, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
-}
-
-static void choose_blocks(void *context, int32_t begin, int32_t end)
-{
-    const SplatJob *job = context;
-    const SkinBlocks *blocks = job->work->blocks;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(blocks, b);
-        block->wanted = job->at_surface ? blocks_near_surface(blocks, block) : !job->adds || blocks_near_sums(blocks, block);
+        block->wanted = job->at_surface ? blocks_near_surface(blocks, block) : !job->adds || blocks_see_splats(blocks, block);
+        if (block->wanted) blocks_sum(blocks, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
     }
 }
 
-enum { TAPS = 8, LINE = 3 * BLOCK_AXIS };
+/* A symmetric filter: the taps that lie as far from its ends, the outer ones first, and where it begins. */
+typedef struct Filter {
+    int pairs, first, last;
+    float tap[4];
+} Filter;
 
-/* The filter of S, and that of (1, 3, 3, 1) / 8 and S. A tap is for the point that is so far below: the first for that `below` points below. */
-static const struct {
-    int taps, below;
-    float tap[TAPS];
-} filter_of[3] = {{0},
-                  {3, 1, {-0.125f, 1.25f, -0.125f}},
-                  {8, 4, {-1 / 64.0f, -3 / 64.0f, 7 / 64.0f, 29 / 64.0f, 29 / 64.0f, 7 / 64.0f, -3 / 64.0f, -1 / 64.0f}}};
+/* That of S; and (1, 3, 3, 1) / 8 and that of S in one. */
+static const Filter filter_of[3] = {{0}, {2, -1, 1, {-0.125f, 0.625f}}, {4, -4, 3, {-1 / 64.0f, -3 / 64.0f, 7 / 64.0f, 29 / 64.0f}}};
 
-/* The points of a neighbour along an axis, -1, 0 or 1; null if nothing is there. */
+enum { LINE = 3 * BLOCK_AXIS };
+
+/* The points of a neighbour along an axis, -1, 0 or 1. */
 static const float *points_beside(const SplatJob *job, const SkinBlock *block, int side)
 {
     static const int step[3] = {1, 3, 9};
+    static const float nothing[BLOCK_POINTS];
     const int32_t other = block->neighbour[BLOCK_NEIGHBOURS / 2 + side * step[job->axis]];
-    return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : NULL;
+    return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : nothing;
 }
 
-static void filter_along_x(const SplatJob *job, const float *const beside[3], float out[BLOCK_POINTS])
+/* Eight sums at once: of what the pointers point to, for each tap. */
+static inline void add_pair(const Filter *filter, int pair, const float *low, const float *high, float sum[BLOCK_AXIS])
 {
-    const int subdivision = job->work->blocks->subdivision, taps = filter_of[subdivision].taps, first = BLOCK_AXIS - filter_of[subdivision].below;
+    for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter->tap[pair] * (low[i] + high[i]);
+}
+
+static void filter_along_x(const Filter *filter, const float *const beside[3], float out[BLOCK_POINTS])
+{
     for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS) {
         float line[LINE], sum[BLOCK_AXIS] = {0};
-        for (int side = 0; side < 3; side++)
-            for (int i = 0; i < BLOCK_AXIS; i++) line[side * BLOCK_AXIS + i] = beside[side] ? beside[side][row + i] : 0.0f;
-        for (int t = 0; t < taps; t++)
-            for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter_of[subdivision].tap[t] * line[first + t + i];
+        for (int side = 0; side < 3; side++) memcpy(line + side * BLOCK_AXIS, beside[side] + row, BLOCK_AXIS * sizeof *line);
+        for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, line + BLOCK_AXIS + filter->first + p, line + BLOCK_AXIS + filter->last - p, sum);
         memcpy(out + row, sum, sizeof sum);
     }
 }
 
-/* Rows along x at once; `step` leads from one point of the axis to the next. */
-static void filter_across_x(const SplatJob *job, const float *const beside[3], int step, float out[BLOCK_POINTS])
+/* Rows along x at once. Points of the axis lie `step` apart, rows of the third axis `across`. */
+static void filter_across_x(const Filter *filter, const float *const beside[3], int step, int across, float out[BLOCK_POINTS])
 {
-    const int subdivision = job->work->blocks->subdivision, taps = filter_of[subdivision].taps;
-    for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS) {
-        const int at = row / step % BLOCK_AXIS, others = row - at * step;
-        float sum[BLOCK_AXIS] = {0};
-        for (int t = 0; t < taps; t++) {
-            const int point = at + t - filter_of[subdivision].below + BLOCK_AXIS;
-            const float *points = beside[point / BLOCK_AXIS];
-            if (!points) continue;
-            points += others + point % BLOCK_AXIS * step;
-            for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter_of[subdivision].tap[t] * points[i];
+    for (int plane = 0; plane < BLOCK_AXIS; plane++) {
+        const float *line[LINE];
+        for (int i = 0; i < LINE; i++) line[i] = beside[i / BLOCK_AXIS] + plane * across + i % BLOCK_AXIS * step;
+        for (int at = 0; at < BLOCK_AXIS; at++) {
+            float sum[BLOCK_AXIS] = {0};
+            const float *const *low = &line[BLOCK_AXIS + at + filter->first], *const *high = &line[BLOCK_AXIS + at + filter->last];
+            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, low[p], high[-p], sum);
+            memcpy(out + plane * across + at * step, sum, sizeof sum);
         }
-        memcpy(out + row, sum, sizeof sum);
     }
 }
 
@@ -161,22 +157,52 @@ static void bound_block(SkinBlock *block, const float values[BLOCK_POINTS])
     }
 }
 
+/* Points next to a missing block below are out of all particles' reach, though S may leave a ripple there. They are outside, so that the missing block
+ * has no vertices: thus the surface is closed whatever the field is. */
+static void close_off(const SkinBlock *block, float values[BLOCK_POINTS])
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
+        int32_t way[3];
+        grid_neighbour_offset(n, 3, way);
+        if (block->neighbour[n] != GRID_NOWHERE || way[0] > 0 || way[1] > 0 || way[2] > 0) continue;
+        for (int z = 0; z < (way[2] ? 1 : BLOCK_AXIS); z++)
+            for (int y = 0; y < (way[1] ? 1 : BLOCK_AXIS); y++)
+                for (int x = 0; x < (way[0] ? 1 : BLOCK_AXIS); x++) values[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.0f;
+    }
+}
+
+static void filter_line(const SplatJob *job, const SkinBlock *block, float out[BLOCK_POINTS])
+{
+    const Filter *filter = &filter_of[job->work->blocks->subdivision];
+    const int row = BLOCK_AXIS, plane = BLOCK_AXIS * BLOCK_AXIS;
+    const float *beside[3];
+    for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
+    if (job->axis == 0) filter_along_x(filter, beside, out);
+    if (job->axis == 1) filter_across_x(filter, beside, row, plane, out);
+    if (job->axis == 2) filter_across_x(filter, beside, plane, row, out);
+}
+
 static void filter_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
-    static const int step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
+    for (int32_t b = begin; b < end; b++) {
+        const SkinBlock *block = blocks_at(job->work->blocks, b);
+        if (block->wanted) filter_line(job, block, job->to + (size_t)b * BLOCK_POINTS);
+    }
+}
+
+static void filter_last(void *context, int32_t begin, int32_t end)
+{
+    const SplatJob *job = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(job->work->blocks, b);
+        float more[BLOCK_POINTS], *to = job->to + (size_t)b * BLOCK_POINTS;
         if (!block->wanted) continue;
-        const float *beside[3];
-        float out[BLOCK_POINTS], *to = job->to + (size_t)b * BLOCK_POINTS;
-        for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
-        if (job->axis == 0)
-            filter_along_x(job, beside, out);
-        else
-            filter_across_x(job, beside, step[job->axis], out);
-        for (int i = 0; i < BLOCK_POINTS; i++) to[i] = job->adds && job->axis == 2 ? to[i] + out[i] : out[i];
-        if (job->axis == 2 && !job->at_surface) bound_block(block, to);
+        filter_line(job, block, job->adds ? more : to);
+        for (int i = 0; i < BLOCK_POINTS && job->adds; i++) to[i] += more[i];
+        if (job->at_surface) continue;
+        close_off(block, to);
+        bound_block(block, to);
     }
 }
 
@@ -187,11 +213,10 @@ static void collect(SplatJob *job)
     const int32_t count = work->blocks->count;
     float *stage[4] = {work->sums, work->lines, work->sums, job->values};
     pool_for(work->pool, count, FIELD_GRAIN, sum_blocks, job);
-    pool_for(work->pool, count, FIELD_GRAIN, choose_blocks, job);
     for (job->axis = 0; job->axis < 3; job->axis++) {
         job->from = stage[job->axis];
         job->to = stage[job->axis + 1];
-        pool_for(work->pool, count, FIELD_GRAIN, filter_blocks, job);
+        pool_for(work->pool, count, FIELD_GRAIN, job->axis == 2 ? filter_last : filter_blocks, job);
     }
 }
 
@@ -274,12 +299,14 @@ static void thicken_block(const SplatJob *job, SkinBlock *block, float *box)
         const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
         for (uint32_t row = run->begin; row < run->end; row++) {
             float local[3];
+            int32_t cell[3];
             blocks_locate(work->blocks, block, work->matter->particles, row, local);
             const float filling = between(near, local, shift);
             if (filling >= enough) continue;
             const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
             splat(box, local, (times - 1.0f) * scale * matter_volume(work->matter, row));
-            block->splatted = true;
+            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+            cells_add(&block->splatted, cell);
         }
     }
 }
@@ -289,7 +316,7 @@ static void thicken_blocks(void *context, int32_t begin, int32_t end)
     const SplatJob *job = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(job->work->blocks, b);
-        block->splatted = false;
+        block->splatted = cells_none();
         if (!is_thick(job->work->blocks, block, THIN_SHARE * job->level)) thicken_block(job, block, job->work->boxes + (size_t)b * BOX_POINTS);
     }
 }
