@@ -65,18 +65,19 @@ static bool find_run(SkinBlocks *blocks, Memory *memory, const Particles *p, uin
     return run->block != GRID_NOWHERE;
 }
 
-static bool find_runs(SkinBlocks *blocks, Memory *memory, const Particles *p, BlocksTake *take, const void *context)
+static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
 {
+    const Particles *p = matter->particles;
     uint32_t row = 0;
     while (row < p->count) {
         BlockRun run;
-        if (!take(context, row)) {
+        if (!matter_has(matter, row)) {
             row++;
             continue;
         }
         if (!find_run(blocks, memory, p, row, &run)) return false;
         SkinBlock *block = blocks_at(blocks, run.block);
-        while (row < p->count && take(context, row) && bound_row(blocks, block, p, row)) row++;
+        while (row < p->count && matter_has(matter, row) && bound_row(blocks, block, p, row)) row++;
         run.end = row;
         block->runs++;
         const size_t count = (size_t)blocks->runs++;
@@ -140,11 +141,11 @@ static bool find_touched(SkinBlocks *blocks, Memory *memory)
     return true;
 }
 
-bool blocks_find(SkinBlocks *blocks, Memory *memory, const Particles *particles, BlocksTake *take, const void *context)
+bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
 {
     blocks->count = blocks->with_rows = blocks->runs = blocks->slots = 0;
-    grid_drop_anchor(particles, blocks->anchor);
-    return find_runs(blocks, memory, particles, take, context) && sort_runs(blocks, memory) && find_touched(blocks, memory);
+    grid_drop_anchor(matter->particles, blocks->anchor);
+    return find_runs(blocks, memory, matter) && sort_runs(blocks, memory) && find_touched(blocks, memory);
 }
 
 static void link_blocks(void *context, int32_t begin, int32_t end)

@@ -9,6 +9,7 @@
 #include "base/pool.h"
 #include "grid/grid.h"
 #include "matter/particles.h"
+#include "skin/matter.h"
 
 enum {
     BLOCK_AXIS = 8,
@@ -49,9 +50,6 @@ typedef struct SkinBlocks {
     Array block, run, found_run, table;
 } SkinBlocks;
 
-/* Whether a row counts. */
-typedef bool BlocksTake(const void *context, uint32_t row);
-
 static inline SkinBlock *blocks_at(const SkinBlocks *blocks, int32_t b) { return (SkinBlock *)blocks->block.data + b; }
 static inline const BlockRun *blocks_run(const SkinBlocks *blocks, uint32_t r) { return (const BlockRun *)blocks->run.data + r; }
 static inline int32_t blocks_cells(const SkinBlocks *blocks) { return BLOCK_AXIS / blocks->subdivision; }
@@ -82,7 +80,7 @@ static inline void blocks_locate(const SkinBlocks *blocks, const SkinBlock *bloc
 }
 
 /* Finds the blocks of the rows that count, in their order. False: no memory. */
-bool blocks_find(SkinBlocks *blocks, Memory *memory, const Particles *particles, BlocksTake *take, const void *context);
+bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter);
 /* Then, who is beside whom. */
 void blocks_link(SkinBlocks *blocks, Pool *pool);
 void blocks_free(SkinBlocks *blocks, Memory *memory);

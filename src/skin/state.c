@@ -64,7 +64,7 @@ SkinKey state_key(const pbmpm_surface_def *def)
 static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
 {
     pthread_mutex_lock(&world->making);
-    const bool found = blocks_find(&skin->blocks, &world->memory, matter->particles, matter_has, matter);
+    const bool found = blocks_find(&skin->blocks, &world->memory, matter);
     pthread_mutex_unlock(&world->making);
     if (!found) return false;
     const size_t count = (size_t)skin->blocks.count * BLOCK_POINTS;
@@ -76,8 +76,12 @@ static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
 
 SkinMatter state_matter(const World *world, const SkinKey *key)
 {
-    SkinMatter matter = {.particles = &world->particles, .materials = &world->materials};
-    memcpy(matter.chosen, key->chosen, sizeof matter.chosen);
+    SkinMatter matter = {.particles = &world->particles};
+    for (size_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (!key->chosen[slot] || !world->materials.generation[slot]) continue;
+        matter.cells_per_mass[slot] = world->materials.kernel[slot].inverse_density;
+        matter.stretches[slot] = !material_flows(&world->materials.def[slot]);
+    }
     return matter;
 }
 
