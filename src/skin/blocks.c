@@ -178,23 +178,35 @@ typedef struct Stretch {
 
 static const Stretch seen[3] = {{BLOCK_AXIS - BOX_MARGIN, 0, BOX_MARGIN}, {0, BOX_MARGIN, BLOCK_AXIS}, {0, BOX_MARGIN + BLOCK_AXIS, BOX_MARGIN}};
 
-static void copy_stretches(const Stretch *x, const Stretch *y, const Stretch *z, const float *from, float *box)
+/* Rows of all three neighbours along x at once. */
+static void copy_rows(const Stretch *y, const Stretch *z, const float *const beside[3], float *box)
 {
     for (int k = 0; k < z->count; k++)
         for (int j = 0; j < y->count; j++) {
-            const float *row = &from[((z->of_block + k) * BLOCK_AXIS + y->of_block + j) * BLOCK_AXIS + x->of_block];
-            float *out = &box[((z->of_box + k) * BOX_AXIS + y->of_box + j) * BOX_AXIS + x->of_box];
-            for (int i = 0; i < x->count; i++) out[i] = row[i];
+            const int row = ((z->of_block + k) * BLOCK_AXIS + y->of_block + j) * BLOCK_AXIS;
+            float *out = &box[((z->of_box + k) * BOX_AXIS + y->of_box + j) * BOX_AXIS];
+            memcpy(out, beside[0] + row + BLOCK_AXIS - BOX_MARGIN, BOX_MARGIN * sizeof *out);
+            memcpy(out + BOX_MARGIN, beside[1] + row, BLOCK_AXIS * sizeof *out);
+            memcpy(out + BOX_MARGIN + BLOCK_AXIS, beside[2] + row, BOX_MARGIN * sizeof *out);
         }
 }
 
 void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS])
 {
-    memset(box, 0, BOX_POINTS * sizeof *box);
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        const int32_t other = block->neighbour[n];
-        if (other != GRID_NOWHERE) copy_stretches(&seen[n % 3], &seen[n / 3 % 3], &seen[n / 9], values + (size_t)other * BLOCK_POINTS, box);
+    static const float nothing[BLOCK_POINTS];
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n += 3) {
+        const float *beside[3];
+        for (int side = 0; side < 3; side++) {
+            const int32_t other = block->neighbour[n + side];
+            beside[side] = other == GRID_NOWHERE ? nothing : values + (size_t)other * BLOCK_POINTS;
+        }
+        copy_rows(&seen[n / 3 % 3], &seen[n / 9], beside, box);
     }
+}
+
+static inline void add_row(const float *from, float *sum, int count)
+{
+    for (int i = 0; i < count; i++) sum[i] += from[i];
 }
 
 static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, const float *box, float *sum)
@@ -203,7 +215,10 @@ static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, 
         for (int j = 0; j < y->count; j++) {
             const float *row = &box[((z->of_box + k) * BOX_AXIS + y->of_box + j) * BOX_AXIS + x->of_box];
             float *out = &sum[((z->of_block + k) * BLOCK_AXIS + y->of_block + j) * BLOCK_AXIS + x->of_block];
-            for (int i = 0; i < x->count; i++) out[i] += row[i];
+            if (x->count == BLOCK_AXIS) /* of constant length they are worked on as a whole */
+                add_row(row, out, BLOCK_AXIS);
+            else
+                add_row(row, out, BOX_MARGIN);
         }
 }
 
@@ -225,13 +240,24 @@ bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)
     return false;
 }
 
-bool blocks_see_splats(const SkinBlocks *blocks, const SkinBlock *block)
+void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block)
 {
+    const Reach reach = changed[blocks->subdivision];
+    block->reached = cells_none();
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        int32_t back[3];
+        int32_t way[3], back[3], low[3], high[3];
         if (block->neighbour[n] == GRID_NOWHERE) continue;
+        const CellBox *cells = &blocks_at(blocks, block->neighbour[n])->splatted;
+        grid_neighbour_offset(n, 3, way);
         grid_neighbour_offset(BLOCK_NEIGHBOURS - 1 - n, 3, back);
-        if (leads_to(blocks, &blocks_at(blocks, block->neighbour[n])->splatted, changed[blocks->subdivision], back)) return true;
+        if (!leads_to(blocks, cells, reach, back)) continue;
+        for (int a = 0; a < 3; a++) {
+            low[a] = way[a] * BLOCK_AXIS + cells->low[a] * blocks->subdivision - reach.below;
+            high[a] = way[a] * BLOCK_AXIS + cells->high[a] * blocks->subdivision + reach.above;
+            low[a] = low[a] < 0 ? 0 : low[a];
+            high[a] = high[a] < BLOCK_AXIS ? high[a] : BLOCK_AXIS - 1;
+        }
+        cells_add(&block->reached, low);
+        cells_add(&block->reached, high);
     }
-    return false;
 }

@@ -26,7 +26,7 @@ typedef struct BlockRun {
     uint32_t begin, end;
 } BlockRun;
 
-/* Cells of a block, counted from its first; none if low is above high. */
+/* Cells or points of a block, counted from its first; none if low is above high. */
 typedef struct CellBox {
     int32_t low[3], high[3];
 } CellBox;
@@ -37,7 +37,8 @@ typedef struct SkinBlock {
     CellBox cells;                       /* with particles */
     CellBox splatted;                    /* those whose particles its box is of */
     uint32_t first_run, runs;
-    bool wanted;             /* the field is to be worked out here */
+    CellBox reached;                     /* its points that boxes which are splatted change */
+    bool wanted;                         /* the field is to be worked out here */
     float least, most;       /* of the field */
     uint32_t first_vertex, vertices, first_triangle, triangles;
 } SkinBlock;
@@ -92,7 +93,7 @@ void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float s
 
 /* Whether a block or one beside it has vertices. */
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block);
-/* Whether the field at its points depends on a box that is splatted. */
-bool blocks_see_splats(const SkinBlocks *blocks, const SkinBlock *block);
+/* Works `reached` out. */
+void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block);
 
 #endif

@@ -91,7 +91,8 @@ static void sum_blocks(void *context, int32_t begin, int32_t end)
     const SkinBlocks *blocks = job->work->blocks;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(blocks, b);
-        block->wanted = job->at_surface ? blocks_near_surface(blocks, block) : !job->adds || blocks_see_splats(blocks, block);
+        blocks_find_reached(blocks, block);
+        block->wanted = cells_any(&block->reached) && (!job->at_surface || blocks_near_surface(blocks, block));
         if (block->wanted) blocks_sum(blocks, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
     }
 }
@@ -122,27 +123,31 @@ static inline void add_pair(const Filter *filter, int pair, const float *low, co
     for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter->tap[pair] * (low[i] + high[i]);
 }
 
-static void filter_along_x(const Filter *filter, const float *const beside[3], float out[BLOCK_POINTS])
+static void filter_along_x(const Filter *filter, const CellBox *within, const float *const beside[3], float out[BLOCK_POINTS])
 {
-    for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS) {
-        float line[LINE], sum[BLOCK_AXIS] = {0};
-        for (int side = 0; side < 3; side++) memcpy(line + side * BLOCK_AXIS, beside[side] + row, BLOCK_AXIS * sizeof *line);
-        for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, line + BLOCK_AXIS + filter->first + p, line + BLOCK_AXIS + filter->last - p, sum);
-        memcpy(out + row, sum, sizeof sum);
-    }
+    for (int z = within->low[2]; z <= within->high[2]; z++)
+        for (int y = within->low[1]; y <= within->high[1]; y++) {
+            const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
+            float line[LINE], sum[BLOCK_AXIS] = {0};
+            for (int side = 0; side < 3; side++) memcpy(line + side * BLOCK_AXIS, beside[side] + row, BLOCK_AXIS * sizeof *line);
+            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, line + BLOCK_AXIS + filter->first + p, line + BLOCK_AXIS + filter->last - p, sum);
+            memcpy(out + row, sum, sizeof sum);
+        }
 }
 
-/* Rows along x at once. Points of the axis lie `step` apart, rows of the third axis `across`. */
-static void filter_across_x(const Filter *filter, const float *const beside[3], int step, int across, float out[BLOCK_POINTS])
+/* Along the axis 1 or 2; rows along x at once. */
+static void filter_across_x(const Filter *filter, const CellBox *within, int axis, const float *const beside[3], float out[BLOCK_POINTS])
 {
-    for (int plane = 0; plane < BLOCK_AXIS; plane++) {
+    static const int step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
+    const int third = 3 - axis;
+    for (int plane = within->low[third]; plane <= within->high[third]; plane++) {
         const float *line[LINE];
-        for (int i = 0; i < LINE; i++) line[i] = beside[i / BLOCK_AXIS] + plane * across + i % BLOCK_AXIS * step;
-        for (int at = 0; at < BLOCK_AXIS; at++) {
+        for (int i = 0; i < LINE; i++) line[i] = beside[i / BLOCK_AXIS] + plane * step[third] + i % BLOCK_AXIS * step[axis];
+        for (int at = within->low[axis]; at <= within->high[axis]; at++) {
             float sum[BLOCK_AXIS] = {0};
             const float *const *low = &line[BLOCK_AXIS + at + filter->first], *const *high = &line[BLOCK_AXIS + at + filter->last];
             for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, low[p], high[-p], sum);
-            memcpy(out + plane * across + at * step, sum, sizeof sum);
+            memcpy(out + plane * step[third] + at * step[axis], sum, sizeof sum);
         }
     }
 }
@@ -182,12 +187,13 @@ static void close_off(const SkinBlock *block, float values[BLOCK_POINTS])
 static void filter_line(const SplatJob *job, const SkinBlock *block, float out[BLOCK_POINTS])
 {
     const Filter *filter = &filter_of[job->work->blocks->subdivision];
-    const int row = BLOCK_AXIS, plane = BLOCK_AXIS * BLOCK_AXIS;
     const float *beside[3];
     for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
-    if (job->axis == 0) filter_along_x(filter, beside, out);
-    if (job->axis == 1) filter_across_x(filter, beside, row, plane, out);
-    if (job->axis == 2) filter_across_x(filter, beside, plane, row, out);
+    memset(out, 0, BLOCK_POINTS * sizeof *out);
+    if (job->axis == 0)
+        filter_along_x(filter, &block->reached, beside, out);
+    else
+        filter_across_x(filter, &block->reached, job->axis, beside, out);
 }
 
 static void filter_blocks(void *context, int32_t begin, int32_t end)
