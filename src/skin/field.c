@@ -123,15 +123,19 @@ static inline void add_pair(const Filter *filter, int pair, const float *low, co
     for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter->tap[pair] * (low[i] + high[i]);
 }
 
+/* Lines are laid out first: what has just been written cannot be read at another offset without waiting. */
 static void filter_along_x(const Filter *filter, const CellBox *within, const float *const beside[3], float out[BLOCK_POINTS])
 {
+    enum { ROWS = BLOCK_AXIS * BLOCK_AXIS };
+    float line[ROWS][LINE];
+    for (int row = within->low[2] * BLOCK_AXIS; row < (within->high[2] + 1) * BLOCK_AXIS; row++)
+        for (int side = 0; side < 3; side++) memcpy(line[row] + side * BLOCK_AXIS, beside[side] + row * BLOCK_AXIS, BLOCK_AXIS * sizeof **line);
     for (int z = within->low[2]; z <= within->high[2]; z++)
         for (int y = within->low[1]; y <= within->high[1]; y++) {
-            const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
-            float line[LINE], sum[BLOCK_AXIS] = {0};
-            for (int side = 0; side < 3; side++) memcpy(line + side * BLOCK_AXIS, beside[side] + row, BLOCK_AXIS * sizeof *line);
-            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, line + BLOCK_AXIS + filter->first + p, line + BLOCK_AXIS + filter->last - p, sum);
-            memcpy(out + row, sum, sizeof sum);
+            const float *own = line[z * BLOCK_AXIS + y] + BLOCK_AXIS;
+            float sum[BLOCK_AXIS] = {0};
+            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, own + filter->first + p, own + filter->last - p, sum);
+            memcpy(out + (z * BLOCK_AXIS + y) * BLOCK_AXIS, sum, sizeof sum);
         }
 }
 
