@@ -71,7 +71,7 @@ typedef struct pbmpm_points_def {
     const uint32_t *palette;            /**< the colour of each of `materials`, or null (default): opaque white */
     int32_t colour_from_user;           /**< 1: the colour is PBMPM_USER_VALUE of the particle; 0 (default) */
     float radius_scale;                 /**< in (0, 100]; default 1. Neighbours in a lattice touch at 0.81. */
-    int32_t spray_only;                 /**< 1: only particles outside of the surface with the defaults and these materials, in 3D; 0 (default): all */
+    int32_t spray_only;                 /**< 1: only particles that the surface with the defaults and these materials leaves out, in 3D; 0 (default): all */
     uint32_t reserved;                  /**< 0 */
 } pbmpm_points_def;
 

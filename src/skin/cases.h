@@ -6,7 +6,7 @@
  * 1. On a side of the cube, lines cut off each stretch of inside corners by itself. A side's lines follow from its own corners, so both cubes at it have
  *    the same: the surface is closed. At each edge of a cube that is cut, a line comes in on one side and goes out on the other: lines join to loops.
  * 2. A loop becomes a fan of triangles none of whose diagonals lies in a side. So a diagonal belongs to no other cube, and each edge of the surface has
- *    two triangles: it is a manifold. For each loop there is such a fan; tests/unit/test_surface.c tries all 256 cases. */
+ *    two triangles: it is a manifold. For each loop there is such a fan; tests/unit/test_skin.c tries all 256 cases. */
 #ifndef PBMPM_SRC_SKIN_CASES_H
 #define PBMPM_SRC_SKIN_CASES_H
 

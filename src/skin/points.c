@@ -9,6 +9,9 @@
 
 enum { CHUNK_ROWS = 1024, WHITE = -1 };
 
+/* F at a particle alone, an eighth of a cell, is at most 4 times (29/32)^3 / 8, see field.c: who has more has company. */
+static const float SPRAY_BELOW = 4.0f * 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
+
 pbmpm_points_def skin_points_defaults(void) { return (pbmpm_points_def){.size = sizeof(pbmpm_points_def), .radius_scale = 1.0f}; }
 
 const char *skin_points_problem(const pbmpm_points_def *def)
@@ -91,7 +94,7 @@ static pbmpm_result find_spray(World *world, Skin *skin, SkinKey *key, PointsJob
     const pbmpm_result result = state_make(world, skin, key);
     if (result != PBMPM_OK) return result;
     const FieldWork work = state_work(world, skin, &job->matter);
-    field_find_outside(&work, skin->key.level, skin->field.data, skin->outside.data);
+    field_find_outside(&work, SPRAY_BELOW, skin->field.data, skin->outside.data);
     job->outside = skin->outside.data;
     return PBMPM_OK;
 }
