@@ -118,3 +118,5 @@ pbmpm_result skin_extract(World *world, const pbmpm_surface_def *def, pbmpm_surf
     state_give(world);
     return result;
 }
+
+void skin_free(World *world) { state_free(world); }

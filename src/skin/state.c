@@ -3,7 +3,6 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "skin/skin.h"
 
 Skin *state_take(World *world, pbmpm_result *result)
 {
@@ -123,7 +122,7 @@ pbmpm_result state_make(World *world, Skin *skin, SkinKey *key)
     return PBMPM_OK;
 }
 
-void skin_free(World *world)
+void state_free(World *world)
 {
     Skin *skin = world->skin;
     if (!skin) return;

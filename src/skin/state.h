@@ -45,6 +45,8 @@ SkinKey state_key(const pbmpm_surface_def *def);
 /* Works the field out that a key tells of, unless it is there, and counts the mesh. The generation of the key is the world's. */
 pbmpm_result state_make(World *world, Skin *skin, SkinKey *key);
 
+void state_free(World *world);
+
 SkinMatter state_matter(const World *world, const SkinKey *key);
 FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter);
 SkinMesh state_mesh(const World *world, const Skin *skin);

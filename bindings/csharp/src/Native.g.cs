@@ -1893,7 +1893,7 @@ namespace Pbmpm.Native
         public int ColourFromUser;
         /// <summary>in (0, 100]; default 1. Neighbours in a lattice touch at 0.81.</summary>
         public float RadiusScale;
-        /// <summary>1: only particles outside of the surface with the defaults and these materials, in 3D; 0 (default): all</summary>
+        /// <summary>1: only particles that the surface with the defaults and these materials leaves out, in 3D; 0 (default): all</summary>
         public int SprayOnly;
         /// <summary>0</summary>
         public uint Reserved;
