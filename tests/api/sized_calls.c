@@ -488,9 +488,13 @@ static pbmpm_result give_surface(const void *structure, void *outcome)
     return result;
 }
 
+/* Its pointers are read: none. */
 static pbmpm_result take_mesh(void *structure)
 {
     const pbmpm_world_id solid = world_in_3d();
+    uint32_t size;
+    memcpy(&size, structure, sizeof size);
+    if (size >= sizeof(pbmpm_surface_mesh) && size <= 4096) memset((char *)structure + sizeof size, 0, size - sizeof size);
     const pbmpm_result result = pbmpm_surface_extract(solid, NULL, structure);
     OK(pbmpm_world_destroy(solid));
     return result;

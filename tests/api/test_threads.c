@@ -496,7 +496,7 @@ static void test_readers_share_a_world(void)
         readers += only_reads(world_calls[i].name);
         TEST_ASSERT_EQUAL_STRING_MESSAGE(expected, pbmpm_result_name(results[i]), world_calls[i].name);
     }
-    TEST_ASSERT_EQUAL_INT(41, readers);
+    TEST_ASSERT_EQUAL_INT(43, readers);
     TEST_ASSERT_EQUAL_HEX64(before, world_hash(ids.world));
     OK(pbmpm_world_step(ids.world, 0.001f)); /* nobody is left inside */
 }
