@@ -306,24 +306,55 @@ static bool is_thick(const SkinBlocks *blocks, const SkinBlock *block, float eno
     return true;
 }
 
+static void take_least(float *least, const float *other, int count)
+{
+    for (int i = 0; i < count; i++) least[i] = other[i] < least[i] ? other[i] : least[i];
+}
+
+/* The least of the points around each cell of a block, axis by axis: F of a particle in it is no less. */
+static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS], float cell[BLOCK_POINTS])
+{
+    const int cells = blocks_cells(blocks), points = blocks->subdivision + 2, plane = BOX_AXIS * BOX_AXIS;
+    for (int z = 0; z < cells; z++) {
+        float slab[BOX_AXIS * BOX_AXIS];
+        const float *from = near + (z * blocks->subdivision + BOX_MARGIN - 1) * plane;
+        memcpy(slab, from, sizeof slab);
+        for (int k = 1; k < points; k++) take_least(slab, from + k * plane, plane);
+        for (int y = 0; y < cells; y++) {
+            float row[BOX_AXIS];
+            const float *beside = slab + (y * blocks->subdivision + BOX_MARGIN - 1) * BOX_AXIS;
+            memcpy(row, beside, sizeof row);
+            for (int k = 1; k < points; k++) take_least(row, beside + k * BOX_AXIS, BOX_AXIS);
+            for (int x = 0; x < cells; x++) {
+                float *least = &cell[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x];
+                const float *along = row + x * blocks->subdivision + BOX_MARGIN - 1;
+                *least = along[0];
+                for (int k = 1; k < points; k++) take_least(least, along + k, 1);
+            }
+        }
+    }
+}
+
 static void thicken_block(const SplatJob *job, SkinBlock *block, float *box)
 {
     const FieldWork *work = job->work;
     const float enough = THIN_SHARE * job->level, scale = points_per_cell(work->blocks), shift = field_shift(work->blocks);
-    float near[BOX_POINTS];
+    float near[BOX_POINTS], least[BLOCK_POINTS];
     blocks_gather(block, job->values, near);
-    memset(box, 0, BOX_POINTS * sizeof *box);
+    least_of_cells(work->blocks, near, least);
     for (uint32_t r = 0; r < block->runs; r++) {
         const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
         for (uint32_t row = run->begin; row < run->end; row++) {
             float local[3];
             int32_t cell[3];
+            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
             blocks_locate(work->blocks, block, work->matter->particles, row, local);
             const float filling = between(near, local, shift);
             if (filling >= enough) continue;
+            if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
             const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
             splat(box, local, (times - 1.0f) * scale * matter_volume(work->matter, row));
-            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
             cells_add(&block->splatted, cell);
         }
     }

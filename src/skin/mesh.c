@@ -236,6 +236,16 @@ static uint32_t vertex_on(const SkinMesh *mesh, int32_t b, const int point[3], i
     return vertex;
 }
 
+/* The same where the cube has all its corners in the block. */
+static uint32_t vertex_within(const SkinMesh *mesh, int32_t b, int point, int edge)
+{
+    const int corner = case_corner(edge);
+    const size_t i = (size_t)b * BLOCK_POINTS + (size_t)(point + point_at(corner & 1, corner >> 1 & 1, corner >> 2));
+    uint32_t vertex = blocks_at(mesh->blocks, b)->first_vertex + mesh->start[i];
+    for (int a = 0; a < case_axis(edge); a++) vertex += cut_edges(mesh->inside[i]) >> a & 1;
+    return vertex;
+}
+
 static void put_index(const IndicesJob *job, size_t place, uint32_t index)
 {
     const uint16_t narrow = (uint16_t)index;
@@ -256,8 +266,11 @@ static void write_indices(void *context, int32_t begin, int32_t end)
         if (!block->triangles) continue;
         for (int i = 0; i < BLOCK_POINTS; i++) {
             const int point[3] = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)};
-            for (int e = 0; e < 3 * mesh->cases->triangles[inside[i]]; e++)
-                put_index(job, place++, vertex_on(mesh, b, point, mesh->cases->edge[inside[i]][e]));
+            const bool within = point[0] < BLOCK_AXIS - 1 && point[1] < BLOCK_AXIS - 1 && point[2] < BLOCK_AXIS - 1;
+            for (int e = 0; e < 3 * mesh->cases->triangles[inside[i]]; e++) {
+                const int edge = mesh->cases->edge[inside[i]][e];
+                put_index(job, place++, within ? vertex_within(mesh, b, i, edge) : vertex_on(mesh, b, point, edge));
+            }
         }
     }
 }
