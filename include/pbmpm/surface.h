@@ -14,7 +14,7 @@ extern "C" {
  * The surface is where the filling (query.h) is `level`. It is closed: at walls and obstacles it runs along the matter's own boundary. Each edge has two triangles,
  * each vertex one ring of them. Vertices are numbered block by block, as the particles lie in memory.
  *
- * Calls need memory of the world: about 3 KB per 64 cells with matter, with subdivision 2, and half of that again for velocities. They use the world's threads. Several threads may
+ * Calls take memory of the world: some 80 bytes per particle with subdivision 2, 16 with 1, and a third more for velocities. They use the world's threads. Several threads may
  * read the world meanwhile, but one at a time makes a surface. */
 
 /** What a surface is of, and how fine. Fill it with pbmpm_surface_def_init(), then change what differs. */
