@@ -17,6 +17,12 @@ static int32_t *slot_of(const SkinBlocks *blocks, const int32_t place[3])
 
 static int32_t block_at(const SkinBlocks *blocks, const int32_t place[3]) { return blocks->slots ? *slot_of(blocks, place) - 1 : GRID_NOWHERE; }
 
+static void fill_table(SkinBlocks *blocks)
+{
+    if (blocks->slots) memset(blocks->table.data, 0, (size_t)blocks->slots * sizeof(int32_t));
+    for (int32_t b = 0; b < blocks->count; b++) *slot_of(blocks, blocks_at(blocks, b)->place) = b + 1;
+}
+
 /* At least half of the slots stay free. */
 static bool grow_table(SkinBlocks *blocks, Memory *memory)
 {
@@ -24,8 +30,7 @@ static bool grow_table(SkinBlocks *blocks, Memory *memory)
     const int32_t slots = blocks->slots ? 2 * blocks->slots : SLOTS_LEAST;
     if (!array_reserve(memory, &blocks->table, (size_t)slots, sizeof(int32_t))) return false;
     blocks->slots = slots;
-    memset(blocks->table.data, 0, (size_t)slots * sizeof(int32_t));
-    for (int32_t b = 0; b < blocks->count; b++) *slot_of(blocks, blocks_at(blocks, b)->place) = b + 1;
+    fill_table(blocks);
     return true;
 }
 
@@ -80,12 +85,46 @@ static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matt
         while (row < p->count && matter_has(matter, row) && bound_row(blocks, block, p, row)) row++;
         run.end = row;
         block->runs++;
+        block->volume += (float)(run.end - run.begin) * matter_volume(matter, run.begin);
         const size_t count = (size_t)blocks->runs++;
         if (!array_grow(memory, &blocks->found_run, count + 1, sizeof run, count * sizeof run)) return false;
         ((BlockRun *)blocks->found_run.data)[count] = run;
     }
-    blocks->with_rows = blocks->count;
     return true;
+}
+
+/* What it takes for more than spray [cells]: drops of fewer particles are better drawn as points. */
+static const float SPRAY_MOST = 1.0f;
+
+static bool is_spray(const SkinBlocks *blocks, const SkinBlock *block)
+{
+    float volume = 0.0f;
+    for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
+        int32_t place[3];
+        grid_neighbour_offset(n, 3, place);
+        for (int a = 0; a < 3; a++) place[a] += block->place[a];
+        const int32_t other = block_at(blocks, place);
+        if (other != GRID_NOWHERE) volume += blocks_at(blocks, other)->volume;
+    }
+    return volume < SPRAY_MOST;
+}
+
+/* Leaves out the blocks of spray, and their runs. */
+static void drop_spray(SkinBlocks *blocks)
+{
+    BlockRun *run = blocks->found_run.data;
+    int32_t blocks_kept = 0, runs_kept = 0;
+    for (int32_t b = 0; b < blocks->count; b++) blocks_at(blocks, b)->wanted = !is_spray(blocks, blocks_at(blocks, b));
+    for (int32_t b = 0; b < blocks->count; b++) blocks_at(blocks, b)->kept_as = blocks_at(blocks, b)->wanted ? blocks_kept++ : GRID_NOWHERE;
+    for (int32_t r = 0; r < blocks->runs; r++) {
+        const int32_t block = blocks_at(blocks, run[r].block)->kept_as;
+        if (block != GRID_NOWHERE) run[runs_kept++] = (BlockRun){block, run[r].begin, run[r].end};
+    }
+    for (int32_t b = 0; b < blocks->count; b++)
+        if (blocks_at(blocks, b)->wanted) *blocks_at(blocks, blocks_at(blocks, b)->kept_as) = *blocks_at(blocks, b);
+    blocks->count = blocks->with_rows = blocks_kept;
+    blocks->runs = runs_kept;
+    fill_table(blocks);
 }
 
 /* Block by block, each in the order of rows. */
@@ -121,11 +160,12 @@ static const Reach changed[3] = {{0, 0}, {2, 2}, {5, 6}};
 /* Whether that of cells of a block leads into the neighbour at `way`. */
 static bool leads_to(const SkinBlocks *blocks, const CellBox *cells, Reach reach, const int32_t way[3])
 {
+    if (!cells_any(cells)) return false;
     for (int a = 0; a < 3; a++) {
         if (way[a] < 0 && cells->low[a] * blocks->subdivision >= reach.below) return false;
         if (way[a] > 0 && cells->high[a] * blocks->subdivision + reach.above < BLOCK_AXIS) return false;
     }
-    return cells_any(cells);
+    return true;
 }
 
 static bool find_touched(SkinBlocks *blocks, Memory *memory)
@@ -145,7 +185,9 @@ bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
 {
     blocks->count = blocks->with_rows = blocks->runs = blocks->slots = 0;
     grid_drop_anchor(matter->particles, blocks->anchor);
-    return find_runs(blocks, memory, matter) && sort_runs(blocks, memory) && find_touched(blocks, memory);
+    if (!find_runs(blocks, memory, matter)) return false;
+    drop_spray(blocks);
+    return sort_runs(blocks, memory) && find_touched(blocks, memory);
 }
 
 static void link_blocks(void *context, int32_t begin, int32_t end)

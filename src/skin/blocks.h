@@ -37,8 +37,10 @@ typedef struct SkinBlock {
     CellBox cells;                       /* with particles */
     CellBox splatted;                    /* those whose particles its box is of */
     uint32_t first_run, runs;
+    float volume;                        /* of its particles [cells] */
     CellBox reached;                     /* its points that boxes which are splatted change */
     bool wanted;                         /* the field is to be worked out here */
+    int32_t kept_as;                     /* its number once spray is left out */
     float least, most;       /* of the field */
     uint32_t first_vertex, vertices, first_triangle, triangles;
 } SkinBlock;
@@ -80,7 +82,8 @@ static inline void blocks_locate(const SkinBlocks *blocks, const SkinBlock *bloc
     for (int a = 0; a < 3; a++) local[a] = (float)blocks->subdivision * ((float)cell[a] + p->fraction[a][row]);
 }
 
-/* Finds the blocks of the rows that count, in their order. False: no memory. */
+/* Finds the blocks of the rows that count, in their order, but for those of spray: where a block and those beside it have less than a cell of matter. Thus what is scattered
+ * far and wide takes no memory. False: no memory. */
 bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter);
 /* Then, who is beside whom. */
 void blocks_link(SkinBlocks *blocks, Pool *pool);

@@ -40,7 +40,7 @@ void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at
 /* Adds what keeps thin matter in sight, see field.c. */
 void field_thicken(const FieldWork *work, float level, float *values);
 
-/* Notes for each row of a block with particles whether F is below the level there; other rows stay as they are. */
+/* Notes for each row of a block whether F is below the level there; other rows stay as they are. */
 void field_find_outside(const FieldWork *work, float level, const float *values, uint8_t *outside);
 
 #endif

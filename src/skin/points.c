@@ -94,6 +94,7 @@ static pbmpm_result find_spray(World *world, Skin *skin, SkinKey *key, PointsJob
     const pbmpm_result result = state_make(world, skin, key);
     if (result != PBMPM_OK) return result;
     const FieldWork work = state_work(world, skin, &job->matter);
+    memset(skin->outside.data, 1, world->particles.count); /* blocks of spray are left out of the field */
     field_find_outside(&work, SPRAY_BELOW, skin->field.data, skin->outside.data);
     job->outside = skin->outside.data;
     return PBMPM_OK;

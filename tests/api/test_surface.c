@@ -327,6 +327,28 @@ static void test_velocities_and_weights(void)
     check_closed(&made[1]);
 }
 
+/* Spray that is scattered far and wide takes next to no memory. */
+static void test_scattered_spray(void)
+{
+    enum { COUNT = 2000 };
+    static float positions[3 * COUNT];
+    static pbmpm_point points[COUNT];
+    uint32_t random = 7;
+    const pbmpm_world_id world = space(0.1f, COUNT, 1);
+    pbmpm_particles_def particles;
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    particles.material = create_material(world, PBMPM_LIQUID);
+    particles.count = COUNT;
+    particles.positions = positions;
+    for (int i = 0; i < 3 * COUNT; i++) positions[i] = random_float(&random, -100.0f, 100.0f);
+    OK(pbmpm_particles_add(world, &particles, NULL));
+    const uint64_t before = world_stats(world).memory_bytes;
+    TEST_ASSERT_EQUAL_UINT32(COUNT, spray_of(world, points, COUNT));
+    TEST_ASSERT_TRUE(world_stats(world).memory_bytes < before + 1024 * COUNT);
+    const pbmpm_surface_def def = definition();
+    TEST_ASSERT_EQUAL_UINT32(0, extract(0, world, &def)->triangles);
+}
+
 /* An elastic body that is stretched to twice its volume has that volume. */
 static void test_solids_have_their_present_volume(void)
 {
@@ -605,6 +627,7 @@ int main(void)
     RUN_TEST(test_thin_matter);
     RUN_TEST(test_spray);
     RUN_TEST(test_velocities_and_weights);
+    RUN_TEST(test_scattered_spray);
     RUN_TEST(test_solids_have_their_present_volume);
     RUN_TEST(test_threads_make_the_same);
     RUN_TEST(test_too_little_room);

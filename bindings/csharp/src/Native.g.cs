@@ -2629,7 +2629,8 @@ namespace Pbmpm.Native
         /// <summary>Makes the surface. `def` may be null: the defaults. With all pointers null it only counts. A host whose buffers were too small enlarges them and calls again:
         /// what the first call worked out is kept until the particles change.
         ///
-        /// Particles that are alone, as spray is, are no part of it. pbmpm_surface_points() with spray_only has them.
+        /// Spray is no part of it: particles that are alone, and drops of less than a cell with nothing else within some 4 cells. pbmpm_surface_points() with
+        /// spray_only has them.
         /// Errors: INVALID_ID (also: a material); INVALID_ARGUMENT (null, a value out of range, weights without materials); CAPACITY: the buffers are too small, or there are more
         /// vertices than indices of 2 bytes can tell apart. Then only the counts are written. UNSUPPORTED (size; the world is in 2D); OUT_OF_MEMORY; BUSY (also: another thread
         /// makes a surface of this world, or a step runs in the background); FORKED.</summary>

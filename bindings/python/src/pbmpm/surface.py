@@ -65,7 +65,7 @@ class WorldSurface(WorldPart):
     ) -> Mesh:
         """The surface of matter, in 3D: where the filling is `level`.
 
-        Particles that are alone, as spray is, are no part of it; `surface_points(spray_only=True)` has them.
+        Spray is no part of it: particles that are alone, and drops of less than a cell. `surface_points(spray_only=True)` has them.
 
         Args:
             materials: of which it is; none: all.
