@@ -32,14 +32,17 @@ static void splat(float *box, const float local[3], float amount)
         w[a] = spline(local[a] + (float)(BOX_MARGIN - 1) - (float)first[a]);
     }
     float *corner = &box[(first[2] * BOX_AXIS + first[1]) * BOX_AXIS + first[0]];
-    for (int k = 0; k < 3; k++)
+    const Four beside[3] = {w[0] * w[1][0], w[0] * w[1][1], w[0] * w[1][2]};
+    for (int k = 0; k < 3; k++) {
+        const float share = amount * w[2][k];
         for (int j = 0; j < 3; j++) {
             float *row = &corner[(k * BOX_AXIS + j) * BOX_AXIS];
             Four sum;
             memcpy(&sum, row, sizeof sum);
-            sum += amount * w[2][k] * w[1][j] * w[0];
+            sum += share * beside[j];
             memcpy(row, &sum, sizeof sum);
         }
+    }
 }
 
 typedef struct SplatJob {
