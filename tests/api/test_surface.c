@@ -1,5 +1,6 @@
 /* Surfaces: closed, where matter ends, the same however they are asked for; and points. */
 #include <math.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -558,6 +559,53 @@ static void test_no_memory(void)
     }
 }
 
+/* Several threads ask for surfaces, and read otherwise: one at a time makes a surface, the others are told so; whoever gets one gets the right one. */
+typedef struct asker {
+    pbmpm_world_id world;
+    uint32_t subdivision, made, busy, wrong;
+} asker;
+
+static void *ask(void *user)
+{
+    asker *self = user;
+    pbmpm_surface_def def;
+    uint32_t right = 0;
+    if (pbmpm_surface_def_init(&def, sizeof def) != PBMPM_OK) return NULL;
+    def.subdivision = self->subdivision;
+    for (int i = 0; i < 30; i++) {
+        pbmpm_surface_mesh out = {.size = sizeof out};
+        float filling;
+        const pbmpm_result result = pbmpm_surface_extract(self->world, &def, &out);
+        self->wrong += pbmpm_query_points(self->world, BALL, 1, &filling, NULL, NULL) != PBMPM_OK;
+        self->made += result == PBMPM_OK;
+        self->busy += result == PBMPM_ERROR_BUSY;
+        if (result != PBMPM_OK) continue;
+        self->wrong += right && right != out.vertex_count;
+        right = out.vertex_count;
+    }
+    return NULL;
+}
+
+static void test_threads_take_turns(void)
+{
+    asker askers[3];
+    pthread_t threads[3];
+    const pbmpm_world_id world = drop(2);
+    for (uint32_t i = 0; i < 3; i++) {
+        askers[i] = (asker){.world = world, .subdivision = 1 + i % 2};
+        TEST_ASSERT_EQUAL_INT(0, pthread_create(&threads[i], NULL, ask, &askers[i]));
+    }
+    uint32_t made_in_all = 0;
+    for (int i = 0; i < 3; i++) {
+        pthread_join(threads[i], NULL);
+        TEST_ASSERT_EQUAL_UINT32(0, askers[i].wrong);
+        TEST_ASSERT_EQUAL_UINT32(30, askers[i].made + askers[i].busy);
+        made_in_all += askers[i].made;
+    }
+    TEST_ASSERT_TRUE(made_in_all > 0);
+    OK(pbmpm_world_step(world, 1.0f / 60));
+}
+
 /* ---- Points ---- */
 
 static void test_points(void)
@@ -630,6 +678,7 @@ int main(void)
     RUN_TEST(test_scattered_spray);
     RUN_TEST(test_solids_have_their_present_volume);
     RUN_TEST(test_threads_make_the_same);
+    RUN_TEST(test_threads_take_turns);
     RUN_TEST(test_too_little_room);
     RUN_TEST(test_records_and_narrow_indices);
     RUN_TEST(test_too_many_for_narrow_indices);
