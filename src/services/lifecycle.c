@@ -11,6 +11,7 @@
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/primal/primal.h"
+#include "skin/skin.h"
 
 pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 {
@@ -59,6 +60,7 @@ void world_destroy(World *world)
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
     particle_tree_free(&world->particle_tree, &world->memory);
+    skin_free(world);
     array_free(&world->memory, &world->submersion);
     colliders_free(&world->colliders, &world->memory);
     baked_free(&world->baked, &world->memory);

@@ -121,6 +121,8 @@ typedef struct GuessState {
 
 /* A step on a thread of its own; see background.c. */
 typedef struct Background Background;
+/* What was worked out for surfaces; see skin/state.h. */
+typedef struct Skin Skin;
 /* Pairs of steps that the primal solver remembers. */
 enum { PRIMAL_MEMORY = 5 };
 
@@ -190,6 +192,7 @@ typedef struct World {
     pthread_mutex_t making; /* see readers.h */
     ParticleTree particle_tree; /* of queries; empty until the first */
     Array submersion;       /* see submerged.c; empty until it is first asked for */
+    Skin *skin;             /* null until a surface is asked for, see src/skin */
     Background *background; /* null until a step is begun in the background */
 
     Events events;

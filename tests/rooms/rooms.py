@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 #: From top to bottom. Folders in a room belong to it.
-ROOMS = ("api", "services", "snapshot", "step", "solvers", "world", "contact", "grid", "matter", "shape", "base")
+ROOMS = ("api", "services", "skin", "snapshot", "step", "solvers", "world", "contact", "grid", "matter", "shape", "base")
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 #: Of other folders than src: the public headers, and what C and the kernels share.
 _FOREIGN = re.compile(r"pbmpm/\w+\.h|kernel_types\.h")
