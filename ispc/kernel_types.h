@@ -20,7 +20,7 @@ typedef int32 int32_t;
 
 #define K_BLOCK_AXIS 4  /* cells (and nodes) per block and axis */
 #define K_TILE_AXIS 6   /* a block's nodes and one more on either side: all that its particles touch */
-#define K_ENERGIES 5    /* floats per particle block, see KernelArgs.block_energy */
+#define K_ENERGIES 5    /* floats per particle block, see KernelPrimal.block_energy */
 #define K_NODE_WIDTH 4  /* floats per node: displacement (x, y, z), then mass */
 #define K_MAX_GANG 16   /* particle arrays are padded by this many elements: no mass, at rest volume */
 #define K_DRIFT_WIDTH 5 /* floats per block that sleeps: mass, mass times displacement (x, y, z), largest square of a displacement */
@@ -94,12 +94,12 @@ struct KernelMaterial {
 };
 #endif
 
-#ifndef __ISPC_STRUCT_KernelArgs__
-#define __ISPC_STRUCT_KernelArgs__
-struct KernelArgs {
-    /* Particles, sorted by block, cell and material; structure of arrays. */
+#ifndef __ISPC_STRUCT_KernelParticles__
+#define __ISPC_STRUCT_KernelParticles__
+/* Particles, sorted by block, cell and material; structure of arrays. */
+struct KernelParticles {
     K_PTR(float) fraction[3]; /* position relative to the nearest node, in [-1/2, 1/2) */
-    K_PTR(int32_t) cell[3];   /* that node */
+    K_PTR(int32_t) cell[3]; /* that node */
     K_PTR(float) velocity[3];
     K_PTR(float) affine[9]; /* row-major, stride 3 in 2D too */
     K_PTR(float) volume_ratio;
@@ -111,82 +111,114 @@ struct KernelArgs {
     K_PTR(float) past_way[3];
     K_PTR(float) past_turn[9];
     K_PTR(float) past_dt;
-    K_PTR(int32_t) status;       /* K_ALIVE, or why the particle has to go */
+    K_PTR(int32_t) status; /* K_ALIVE, or why the particle has to go */
+};
+#endif
 
-    /* Runs and blocks. */
+#ifndef __ISPC_STRUCT_KernelGrid__
+#define __ISPC_STRUCT_KernelGrid__
+/* Runs, blocks and nodes. */
+struct KernelGrid {
     K_CONST_PTR(uint32_t) run_begin; /* first particle of each run, and the end */
-    K_CONST_PTR(uint32_t) run_key;   /* cell in the block | material << K_RUN_CELL_BITS */
+    K_CONST_PTR(uint32_t) run_key; /* cell in the block | material << K_RUN_CELL_BITS */
     K_CONST_PTR(uint32_t) block_run; /* first run of each particle block, and the end */
-    K_CONST_PTR(int32_t) neighbour;  /* 3^d indices per node block, x fastest; -1: not there */
-    int32_t particle_blocks;         /* blocks [0, particle_blocks) have particles; the rest are only touched */
-
-    /* Grid. */
-    K_PTR(float) tile;        /* per particle block: what its particles add to the nodes they touch */
+    K_CONST_PTR(int32_t) neighbour; /* 3^d indices per node block, x fastest; -1: not there */
+    K_PTR(float) tile; /* per particle block: what its particles add to the nodes they touch */
     K_PTR(float) tile_volume; /* the same for rest volume, one float per node; null when no material asks for it */
-    K_PTR(float) node;        /* per node block: displacement and mass */
-    K_PTR(float) node_base;   /* per node block: displacement of the predictor, unconstrained, and mass; not the paper's solver */
+    K_PTR(float) node; /* per node block: displacement and mass */
+    K_PTR(float) node_base; /* per node block: displacement of the predictor, unconstrained, and mass; not the paper's solver */
     K_PTR(float) node_before; /* the same without forces: what particles brought, and gravity */
     K_PTR(float) node_volume; /* per node block: rest volume per cell volume */
     K_PTR(float) node_density; /* per node block: mass over rest volume of all matter there; null unless liquids differ in density */
-    K_PTR(float) node_reach;  /* out, per node block: largest displacement of the predictor */
+    K_PTR(float) node_reach; /* out, per node block: largest displacement of the predictor */
     K_CONST_PTR(uint32_t) edged; /* per node block: 1 if its particles feel nodes near an obstacle that may have edges; null without rest volumes */
-    K_PTR(uint32_t) clamped;  /* out, per particle block: particles slowed to max_displacement */
-    K_PTR(uint32_t) moved;    /* out, per particle block: particles that left their cell */
-    K_PTR(uint32_t) lost;     /* out, per particle block: particles whose status is not K_ALIVE */
+    K_PTR(uint32_t) clamped; /* out, per particle block: particles slowed to max_displacement */
+    K_PTR(uint32_t) moved; /* out, per particle block: particles that left their cell */
+    K_PTR(uint32_t) lost; /* out, per particle block: particles whose status is not K_ALIVE */
+    K_PTR(float) travel; /* out, per particle block: largest displacement of a particle */
+    K_PTR(float) drift; /* out, per particle block that sleeps: K_DRIFT_WIDTH floats, see drift_blocks(); null without sleeping */
+    int32_t particle_blocks; /* blocks [0, particle_blocks) have particles; the rest are only touched */
+};
+#endif
 
-    K_PTR(float) travel;      /* out, per particle block: largest displacement of a particle */
-    K_PTR(float) drift;       /* out, per particle block that sleeps: K_DRIFT_WIDTH floats, see drift_blocks(); null without sleeping */
-
-    /* The dual solver; null for the others. */
-    K_PTR(float) pressure;      /* liquid: the multiplier; between substeps the pressure [Pa] */
-    K_PTR(float) pressure_old;  /* liquid: the multiplier one iteration before */
-    K_PTR(float) stress[6];     /* elastic: the multiplier, upper triangle row by row */
+#ifndef __ISPC_STRUCT_KernelDual__
+#define __ISPC_STRUCT_KernelDual__
+/* Of the dual solver. Null for the others. */
+struct KernelDual {
+    K_PTR(float) pressure; /* liquid: the multiplier; between substeps the pressure [Pa] */
+    K_PTR(float) pressure_old; /* liquid: the multiplier one iteration before */
+    K_PTR(float) stress[6]; /* elastic: the multiplier, upper triangle row by row */
     K_PTR(float) stress_old[6];
-    K_PTR(float) node_push;     /* per node block: sum m w S (x_i - x_p) of the last iteration */
-    K_PTR(float) change2;       /* out, per particle block: how much the multipliers changed, see dual.isph */
-    K_PTR(float) uphill;        /* out, per particle block: positive where the extrapolation overshot */
-    K_PTR(float) node_force;    /* per node block: the primal and the explicit solver, sum m w T (x_i - x_p); after the first pass also
-                                   sum m w h as fourth value */
-    K_PTR(float) block_share;   /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
-    K_CONST_PTR(float) affine_kept; /* per particle block, null: 1; the share of their affine velocities that liquids keep, see
-                                      src/solvers/eddy_damping.h */
-    K_PTR(float) block_energy;  /* out, K_ENERGIES per particle block: m/4 phi of elastic matter, of liquids, of both at D = 0, and m/4 of -A : D */
-    K_PTR(float) couple[3];     /* per particle of a solid: the entries 10, 20 and 21 of A, see balance_couple(); null without solids among liquid */
-    K_CONST_PTR(uint32_t) among_liquid; /* per particle block: whether its body has liquid; null without solids among liquid */
-    K_PTR(float) fed;           /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
-    int32_t may_feed;           /* whether it may give any */
-    K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
-    K_PTR(float) sketch[9];     /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */
-    float held_stiffness;       /* k of liquids in the joint solver; 0: they store energy */
-    K_CONST_PTR(float) node_gap; /* per node block: what nodes that a solid reaches are short of being full; null without the joint solver */
-    K_PTR(float) cell_mass;     /* per node block, for the cell above each node: sum h l m, see cells.isph; null unless pressures stand in cells */
-    K_PTR(float) cell_growth;   /* what the mean of tr D is to become */
-    K_PTR(float) cell_strain;   /* share of it that solids ask for; null unless they take part in the guess */
-    float settle;               /* share of what sand is compressed by beyond its pressure that a substep gives back */
-    int32_t elastic_guesses;    /* whether those are elastic bodies too, or sand alone */
-    K_PTR(float) cell_softness; /* mean of 1 / (L J^2) */
-    K_PTR(float) cell_pressure;
-    K_PTR(float) cell_pressure_old;
-    K_PTR(float) cell_trace;    /* out: mean of tr D */
-    K_PTR(float) cell_change2;  /* out, per node block: as change2 and uphill, of the cells */
-    K_PTR(float) cell_uphill;
-    int32_t probing;            /* pressures of cells only: elastic particles are left alone, and liquids do not remember */
-    float cell_relaxation;      /* w of the cells: the smallest of the liquids */
+    K_PTR(float) node_push; /* per node block: sum m w S (x_i - x_p) of the last iteration */
+    K_PTR(float) change2; /* out, per particle block: how much the multipliers changed, see dual.isph */
+    K_PTR(float) uphill; /* out, per particle block: positive where the extrapolation overshot */
+    K_CONST_PTR(float) affine_kept; /* per particle block, null: 1; the share of their affine velocities that liquids keep, see src/solvers/eddy_damping.h */
     float stage_last, stage_before, stage_change; /* viscosity: coefficients of a stage */
-    float momentum;             /* beta of the extrapolation */
-    float fine_carried;         /* share that is kept of what a pressure has beside the mean of its cells */
-    float grains_carried;       /* the same for sand */
-    float crushed_carried;      /* share that is kept of a liquid's carried pressure where growth_max cuts its growth short */
-    float growth_max;           /* largest growth per substep that a crushed liquid is asked for */
+    float momentum; /* beta of the extrapolation */
+    float fine_carried; /* share that is kept of what a pressure has beside the mean of its cells */
+    float grains_carried; /* the same for sand */
+    float grains_free; /* 1 where sand begins to fall and bears nothing; else 0 */
+    float crushed_carried; /* share that is kept of a liquid's carried pressure where growth_max cuts its growth short */
+    float growth_max; /* largest growth per substep that a crushed liquid is asked for */
+};
+#endif
+
+#ifndef __ISPC_STRUCT_KernelPrimal__
+#define __ISPC_STRUCT_KernelPrimal__
+/* Of the primal, the joint and the explicit solver. Null for the others. */
+struct KernelPrimal {
+    K_PTR(float) node_force; /* per node block: sum m w T (x_i - x_p); after the first pass also sum m w h as fourth value */
+    K_PTR(float) block_share; /* per node block, null without BDF2: share of forces, 1 or 4/9; afterwards 0: to finish without a past */
+    K_PTR(float) block_energy; /* out, K_ENERGIES per particle block: m/4 phi of elastic matter, of liquids, of both at D = 0, and m/4 of -A : D */
+    K_PTR(float) couple[3]; /* per particle of a solid: the entries 10, 20 and 21 of A, see balance_couple(); null without solids among liquid */
+    K_CONST_PTR(uint32_t) among_liquid; /* per particle block: whether its body has liquid; null without solids among liquid */
+    K_PTR(float) fed; /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
+    K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
+    K_PTR(float) sketch[9]; /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */
+    K_CONST_PTR(float) node_gap; /* per node block: what nodes that a solid reaches are short of being full; null without the joint solver */
+    int32_t may_feed; /* whether volume feedback may give any */
+    float held_stiffness; /* k of liquids in the joint solver; 0: they store energy */
+};
+#endif
+
+#ifndef __ISPC_STRUCT_KernelCells__
+#define __ISPC_STRUCT_KernelCells__
+/* Pressures that stand in cells: per node block, for the cell above each node, see cells.isph. Null unless they do. */
+struct KernelCells {
+    K_PTR(float) mass; /* sum h l m */
+    K_PTR(float) growth; /* what the mean of tr D is to become */
+    K_PTR(float) strain; /* share of it that solids ask for; null unless they take part in the guess */
+    K_PTR(float) softness; /* mean of 1 / (L J^2) */
+    K_PTR(float) pressure;
+    K_PTR(float) pressure_old;
+    K_PTR(float) trace; /* out: mean of tr D */
+    K_PTR(float) change2; /* out, per node block: this and `uphill` as those of KernelDual, of the cells */
+    K_PTR(float) uphill;
+    float settle; /* share of what sand is compressed by beyond its pressure that a substep gives back */
+    int32_t elastic_guesses; /* whether `strain` is of elastic bodies too, or of sand alone */
+    int32_t probing; /* pressures of cells only: elastic particles are left alone, and liquids do not remember */
+    float relaxation; /* w of the cells: the smallest of the liquids */
+};
+#endif
+
+#ifndef __ISPC_STRUCT_KernelArgs__
+#define __ISPC_STRUCT_KernelArgs__
+/* By who owns what; the rest is of the substep. */
+struct KernelArgs {
+    struct KernelParticles particles;
+    struct KernelGrid grid;
+    struct KernelDual dual;
+    struct KernelPrimal primal;
+    struct KernelCells cells;
 
     K_CONST_PTR(struct KernelMaterial) material;
-    int32_t iterations;     /* the paper's solver; 0 with the others; see flight.isph */
-    float flip;             /* share of motion below the grid's resolution that liquids keep */
-    float feedback_way;     /* [cells] per substep from which on the volume feedback of liquids without tension is full; 0: always full */
-    float quiet_way;        /* the same for liquids that store energy, where it fades faster; 0: see feedback_way */
-    float dt;               /* [s] */
-    float cells_per_metre;  /* 1/dx */
-    float gravity[3];       /* g dt^2 / dx: added to the predictor */
+    int32_t iterations; /* the paper's solver; 0 with the others; see flight.isph */
+    float flip; /* share of motion below the grid's resolution that liquids keep */
+    float feedback_way; /* [cells] per substep from which on the volume feedback of liquids without tension is full; 0: always full */
+    float quiet_way; /* the same for liquids that store energy, where it fades faster; 0: see feedback_way */
+    float dt; /* [s] */
+    float cells_per_metre; /* 1/dx */
+    float gravity[3]; /* g dt^2 / dx: added to the predictor */
     float max_displacement; /* [cells] */
     int32_t max_cell;
     uint32_t salt; /* changes from substep to substep */

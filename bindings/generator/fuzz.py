@@ -64,8 +64,8 @@ def _change(name: str, type_: Type) -> str:
         return "it->size = odd_size(in, sizeof *it);"
     if type_.pointers:
         if type_.kind is Kind.STRUCT:
-            own = f"static {type_.name} {name}; make_{type_.name}(in, &{name});"
-            return f"{{ {own} it->{name} = bytes_u8(in) % 2 ? &{name} : NULL; }}"
+            own = f"static {type_.name} {name}[ARRAY]; for (int i = 0; i < ARRAY; i++) make_{type_.name}(in, &{name}[i]);"
+            return f"{{ {own} it->{name} = bytes_u8(in) % 2 ? {name} : NULL; }}"
         return f"it->{name} = {_array(type_)};"
     if type_.length is not None:
         amounts = "count" in name

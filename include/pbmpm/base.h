@@ -30,6 +30,7 @@ extern "C" {
  *   those whose name has query, get, count, find, view, copy, impulse or is_valid;
  *   pbmpm_world_generation(), pbmpm_world_hash(), pbmpm_world_events(), pbmpm_world_step_done();
  *   pbmpm_world_debug_lines(), pbmpm_shape_mass(), pbmpm_rigid_begin();
+ *   pbmpm_surface_extract() and pbmpm_surface_points(), one of them at a time;
  *   pbmpm_snapshot_size() and pbmpm_snapshot_save().
  * All others need the world for themselves; so do pbmpm_material_effective() and pbmpm_world_advice(), which try things out in it.
  * They are BUSY while a thread is inside any call on the world. Any call is BUSY while a thread is inside one of them.

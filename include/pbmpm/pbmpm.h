@@ -27,6 +27,7 @@
 #include "solid.h"
 #include "snapshot.h"
 #include "stats.h"
+#include "surface.h"
 #include "version.h"
 #include "world.h"
 

@@ -69,7 +69,7 @@ template <class Container> auto as_bytes(const Container &container) noexcept
 struct failure {
     pbmpm_result code;
     const char *message;      /**< valid until the next call that fails on this thread; never null */
-    std::uint64_t needed = 0; /**< with CAPACITY: particles of a fill or a copy, bytes of a snapshot or a baked solid; else 0 */
+    std::uint64_t needed = 0; /**< with CAPACITY: particles of a fill or a copy, points, bytes of a snapshot or a baked solid; else 0 */
 
     const char *name() const noexcept { return pbmpm_result_name(code); }
     /** For programs that cannot go on: it goes to standard error, and abort() ends the program. */
@@ -205,6 +205,8 @@ inline pbmpm_result fill_in(pbmpm_heights_def &it) noexcept { return pbmpm_heigh
 inline pbmpm_result fill_in(pbmpm_particles_def &it) noexcept { return pbmpm_particles_def_init(&it, sizeof it); }
 inline pbmpm_result fill_in(pbmpm_fill_def &it) noexcept { return pbmpm_fill_def_init(&it, sizeof it); }
 inline pbmpm_result fill_in(pbmpm_copy_def &it) noexcept { return pbmpm_copy_def_init(&it, sizeof it); }
+inline pbmpm_result fill_in(pbmpm_surface_def &it) noexcept { return pbmpm_surface_def_init(&it, sizeof it); }
+inline pbmpm_result fill_in(pbmpm_points_def &it) noexcept { return pbmpm_points_def_init(&it, sizeof it); }
 inline pbmpm_result fill_in(pbmpm_collider_def &it) noexcept { return pbmpm_collider_def_init(&it, sizeof it); }
 inline pbmpm_result fill_in(pbmpm_emitter_def &it) noexcept { return pbmpm_emitter_def_init(&it, sizeof it); }
 inline pbmpm_result fill_in(pbmpm_drain_def &it) noexcept { return pbmpm_drain_def_init(&it, sizeof it); }
@@ -237,6 +239,8 @@ using heights_def = detail::filled_in<pbmpm_heights_def>;
 using particles_def = detail::filled_in<pbmpm_particles_def>;
 using fill_def = detail::filled_in<pbmpm_fill_def>;
 using copy_def = detail::filled_in<pbmpm_copy_def>;
+using surface_def = detail::filled_in<pbmpm_surface_def>;
+using points_def = detail::filled_in<pbmpm_points_def>;
 using collider_def = detail::filled_in<pbmpm_collider_def>;
 using emitter_def = detail::filled_in<pbmpm_emitter_def>;
 using drain_def = detail::filled_in<pbmpm_drain_def>;
@@ -717,6 +721,20 @@ public:
     {
         auto hit = detail::sized<pbmpm_ray_hit>();
         return detail::got(pbmpm_query_ray(id_, &way, &hit), hit);
+    }
+
+    /* Surfaces (surface.h). */
+    /** Writes to where the pointers of `mesh` lead, and its counts, which a failure with CAPACITY writes too. With null pointers it only counts. */
+    expected<void> surface_extract(const pbmpm_surface_def &def, pbmpm_surface_mesh &mesh) const noexcept
+    {
+        mesh.size = sizeof mesh;
+        return detail::done(pbmpm_surface_extract(id_, &def, &mesh));
+    }
+    /** How many points were written. */
+    expected<std::uint32_t> surface_points(const pbmpm_points_def &def, span<pbmpm_point> points) const noexcept
+    {
+        std::uint32_t count = 0;
+        return detail::got_or_needed(pbmpm_surface_points(id_, &def, points.data(), detail::room(points), &count), count);
     }
 
     /* Sleeping (sleep.h) and saves (snapshot.h). */

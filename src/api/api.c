@@ -11,16 +11,18 @@
 #include "base/generations.h"
 #include "base/numbers.h"
 #include "services/background.h"
+#include "services/collider_touches.h"
 #include "services/copy.h"
-#include "services/edit.h"
-#include "services/effective.h"
-#include "services/inspect.h"
+#include "services/edit_particles.h"
+#include "services/effective_moduli.h"
 #include "services/lifecycle.h"
 #include "services/origin.h"
 #include "services/query.h"
 #include "services/readers.h"
 #include "services/registry.h"
-#include "services/touches.h"
+#include "services/state_hash.h"
+#include "services/stats.h"
+#include "services/views.h"
 #include "step/step.h"
 #include "world/colliders.h"
 #include "world/keyed.h"
@@ -225,7 +227,7 @@ pbmpm_result pbmpm_world_hash(pbmpm_world_id world, uint64_t *hash)
 {
     REQUIRE(hash);
     HOLD_READING(world);
-    *hash = inspect_hash(w);
+    *hash = state_hash(w);
     LET_GO(PBMPM_OK);
 }
 
@@ -271,8 +273,8 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
     if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
-    const StepContext step = world_context(w, (double)dt / w->settings.substeps);
-    const pbmpm_effective found = effective_modulus(w, material.index, &step);
+    const Substep substep = world_substep(w, (double)dt / w->settings.substeps);
+    const pbmpm_effective found = effective_modulus(w, material.index, &substep);
     WRITE(pbmpm_effective, effective, &found);
     LET_GO(PBMPM_OK);
 }
@@ -426,7 +428,7 @@ pbmpm_result pbmpm_world_touches(pbmpm_world_id world, pbmpm_touch *touches, uin
     REQUIRE(count);
     if (capacity) REQUIRE_SIZE(pbmpm_touch, touches);
     HOLD(world);
-    LET_GO(touches_find(w, touches, capacity, count));
+    LET_GO(collider_touches_find(w, touches, capacity, count));
 }
 
 pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collider, pbmpm_particle_id *ids, uint32_t capacity, uint32_t *count)
@@ -506,7 +508,7 @@ pbmpm_result pbmpm_particles_view(pbmpm_world_id world, pbmpm_field field, pbmpm
     REQUIRE_SIZE(pbmpm_view, view);
     HOLD_READING_STEPPING(world);
     pbmpm_view own;
-    const pbmpm_result result = background_is_stepping(w) ? background_view(w, field, &own) : inspect_view(w, field, &own);
+    const pbmpm_result result = background_is_stepping(w) ? background_view(w, field, &own) : views_get(w, field, &own);
     if (result == PBMPM_OK) WRITE(pbmpm_view, view, &own);
     LET_GO(result);
 }
@@ -555,7 +557,7 @@ pbmpm_result pbmpm_world_get_stats(pbmpm_world_id world, pbmpm_stats *stats)
     REQUIRE_SIZE(pbmpm_stats, stats);
     HOLD_READING(world);
     pbmpm_stats own;
-    inspect_stats(w, &own);
+    stats_of_world(w, &own);
     WRITE(pbmpm_stats, stats, &own);
     LET_GO(PBMPM_OK);
 }
@@ -568,7 +570,7 @@ pbmpm_result pbmpm_world_get_step_stats(pbmpm_world_id world, pbmpm_stats *stats
     if (background_is_stepping(w))
         own = *background_step_stats(w);
     else
-        inspect_step_stats(w, &own);
+        stats_of_step(w, &own);
     WRITE(pbmpm_stats, stats, &own);
     LET_GO(PBMPM_OK);
 }

@@ -1,6 +1,6 @@
 /* The exported functions that tell what there is: whether something exists, lists, lines to draw. */
 #include "api/api_call.h"
-#include "services/lines.h"
+#include "services/debug_lines.h"
 #include "services/registry.h"
 #include "world/keyed.h"
 
@@ -74,6 +74,6 @@ pbmpm_result pbmpm_world_debug_lines(pbmpm_world_id world, uint32_t parts, pbmpm
     if (capacity) REQUIRE(lines);
     HOLD_READING(world);
     if (parts & ~(uint32_t)PBMPM_DEBUG_ALL) LET_GO(api_invalid("parts: a bit is not that of a pbmpm_debug_part"));
-    *count = lines_draw(w, parts, lines, capacity);
+    *count = debug_lines_draw(w, parts, lines, capacity);
     LET_GO(PBMPM_OK);
 }

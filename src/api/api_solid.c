@@ -97,7 +97,7 @@ pbmpm_result pbmpm_baked_destroy(pbmpm_world_id world, pbmpm_baked_id baked)
     if (!grid) LET_GO(no_solid());
     if (colliders_use(&w->colliders, grid)) LET_GO(fail(PBMPM_ERROR_IN_USE, "a collider still has this shape"));
     baked_remove(&w->baked, &w->memory, baked.index);
-    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_forget(&w->sight[kinds]); /* another may come to stand where it was in memory */
+    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_forget(&w->obstacle_cache[kinds]); /* another may come to stand where it was in memory */
     LET_GO(PBMPM_OK);
 }
 

@@ -120,7 +120,7 @@ void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end)
 
 double contacts_momentum_scale(const ContactFrame *frame)
 {
-    return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / frame->step->substep_dt;
+    return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / frame->substep->dt;
 }
 
 void contacts_book(const ContactFrame *frame)

@@ -2,7 +2,7 @@
 #ifndef PBMPM_SRC_CONTACT_CONTACTS_H
 #define PBMPM_SRC_CONTACT_CONTACTS_H
 
-#include "base/step_context.h"
+#include "base/substep.h"
 #include "contact/impulses.h"
 #include "contact/obstacles.h"
 #include "grid/grid.h"
@@ -14,9 +14,9 @@ typedef struct Contact {
     uint16_t obstacle; /* in this substep's list */
     pbmpm_friction friction;
     float coefficient;
-    bool active; /* while the primal solver works: see holds_find() */
+    bool active; /* while the primal solver works: see constraints_find_active() */
     uint8_t group; /* of the body's contacts with about this normal, and */
-    float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see holds_rub() */
+    float limit;   /* the most that friction gives [mass times displacement], both while the primal solver works: see constraints_friction() */
     bool stays; /* the node goes where `surface` says, see joint.h */
     bool walled; /* the node is listed in walls, which books what it is given */
     float gap; /* how far the node may approach; 0 inside */
@@ -52,7 +52,7 @@ typedef struct ContactFrame {
     Colliders *colliders;
     const Grid *grid;
     double cell_size;
-    const StepContext *step;
+    const Substep *substep;
     float max_displacement; /* cells */
     double fall; /* see gravity_fall() */
     const struct Walls *walls; /* nodes that follow others have no contacts, see walls.h; null: all have */
@@ -60,7 +60,7 @@ typedef struct ContactFrame {
     const uint64_t *solid;       /* per node block: bit n, a solid reaches node n, see reach.h; null: nobody looked */
     bool apart;                  /* walls leave those nodes to contacts: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
-    struct Sight *sight;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */
+    struct ObstacleCache *cache;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
     const uint32_t *groups;             /* Colliders.groups, likewise */

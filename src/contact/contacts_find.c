@@ -6,11 +6,11 @@
 #include "base/assertion.h"
 #include "base/result.h"
 #include "contact/field.h"
+#include "contact/obstacle_cache.h"
 #include "contact/reach.h"
-#include "contact/sight.h"
 #include "contact/walls.h"
 #include "contact/wet_side.h"
-#include "shape/concave.h"
+#include "shape/tangent_planes.h"
 
 /* Colliders, walls, and what holds nodes. */
 enum { OBSTACLES = PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1 };
@@ -78,7 +78,7 @@ static uint32_t contacts_in_hollow(const ContactFrame *frame, const Obstacle *o,
     Plane plane[PLANES_MAX];
     obstacle_motion(o, point, frame->cell_size, frame->max_displacement, surface);
     for (int a = 0; a < 3; a++) way[a] = (double)u[a] - (double)surface[a];
-    const int count = concave_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
+    const int count = tangent_planes(&o->start, frame->cell_size, point, nearest, way, WAY_MARGIN, plane);
     for (int i = 0; i < count && out; i++) out[i] = contact_at(frame, o, point, node, plane[i].gap, plane[i].normal);
     return (uint32_t)count;
 }
@@ -285,8 +285,8 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
 /* The distances of the last substep, if they hold; infinite at nodes that had no mass then. */
 static const float *gaps_before(const ContactFrame *frame, int32_t block)
 {
-    const int32_t from = sight_from(frame, block);
-    return from == GRID_NOWHERE ? NULL : (const float *)frame->sight->gap.data + (size_t)from * (size_t)frame->grid->block_cells;
+    const int32_t from = obstacle_cache_from(frame, block);
+    return from == GRID_NOWHERE ? NULL : (const float *)frame->cache->gap.data + (size_t)from * (size_t)frame->grid->block_cells;
 }
 
 static void measure_blocks(void *context, int32_t begin, int32_t end)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "shape/concave.h"
+#include "shape/tangent_planes.h"
 
 /* How far before a face [cells] the space must be open. */
 static const double BEFORE = 0.1;
@@ -298,7 +298,7 @@ static int add_baked(const Near *near, const Face *first, const double point[3],
     const Solid *s = field_solid(near, first->obstacle);
     Plane plane[PLANES_MAX];
     const Plane nearest = {.normal = {first->normal[0], first->normal[1], first->normal[2]}, .gap = first->distance};
-    const int planes = concave_planes(s, near->cell_size, point, &nearest, STAY, reach, plane);
+    const int planes = tangent_planes(s, near->cell_size, point, &nearest, STAY, reach, plane);
     const bool between = planes > 2 && fabs(solid_gap(s, first->foot)) > rounding_of(near, first->obstacle) * near->cell_size;
     if (!between) count = add_face(face, count, first, most);
     for (int i = 1; i < planes; i++) {

@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "contact/field.h"
-#include "contact/sight.h"
+#include "contact/obstacle_cache.h"
 #include "contact/walls.h"
 
 /* Of nodes farther than a cell [cells] behind a face too little is open to tell how dense they are. Where they are folded into those before the wall that does not
@@ -33,9 +33,9 @@ int contacts_opened(const ContactFrame *frame, bool resting_only) { return 1 + (
 /* The shares of the last substep, if they hold; 1 where nobody asked. */
 static const float *shares_before(const OpenJob *job, int32_t block)
 {
-    const int32_t from = sight_from(job->frame, block);
-    if (from == GRID_NOWHERE || job->frame->sight->opened != contacts_opened(job->frame, job->resting_only)) return NULL;
-    return (const float *)job->frame->sight->open.data + (size_t)from * (size_t)job->frame->grid->block_cells;
+    const int32_t from = obstacle_cache_from(job->frame, block);
+    if (from == GRID_NOWHERE || job->frame->cache->opened != contacts_opened(job->frame, job->resting_only)) return NULL;
+    return (const float *)job->frame->cache->open.data + (size_t)from * (size_t)job->frame->grid->block_cells;
 }
 
 /* Obstacles near a block that act on matter there. `edged`: one of them, near what its particles feel, is no plane: it may have edges. */

@@ -12,7 +12,7 @@ int contacts_opened(const ContactFrame *frame, bool resting_only);
 
 /* Divides the rest volume of each node by the share of its cell that obstacles leave open, so that it is 1 where matter at rest
  * fills what is open; near walls of frame->walls both are folded first, see walls.h. And marks the blocks near obstacles other than planes, see
- * KernelArgs.edged. False: no memory. */
+ * KernelArgs.grid.edged. False: no memory. */
 bool contacts_open_volume(const ContactFrame *frame, Memory *memory, Pool *pool, bool resting_only);
 
 #endif

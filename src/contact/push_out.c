@@ -75,7 +75,7 @@ static void put_back(const ContactFrame *frame, const View *view, const Pushed *
     double point[3] = {0}, gained[3] = {0}, inward = 0.0;
     for (int a = 0; a < p->dimension; a++) point[a] = place_in_view(view, p, row, a) * frame->cell_size;
     obstacle_motion(&view->local, point, frame->cell_size, frame->max_displacement, surface);
-    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * frame->step->to_velocity) * normal[a];
+    for (int a = 0; a < p->dimension; a++) inward += (p->velocity[a][row] - surface[a] * frame->substep->to_velocity) * normal[a];
     particles_shift(p, row, way);
     particles_forget(p, row);
     const double mass = (double)p->mass[row] * pow(frame->cell_size, p->dimension);
@@ -211,7 +211,7 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
 
 /* ---- Particles that passed an obstacle ---- */
 
-static const double TOUCH = 1e-3; /* [cells] */
+static const double AT_SURFACE = 1e-3; /* [cells] */
 
 /* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere
@@ -282,9 +282,9 @@ static double share_until_hit(const Solid *solid, const double from[3], const do
         for (int a = 0; a < 3; a++) at[a] = from[a] + share * way[a] * cell_size;
         const double distance = solid_distance(solid, at, normal) / cell_size;
         for (int a = 0; a < 3; a++) inward -= way[a] * normal[a];
-        if (distance <= TOUCH && inward > 0.0) return share;
+        if (distance <= AT_SURFACE && inward > 0.0) return share;
         if (inward <= 0.0 && !solid->grid) return 1.0; /* convex: it only gets further away */
-        share += fmax(distance, TOUCH) / (solid->grid ? length : inward);
+        share += fmax(distance, AT_SURFACE) / (solid->grid ? length : inward);
     }
     return 1.0;
 }

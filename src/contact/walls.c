@@ -79,8 +79,7 @@ static Four own_of(const ApplyJob *job, uint32_t i, Four v)
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
     if (n->own == OWN_ALL) return v;
     if (n->own == OWN_NONE) return (Four){0};
-    const float *m = ((const WallNode *)job->walls->node.data)[i].own;
-    const Columns own = {{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}};
+    const Columns own = symmetric_columns(((const WallNode *)job->walls->node.data)[i].own);
     return times(&own, v);
 }
 

@@ -5,8 +5,8 @@
 #include "base/vector.h"
 #include "contact/field.h"
 #include "contact/flowing.h"
+#include "contact/obstacle_cache.h"
 #include "contact/reach.h"
-#include "contact/sight.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"
 #include "contact/wet_side.h"
@@ -24,7 +24,7 @@ static void add_product(float m[6], double scale, const double a[3])
 static void invert(const float m[6], float out[6])
 {
     static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
-    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) {
+    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) { /* for speed: walls along the axes give diagonals, whose inverse by the same law is this */
         const float least_of_all = (float)LEAST * fmaxf(m[0] + m[3] + m[5], 0.0f);
         for (int k = 0; k < 6; k++) out[k] = (k == 0 || k == 3 || k == 5) && m[k] > least_of_all ? 1.0f / m[k] : 0.0f;
         return;
@@ -69,8 +69,6 @@ static void invert(const float m[6], float out[6])
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
 }
-
-static Columns columns_of(const float m[6]) { return (Columns){{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}; }
 
 /* ---- Geometry ---- */
 
@@ -423,7 +421,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     }
     if (!found) return;
     node->entry = b->walls->entries++;
-    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){columns_of(matrix), index, corner_begin, b->walls->corners};
+    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
 }
 
 /* The density is mirrored in each face by its share. */
@@ -496,7 +494,7 @@ static void look_near_block(const ContactFrame *frame, int32_t block, Near *near
 {
     double centre[3];
     contacts_block_centre(frame, block, centre);
-    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + SIGHT_REACH, false);
+    field_near(near, frame, centre, 0.5 * (K_BLOCK_AXIS - 1) * sqrt((double)frame->grid->dimension) + OBSTACLE_CACHE_REACH, false);
 }
 
 static bool has_contacts(const ContactFrame *frame, int32_t block, int node)
@@ -595,7 +593,7 @@ static void list_motion(Walls *walls, uint32_t i, int dimension)
     if (own == OWN_NONE && node->link_begin == node->link_moving) return;
     float inverse[6];
     invert(node->lump, inverse);
-    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){columns_of(inverse), i, node->link_begin, node->link_moving};
+    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){symmetric_columns(inverse), i, node->link_begin, node->link_moving};
 }
 
 /* M = sum m W A^2, what a node has itself included. */
@@ -635,12 +633,12 @@ static int count_bits(uint64_t bits)
 /* What was found of a node in the last substep, if it holds: what thin walls do hangs on matter. */
 static const Bound *bound_before(const ContactFrame *frame, int32_t block, int node)
 {
-    const Sight *sight = frame->sight;
-    const int32_t from = sight_from(frame, block);
-    if (from == GRID_NOWHERE || !sight->walled) return NULL;
-    const uint64_t marks = ((const uint64_t *)sight->marked.data)[from], bit = (uint64_t)1 << node;
+    const ObstacleCache *cache = frame->cache;
+    const int32_t from = obstacle_cache_from(frame, block);
+    if (from == GRID_NOWHERE || !cache->walled) return NULL;
+    const uint64_t marks = ((const uint64_t *)cache->marked.data)[from], bit = (uint64_t)1 << node;
     if (!(marks & bit)) return NULL;
-    const Bound *bound = (const Bound *)sight->bound.data + ((const uint32_t *)sight->begin.data)[from] + count_bits(marks & (bit - 1));
+    const Bound *bound = (const Bound *)cache->bound.data + ((const uint32_t *)cache->begin.data)[from] + count_bits(marks & (bit - 1));
     return bound->thin ? NULL : bound;
 }
 

@@ -18,6 +18,9 @@ typedef struct Columns {
     Four column[3];
 } Columns;
 
+/* Of a symmetric matrix, given by its upper triangle row by row. */
+static inline Columns symmetric_columns(const float m[6]) { return (Columns){{{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}}; }
+
 /* Nodes of the list that stand for a place between them. */
 typedef struct WallCorner {
     uint32_t parent;

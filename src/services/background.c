@@ -8,10 +8,11 @@
 #include "base/cpu.h"
 #include "base/result.h"
 #include "base/thread.h"
-#include "services/inspect.h"
+#include "services/stats.h"
+#include "services/views.h"
 #include "step/step.h"
 
-enum { FIELDS = INSPECT_FIELDS, SETS = 2 };
+enum { FIELDS = VIEW_FIELDS, SETS = 2 };
 
 /* What a step that was begun is at. Whoever first needs the copies makes them: the step, or a view that is asked for before. */
 typedef enum Stage { IDLE, BEGUN, COPYING, COPIED, DONE } Stage;
@@ -52,7 +53,7 @@ const char *background_fields_problem(const pbmpm_field *fields, uint32_t count)
 {
     bool seen[FIELDS] = {false};
     for (uint32_t i = 0; i < count; i++) {
-        if (!inspect_is_field(fields[i])) return "a field to publish does not exist";
+        if (!views_is_field(fields[i])) return "a field to publish does not exist";
         if (seen[fields[i]]) return "a field is to be published twice";
         seen[fields[i]] = true;
     }
@@ -61,7 +62,7 @@ const char *background_fields_problem(const pbmpm_field *fields, uint32_t count)
 
 static size_t copy_bytes(const World *world, pbmpm_field field)
 {
-    return (size_t)world->particles.capacity * inspect_components(world, field) * sizeof(float);
+    return (size_t)world->particles.capacity * views_components(world, field) * sizeof(float);
 }
 
 /* Copies a field, its components as far apart as they have to be, or side by side as they are. */
@@ -69,7 +70,7 @@ static void copy_field(Background *background, pbmpm_field field)
 {
     pbmpm_view *view = &background->view[field];
     *view = (pbmpm_view){.size = sizeof *view};
-    if (inspect_view(background->world, field, view) != PBMPM_OK) return;
+    if (views_get(background->world, field, view) != PBMPM_OK) return;
     const char *from = view->data;
     char *to = background->copy[background->turn][field];
     view->data = view->count ? to : NULL;
@@ -88,7 +89,7 @@ static void copy_fields(Background *background)
 {
     memset(background->view, 0, sizeof background->view);
     for (uint32_t i = 0; i < background->wanted_count; i++)
-        if (inspect_has(background->world, background->wanted[i])) copy_field(background, background->wanted[i]);
+        if (views_has(background->world, background->wanted[i])) copy_field(background, background->wanted[i]);
 }
 
 static pbmpm_result reserve_copies(World *world)
@@ -252,9 +253,9 @@ pbmpm_result background_begin(World *world, float dt)
     if (result == PBMPM_OK) result = start_thread(world->background);
     if (result != PBMPM_OK) return result;
     Background *background = world->background;
-    world_touch(world);
+    world_expire_views(world);
     background->turn = (background->turn + 1) % SETS;
-    inspect_step_stats(world, &background->stats);
+    stats_of_step(world, &background->stats);
     background->seconds = world->record.seconds;
     background->generation = world->generation;
     background->dt = dt;
@@ -303,7 +304,7 @@ pbmpm_result background_view(World *world, pbmpm_field field, pbmpm_view *view)
 {
     Background *background = world->background;
     bool wanted = false;
-    if (!inspect_is_field(field)) return inspect_no_field(field);
+    if (!views_is_field(field)) return views_no_field(field);
     for (uint32_t i = 0; i < background->wanted_count; i++) wanted |= background->wanted[i] == field;
     if (!wanted) return fail(PBMPM_ERROR_BUSY, "field %d is not published, and a step is under way", (int)field);
     need_copies(background);

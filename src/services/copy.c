@@ -5,7 +5,7 @@
 #include "base/numbers.h"
 #include "base/result.h"
 #include "services/background.h"
-#include "services/inspect.h"
+#include "services/views.h"
 
 enum { ROW_GRAIN = 1024 };
 
@@ -17,10 +17,10 @@ pbmpm_copy_def copy_def_defaults(void) { return (pbmpm_copy_def){.size = sizeof(
 const char *copy_problem(const pbmpm_copy_def *def)
 {
     if (!in_range(def->alpha, 0.0, 1.0)) return "copy.alpha must be in [0, 1]";
-    if (def->field_count > INSPECT_FIELDS) return "copy.field_count is more than there are fields";
+    if (def->field_count > VIEW_FIELDS) return "copy.field_count is more than there are fields";
     if (def->field_count && !def->fields) return "copy.fields is null";
     for (uint32_t i = 0; i < def->field_count; i++)
-        if (!inspect_is_field(def->fields[i])) return "copy.fields has a field that does not exist";
+        if (!views_is_field(def->fields[i])) return "copy.fields has a field that does not exist";
     if (def->stride % sizeof(float) != 0) return "copy.stride must be a multiple of 4";
     if (def->offset % sizeof(float) != 0) return "copy.offset must be a multiple of 4";
     if (def->pads_vectors != 0 && def->pads_vectors != 1) return "copy.pads_vectors must be 0 or 1";
@@ -33,7 +33,7 @@ typedef struct Word {
     uint64_t stride, speed_stride;
 } Word;
 
-enum { WORDS_MAX = 9 * INSPECT_FIELDS }; /* matrices */
+enum { WORDS_MAX = 9 * VIEW_FIELDS }; /* matrices */
 
 typedef struct Copying {
     Word word[WORDS_MAX];
@@ -73,7 +73,7 @@ static void copy_rows(void *context, int32_t begin, int32_t end)
 
 static pbmpm_result look(World *world, pbmpm_field field, pbmpm_view *view)
 {
-    return background_is_stepping(world) ? background_view(world, field, view) : inspect_view(world, field, view);
+    return background_is_stepping(world) ? background_view(world, field, view) : views_get(world, field, view);
 }
 
 static const char *component_of(const pbmpm_view *view, uint32_t component)

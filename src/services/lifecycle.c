@@ -7,10 +7,11 @@
 #include "base/result.h"
 #include "services/background.h"
 #include "solvers/dual/dual.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/primal/primal.h"
+#include "skin/skin.h"
 
 pbmpm_result world_create(const pbmpm_world_def *def, World **out)
 {
@@ -58,7 +59,8 @@ void world_destroy(World *world)
     if (here) pthread_mutex_destroy(&world->making);
     pool_destroy(&world->memory, world->pool, here);
     background_free(world);
-    lookup_free(&world->lookup, &world->memory);
+    particle_tree_free(&world->particle_tree, &world->memory);
+    skin_free(world);
     array_free(&world->memory, &world->submersion);
     colliders_free(&world->colliders, &world->memory);
     baked_free(&world->baked, &world->memory);
@@ -68,7 +70,7 @@ void world_destroy(World *world)
     dual_free(world);
     guess_free(world);
     walls_free(&world->walls, &world->memory);
-    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_free(&world->sight[kinds], &world->memory);
+    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_free(&world->obstacle_cache[kinds], &world->memory);
     joint_free(world);
     granular_free(world);
     primal_free(world);

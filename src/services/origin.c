@@ -174,7 +174,7 @@ pbmpm_result origin_shift(World *world, const double wanted[3], double moved[3])
     move_sleeping(&world->sleep.active, &shift);
     grid_clear(&world->grid);
     world->islands.groups = 0;
-    world_touch(world);
+    world_expire_views(world);
     memcpy(moved, shift.by, sizeof shift.by);
     return PBMPM_OK;
 }

@@ -7,7 +7,7 @@
 #include "base/numbers.h"
 #include "base/pool.h"
 #include "base/result.h"
-#include "matter/lookup.h"
+#include "matter/particle_tree.h"
 #include "services/readers.h"
 
 /* A particle counts nearer than NODE_REACH along each axis, and it is within 1/2 of the node that it is stored at. */
@@ -100,7 +100,7 @@ typedef struct Sample {
     double filling, density, momentum[3];
 } Sample;
 
-static bool near_point(const LookupBox *box, void *context)
+static bool near_point(const ParticleBox *box, void *context)
 {
     const Sample *sample = context;
     for (int a = 0; a < sample->world->def.dimension; a++)
@@ -108,7 +108,7 @@ static bool near_point(const LookupBox *box, void *context)
     return true;
 }
 
-static void add_to_sample(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_to_sample(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Sample *sample = context;
@@ -143,7 +143,7 @@ static void sample_points(void *context, int32_t begin, int32_t end)
     for (size_t i = (size_t)begin; i < (size_t)end; i++) {
         Sample sample = {.world = job->world};
         for (size_t a = 0; a < d; a++) sample.point[a] = (double)job->points[i * d + a] / (double)job->world->def.cell_size;
-        lookup_visit(&job->world->lookup, near_point, add_to_sample, &sample);
+        particle_tree_visit(&job->world->particle_tree, near_point, add_to_sample, &sample);
         if (job->filling) job->filling[i] = (float)sample.filling;
         if (job->density) job->density[i] = (float)sample.density;
         for (size_t a = 0; a < d && job->velocity; a++)
@@ -153,7 +153,7 @@ static void sample_points(void *context, int32_t begin, int32_t end)
 
 pbmpm_result query_points(World *world, const float *points, uint32_t count, float *filling, float *density, float *velocity)
 {
-    const pbmpm_result result = readers_build_lookup(world);
+    const pbmpm_result result = readers_build_particle_tree(world);
     if (result != PBMPM_OK) return result;
     PointsJob job = {world, points, filling, density, velocity};
     pool_for(world->pool, (int32_t)count, POINT_GRAIN, sample_points, &job);
@@ -185,7 +185,7 @@ static void point_on(const Line *line, double t, double point[3])
     for (int a = 0; a < 3; a++) point[a] = line->start[a] + t * line->direction[a];
 }
 
-static bool near_stretch(const LookupBox *box, void *context)
+static bool near_stretch(const ParticleBox *box, void *context)
 {
     const Line *line = context;
     for (int a = 0; a < line->world->def.dimension; a++) {
@@ -195,7 +195,7 @@ static bool near_stretch(const LookupBox *box, void *context)
     return true;
 }
 
-static void add_candidates(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_candidates(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Line *line = context;
@@ -220,7 +220,7 @@ static void look_at(Line *line, double from, double to)
     line->to = to;
     line->count = 0;
     line->overflow = false;
-    lookup_visit(&line->world->lookup, near_stretch, add_candidates, line);
+    particle_tree_visit(&line->world->particle_tree, near_stretch, add_candidates, line);
 }
 
 /* The filling on the line; the same sum in the same order whether from candidates or from boxes. */
@@ -229,7 +229,7 @@ static double filling_at(const Line *line, double t)
     Sample sample = {.world = line->world};
     point_on(line, t, sample.point);
     if (line->overflow) {
-        lookup_visit(&line->world->lookup, near_point, add_to_sample, &sample);
+        particle_tree_visit(&line->world->particle_tree, near_point, add_to_sample, &sample);
         return sample.filling;
     }
     for (int i = 0; i < line->count; i++)
@@ -245,7 +245,7 @@ static double first_crossing(Line *line, double first, double last)
     line->from = line->to = -INFINITY;
     for (;;) {
         if (!(i * SAMPLE <= line->to)) {
-            const double entry = lookup_entry(&line->world->lookup, &line->world->particles, line->start, line->direction, i * SAMPLE, CELL_REACH);
+            const double entry = particle_tree_entry(&line->world->particle_tree, &line->world->particles, line->start, line->direction, i * SAMPLE, CELL_REACH);
             if (!(entry <= last) || isinf(entry)) return INFINITY;
             i = fmax(i, floor(entry / SAMPLE));
             look_at(line, (i - 1.0) * SAMPLE, i * SAMPLE + PATCH_LENGTH);
@@ -299,7 +299,7 @@ static void find_heights(void *context, int32_t begin, int32_t end)
     for (size_t i = (size_t)begin; i < (size_t)end; i++) {
         for (size_t a = 0; a < d; a++) line.start[a] = (double)job->points[i * d + a] / dx;
         const double along = -start_near_origin(&line);
-        const double top = lookup_entry(&job->world->lookup, &job->world->particles, line.start, line.direction, -INFINITY, CELL_REACH);
+        const double top = particle_tree_entry(&job->world->particle_tree, &job->world->particles, line.start, line.direction, -INFINITY, CELL_REACH);
         const double t = top < INFINITY ? first_crossing(&line, floor(top / SAMPLE) - 1.0, INFINITY) : INFINITY;
         job->heights[i] = (float)((along - t) * dx);
     }
@@ -307,7 +307,7 @@ static void find_heights(void *context, int32_t begin, int32_t end)
 
 pbmpm_result query_heights(World *world, const float *points, uint32_t count, const double up[3], float level, float *heights)
 {
-    const pbmpm_result result = readers_build_lookup(world);
+    const pbmpm_result result = readers_build_particle_tree(world);
     if (result != PBMPM_OK) return result;
     HeightsJob job = {world, points, up, (double)level, heights};
     pool_for(world->pool, (int32_t)count, POINT_GRAIN, find_heights, &job);
@@ -323,7 +323,7 @@ typedef struct Touch {
     uint32_t row;
 } Touch;
 
-static void add_to_touch(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_to_touch(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Touch *touch = context;
@@ -348,7 +348,7 @@ static void add_to_touch(const LookupBox *box, uint32_t begin, uint32_t end, voi
 }
 
 /* near_point() on the sample that a touch begins with. */
-static bool near_touch(const LookupBox *box, void *context) { return near_point(box, &((Touch *)context)->sample); }
+static bool near_touch(const ParticleBox *box, void *context) { return near_point(box, &((Touch *)context)->sample); }
 
 static void describe_hit(const Line *line, double t, pbmpm_ray_hit *hit)
 {
@@ -356,7 +356,7 @@ static void describe_hit(const Line *line, double t, pbmpm_ray_hit *hit)
     const int d = world->def.dimension;
     Touch touch = {.sample = {.world = world}, .nearest2 = INFINITY};
     point_on(line, t, touch.sample.point);
-    lookup_visit(&world->lookup, near_touch, add_to_touch, &touch);
+    particle_tree_visit(&world->particle_tree, near_touch, add_to_touch, &touch);
     double length2 = 0.0;
     for (int a = 0; a < d; a++) length2 += touch.gradient[a] * touch.gradient[a];
     for (int a = 0; a < d; a++) {
@@ -372,7 +372,7 @@ static void describe_hit(const Line *line, double t, pbmpm_ray_hit *hit)
 
 pbmpm_result query_ray(World *world, const pbmpm_ray *ray, pbmpm_ray_hit *hit)
 {
-    const pbmpm_result result = readers_build_lookup(world);
+    const pbmpm_result result = readers_build_particle_tree(world);
     if (result != PBMPM_OK) return result;
     Line line = {.world = world, .level = (double)ray->level};
     query_direction(world, ray->direction, line.direction);

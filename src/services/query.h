@@ -1,5 +1,5 @@
 /* Questions about matter between particles: regions, points, heights, rays. Definitions stand in pbmpm/query.h. Arguments
- * have been checked. Nothing here changes the state; the first query after a change makes the lookup. */
+ * have been checked. Nothing here changes the state; the first query after a change makes the tree. */
 #ifndef PBMPM_SRC_SERVICES_QUERY_H
 #define PBMPM_SRC_SERVICES_QUERY_H
 

@@ -3,7 +3,7 @@
 #include <string.h>
 
 #include "base/sized.h"
-#include "matter/lookup.h"
+#include "matter/particle_tree.h"
 #include "services/query.h"
 #include "services/readers.h"
 
@@ -20,7 +20,7 @@ typedef struct Region {
 } Region;
 
 /* A signed distance changes by at most the way that one goes, so from the middle of a box it tells about all of it. */
-static bool touches_region(const LookupBox *box, void *context)
+static bool touches_region(const ParticleBox *box, void *context)
 {
     Region *region = context;
     const double dx = (double)region->world->def.cell_size;
@@ -35,7 +35,7 @@ static bool touches_region(const LookupBox *box, void *context)
     return distance < reach;
 }
 
-static void add_rows(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_rows(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Region *region = context;
@@ -50,8 +50,8 @@ static void add_rows(const LookupBox *box, uint32_t begin, uint32_t end, void *c
 
 static pbmpm_result visit_region(World *world, Region *region)
 {
-    const pbmpm_result result = readers_build_lookup(world);
-    if (result == PBMPM_OK) lookup_visit(&world->lookup, touches_region, add_rows, region);
+    const pbmpm_result result = readers_build_particle_tree(world);
+    if (result == PBMPM_OK) particle_tree_visit(&world->particle_tree, touches_region, add_rows, region);
     return result;
 }
 

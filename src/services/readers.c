@@ -27,10 +27,10 @@ void readers_find_rows(World *world)
     pthread_mutex_unlock(&world->making);
 }
 
-pbmpm_result readers_build_lookup(World *world)
+pbmpm_result readers_build_particle_tree(World *world)
 {
     pthread_mutex_lock(&world->making);
-    const pbmpm_result result = lookup_build(&world->lookup, &world->memory, &world->particles, world->generation, pool_of(world));
+    const pbmpm_result result = particle_tree_build(&world->particle_tree, &world->memory, &world->particles, world->generation, pool_of(world));
     pthread_mutex_unlock(&world->making);
     return result;
 }

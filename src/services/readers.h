@@ -12,8 +12,8 @@ const float *readers_kilograms(World *world);
 /* After it particles_row() only reads. */
 void readers_find_rows(World *world);
 
-/* Makes world->lookup, for which it may take memory. */
-pbmpm_result readers_build_lookup(World *world);
+/* Makes world->particle_tree, for which it may take memory. */
+pbmpm_result readers_build_particle_tree(World *world);
 
 /* Bytes that the world holds. */
 uint64_t readers_memory_used(World *world);

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "matter/lookup.h"
+#include "matter/particle_tree.h"
 #include "shape/mass.h"
 
 enum { LONGEST = 64, MARGIN = 3 }; /* nodes along the solid, and around it */
@@ -155,7 +155,7 @@ static void find_open(Sounding *s)
 
 /* ---- What is filled ---- */
 
-static bool near_lattice(const LookupBox *box, void *context)
+static bool near_lattice(const ParticleBox *box, void *context)
 {
     const Sounding *s = context;
     const double dx = (double)s->world->def.cell_size;
@@ -188,7 +188,7 @@ static bool spread(Sounding *s, const double x[3], double volume)
     return true;
 }
 
-static void add_matter(const LookupBox *box, uint32_t begin, uint32_t end, void *context)
+static void add_matter(const ParticleBox *box, uint32_t begin, uint32_t end, void *context)
 {
     (void)box;
     Sounding *s = context;
@@ -289,7 +289,7 @@ typedef struct Waterline {
 } Waterline;
 
 /* Where a node at the surface looks: the middle of what the spline sees of the open side. */
-static void sight_of(const Sounding *s, size_t node, double point[3])
+static void eye_at(const Sounding *s, size_t node, double point[3])
 {
     double sum = 0.0, moment[3] = {0};
     int32_t index[3];
@@ -328,8 +328,8 @@ static double add_end(const Sounding *s, size_t node, double place[3])
         const double wet = (double)s->wet[node] - 0.5, wet_next = (double)s->wet[next] - 0.5;
         if ((wet > 0.0) == (wet_next > 0.0)) continue;
         double here[3], there[3];
-        sight_of(s, node, here);
-        sight_of(s, next, there);
+        eye_at(s, node, here);
+        eye_at(s, next, there);
         const double share = wet / (wet - wet_next), both = area + of_next;
         for (int b = 0; b < 3; b++) place[b] += both * (here[b] + share * (there[b] - here[b]));
         weight += both;
@@ -387,12 +387,12 @@ pbmpm_result submerged_measure(World *world, const Collider *collider, int mater
 {
     Sounding s = {.world = world, .collider = collider, .dimension = world->def.dimension, .material = material};
     s.solid = solid_among(&collider->shape, s.dimension, &world->baked);
-    pbmpm_result result = lookup_build(&world->lookup, &world->memory, &world->particles, world->generation, world->pool);
+    pbmpm_result result = particle_tree_build(&world->particle_tree, &world->memory, &world->particles, world->generation, world->pool);
     if (result == PBMPM_OK) result = make_lattice(&s, world);
     if (result != PBMPM_OK) return result;
     find_open(&s);
     memset(s.filling, 0, s.nodes * sizeof *s.filling);
-    lookup_visit(&world->lookup, near_lattice, add_matter, &s);
+    particle_tree_visit(&world->particle_tree, near_lattice, add_matter, &s);
     *submersion = (pbmpm_submersion){.size = sizeof *submersion};
     for (int a = 0; a < 3; a++) submersion->centre[a] = s.first[a] + 0.5 * (s.count[a] - 1) * s.spacing;
     if (!(s.volume > 0.0)) return PBMPM_OK;

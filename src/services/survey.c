@@ -5,7 +5,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "services/way.h"
+#include "services/ray.h"
 #include "world/depth.h"
 
 /* What a group of matter has in one cell. Liquids are one group, each solid is its own. */
@@ -148,7 +148,7 @@ static double cells_to_obstacle(const World *world, const Share *share, const do
     const double cell = (double)world->def.cell_size;
     double from[3] = {0};
     for (int a = 0; a < world->def.dimension; a++) from[a] = middle_of(world, share, a);
-    return fmin(way_to_obstacle(world, share->slot, from, along, far * cell), way_to_wall(world, from, along, far * cell)) / cell;
+    return fmin(ray_to_obstacle(world, share->slot, from, along, far * cell), ray_to_wall(world, from, along, far * cell)) / cell;
 }
 
 /* Whether an obstacle stands closer than ROOM cells to an end of a run, which is known to half a cell. */
@@ -457,13 +457,12 @@ static bool is_falling(const World *world, const Share *share)
 /* Which share of the surface of what does not fall is too steep, and whether it is to both sides along any axis. Sorted by cell. */
 static void measure_slopes(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
-    const double strength = gravity_strength(world);
     const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1;
     const uint32_t stride = stride_of(cells, slot);
-    double looked = 0.0, steep = 0.0, down[3] = {0};
+    double looked = 0.0, steep = 0.0, down[3];
     uint32_t number = 0;
     unsigned sides = 0;
-    for (int a = 0; a < world->def.dimension; a++) down[a] = (double)world->settings.gravity[a] / strength;
+    gravity_direction(world, down);
     for (uint32_t i = 0; i < cells->count; i++) {
         const Share *share = &cells->share[i];
         if (share->group != slot + 1 || number++ % stride != 0 || is_falling(world, share)) continue;
@@ -507,9 +506,9 @@ static bool sees(const World *world, const Share *share, const Solid *solid)
     }
     distance = sqrt(distance);
     for (int a = 0; a < world->def.dimension; a++) along[a] /= fmax(distance, 1e-300);
-    const double way = fmin(distance, way_to_obstacle(world, share->slot, from, along, distance));
+    const double way = fmin(distance, ray_to_obstacle(world, share->slot, from, along, distance));
     for (int a = 0; a < world->def.dimension; a++) hit[a] = from[a] + way * along[a];
-    return solid_gap(solid, hit) < cell && way_to_wall(world, from, along, way) == INFINITY;
+    return solid_gap(solid, hit) < cell && ray_to_wall(world, from, along, way) == INFINITY;
 }
 
 /* Whether a ball or a capsule reaches below a cell of liquid that nothing parts from it: that flows around it, or will. *looks: lines that may still be followed. */
@@ -619,11 +618,11 @@ static bool is_held(const World *world, Cells *cells, uint32_t i, int down)
 /* From what holds a share to where its body's weight is, across gravity [cells]. */
 static void arm_of(const World *world, const Extent *of, const double foot[3], double arm[3])
 {
-    const double strength = gravity_strength(world);
-    double along = 0.0;
+    double along = 0.0, down[3];
+    gravity_direction(world, down);
     for (int a = 0; a < world->def.dimension; a++) arm[a] = of->mean[a] / (double)of->particles - foot[a];
-    for (int a = 0; a < world->def.dimension; a++) along += arm[a] * (double)world->settings.gravity[a] / strength;
-    for (int a = 0; a < world->def.dimension; a++) arm[a] -= along * (double)world->settings.gravity[a] / strength;
+    for (int a = 0; a < world->def.dimension; a++) along += arm[a] * down[a];
+    for (int a = 0; a < world->def.dimension; a++) arm[a] -= along * down[a];
 }
 
 /* By how much the weight of bodies lies beyond all that holds them, seen from its middle. */

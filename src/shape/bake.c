@@ -5,7 +5,7 @@
 
 #include "base/numbers.h"
 #include "base/result.h"
-#include "shape/nearest.h"
+#include "shape/box_tree.h"
 
 pbmpm_mesh_def mesh_defaults(void) { return (pbmpm_mesh_def){.size = sizeof(pbmpm_mesh_def), .dimension = 3, .resolution = 64}; }
 

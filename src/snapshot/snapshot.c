@@ -519,8 +519,8 @@ pbmpm_result snapshot_restore(World *world, const void *snapshot, uint64_t bytes
     world->record = (StepRecord){0};
     events_clear(&world->events);
     grid_clear(&world->grid);
-    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) sight_forget(&world->sight[kinds]);
+    for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_forget(&world->obstacle_cache[kinds]);
     world->islands.groups = 0;
-    world_touch(world);
+    world_expire_views(world);
     return PBMPM_OK;
 }

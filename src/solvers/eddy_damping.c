@@ -8,7 +8,7 @@
 #include "world/depth.h"
 #include "world/island_groups.h"
 
-enum { GAIN, BEFORE, KINETIC, MASS, MOMENTUM, TOUCHES = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
+enum { GAIN, BEFORE, KINETIC, MASS, MOMENTUM, AT_OBSTACLE = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
 /* (k h)^2 / 4 of eddies of two cells, the smallest that the grid knows: k h = pi / 2. What it does at 60 Hz x 5 (tests/field, standing_wave and still_pool): with
  * 0.2 a wave keeps 0.83 of its height in nine periods, with 0.4 and 0.617 it keeps 0.90, with 1 it keeps 0.94; but with 1 pools that stand turned go on at 16 to
@@ -48,7 +48,7 @@ void eddy_damping_free(World *world)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
 }
 
-static bool touches(const World *world, int32_t block)
+static bool is_at_obstacle(const World *world, int32_t block)
 {
     const Colliders *colliders = &world->colliders;
     const uint32_t *begin = colliders->contact_begin.data;
@@ -59,9 +59,9 @@ static bool touches(const World *world, int32_t block)
 static void sum_block(const World *world, int32_t block, double *sum)
 {
     const size_t floats = (size_t)world->grid.block_cells * W, start = (size_t)block * floats;
-    const float *node = (const float *)world->grid.node.data + start, *push = world->args.node_push + start, *before = world->args.node_before + start;
+    const float *node = (const float *)world->grid.node.data + start, *push = world->args.dual.node_push + start, *before = world->args.grid.node_before + start;
     memset(sum, 0, SUMS * sizeof *sum);
-    sum[TOUCHES] = touches(world, block) ? 1.0 : 0.0;
+    sum[AT_OBSTACLE] = is_at_obstacle(world, block) ? 1.0 : 0.0;
     for (size_t i = 0; i < floats; i += W) {
         const double mass = (double)node[i + 3];
         if (mass == 0.0) continue;
@@ -88,7 +88,7 @@ float eddy_damping_share(double gain, double kinetic) { return gain > 0.0 ? (flo
 float *eddy_damping_shares(World *world)
 {
     float *kept = is_wanted(world) ? world->dual.eddy_damping.kept.data : NULL;
-    world->args.affine_kept = kept;
+    world->args.dual.affine_kept = kept;
     return kept;
 }
 
@@ -102,7 +102,7 @@ static uint64_t particles_of_group(const World *world)
 }
 
 /* The share of a credit that is left after a substep. Matter falls through its depth in sqrt(2 depth / fall) substeps; without gravity never. */
-static double credit_kept(const World *world) { return exp(-0.5 * sqrt(gravity_fall(world, &world->step) / (2.0 * matter_depth(world)))); }
+static double credit_kept(const World *world) { return exp(-0.5 * sqrt(gravity_fall(world, &world->substep) / (2.0 * matter_depth(world)))); }
 
 double eddy_damping_settle(World *world, const EddyGains *gains)
 {
@@ -120,7 +120,7 @@ void eddy_damping_forget(World *world) { memset(world->dual.eddy_damping.account
 
 /* ---- The dual's bodies ---- */
 
-static bool pays(const double *sum) { return sum[TOUCHES] > 0.0 && sum[GAIN] > 0.0; }
+static bool pays(const double *sum) { return sum[AT_OBSTACLE] > 0.0 && sum[GAIN] > 0.0; }
 
 static float share_of(const double *sum, double factor)
 {

@@ -51,7 +51,7 @@ double eddy_damping_settle(World *world, const EddyGains *gains);
 /* Somebody else changed the motion of particles: debts are forgotten. */
 void eddy_damping_forget(World *world);
 
-/* Sets args.affine_kept and returns it: a share per block of particles, for the caller to fill. Null where nothing is damped. */
+/* Sets args.dual.affine_kept and returns it: a share per block of particles, for the caller to fill. Null where nothing is damped. */
 float *eddy_damping_shares(World *world);
 
 #endif

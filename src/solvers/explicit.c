@@ -45,8 +45,8 @@ static void push(void *context, int32_t begin, int32_t end)
 
 void explicit_solve(World *world, const ContactFrame *contacts)
 {
-    world->args.node_force = world->primal.force.data;
-    world->args.block_energy = world->primal.block_energy.data;
+    world->args.primal.node_force = world->primal.force.data;
+    world->args.primal.block_energy = world->primal.block_energy.data;
     const Span nodes = grid_nodes(&world->grid, BLOCK_GRAIN);
     Loops loops;
     loops_open(&loops, world->pool);

@@ -86,14 +86,15 @@ static float carried(const World *world)
 
 void granular_bind(World *world)
 {
-    if (is_judged(world)) world->args.pressure = world->particles.pressure;
-    world->args.grains_carried = carried(world);
+    if (is_judged(world)) world->args.dual.pressure = world->particles.pressure;
+    world->args.dual.grains_carried = carried(world);
+    world->args.dual.grains_free = world->granular.begins[islands_kinds(world)] ? 1.0f : 0.0f;
 }
 
 /* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */
-static void change_state(GranularState *state, bool leaves, bool at_once, const StepContext *step)
+static void change_state(GranularState *state, bool leaves, bool at_once, const Substep *substep)
 {
-    state->seconds = fmax(0.0, state->seconds + (leaves ? step->substep_dt : -step->substep_dt));
+    state->seconds = fmax(0.0, state->seconds + (leaves ? substep->dt : -substep->dt));
     if (!at_once && state->seconds < SLOW) return;
     state->flows = !state->flows;
     state->seconds = 0.0;
@@ -133,14 +134,17 @@ static bool is_stirred(const World *world)
 }
 
 /* What was not judged in the substep before, and falls, flows from the start and bears nothing: a substep of the primal would leave stresses that are not in balance,
- * and the dual start from them. Random scene 20452 gained 38 % of its energy. What slept rests as it did. */
-static void begin(World *world)
+ * and the dual start from them. Random scene 20452 gained 38 % of its energy; 58935, where the dual started from the pressure of a collision that was over, 70 times
+ * as much. What slept rests as it did. */
+static void begin(World *world, uint32_t kinds)
 {
-    GranularState *state = &world->granular.of[islands_kinds(world)];
+    GranularState *state = &world->granular.of[kinds];
+    world->granular.begins[kinds] = false;
     if (granular_goes_on(world)) return;
-    const bool flows = dual_holds_solids(world, &world->step) && (double)measure_all(world).speed > FALLS * fall_of(world);
+    const bool flows = dual_holds_solids(world, &world->substep) && (double)measure_all(world).speed > FALLS * fall_of(world);
     const bool slept = state->judged > 0 && state->flowed == 0.0 && !flows;
     *state = (GranularState){.flowed = slept ? 0.0 : FORGETS, .judged = world->step_count + 1, .flows = flows};
+    world->granular.begins[kinds] = flows;
 }
 
 pbmpm_result granular_prepare(World *world)
@@ -149,7 +153,7 @@ pbmpm_result granular_prepare(World *world)
     if (!array_reserve(&world->memory, &world->granular.blocks, (size_t)world->grid.particle_blocks, sizeof(GranularBlock)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for what sand does in %d blocks", world->grid.particle_blocks);
     const pbmpm_result result = particles_enable_pressure(&world->particles, &world->memory);
-    if (result == PBMPM_OK) begin(world);
+    if (result == PBMPM_OK) begin(world, islands_kinds(world));
     return result;
 }
 
@@ -159,9 +163,9 @@ static void follow(World *world, GranularState *state, uint32_t kinds, bool rest
     const double fall = fall_of(world), speed = (double)all.speed;
     const bool whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
     if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, &world->step);
+        change_state(state, speed < SETTLES * fall && whole, false, &world->substep);
     else
-        change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->step);
+        change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->substep);
 }
 
 void granular_judge(World *world)
@@ -169,9 +173,9 @@ void granular_judge(World *world)
     if (!is_judged(world)) return;
     const uint32_t kinds = islands_kinds(world);
     GranularState *state = &world->granular.of[kinds];
-    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->step), rested = state->flowed == 0.0;
+    const bool dual = world->settings.solver == PBMPM_SOLVER_DUAL, may_flow = dual || dual_holds_solids(world, &world->substep), rested = state->flowed == 0.0;
     if (!may_flow) *state = (GranularState){0};
     state->judged = world->step_count + 1;
-    state->flowed = dual || state->flows ? state->flowed + world->step.substep_dt : 0.0;
+    state->flowed = dual || state->flows ? state->flowed + world->substep.dt : 0.0;
     if (may_flow && !dual) follow(world, state, kinds, rested);
 }

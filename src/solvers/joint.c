@@ -21,10 +21,10 @@ static const double STIFFEST = 64.0;
  * A block of 2000 kg/m^3 below 40 cells of 2 cm keeps it at 0.10 m/s at 60 Hz x 5, as the dual alone does; with 1 at 0.44. With 16 blocks sink by a fifth more slowly. */
 static const float HELD = 4.0f;
 
-double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
     const double n = (double)world->settings.iterations;
-    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(def, step));
+    return fmin(1.0, STIFFEST * n * n / dual_stiffness_of(def, substep));
 }
 
 void joint_set_materials(World *world) { dual_set_materials(world); }
@@ -124,7 +124,7 @@ static void start_solids(World *world, int32_t block, size_t begin, size_t end)
     memcpy(before + begin, node + begin, (end - begin) * sizeof *node);
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3 && solid[block] >> (i - begin) / W & 1; c++)
-            node[i + c] = node[i + 3] > 0.0f ? world->args.node_before[i + c] - world->args.gravity[c] : 0.0f;
+            node[i + c] = node[i + 3] > 0.0f ? world->args.grid.node_before[i + c] - world->args.gravity[c] : 0.0f;
 }
 
 static void move_predictor(World *world, int32_t block, size_t begin, size_t end)
@@ -142,7 +142,7 @@ static void move_predictor(World *world, int32_t block, size_t begin, size_t end
  * axis (the integrals of 4 w^2 x^2 and of w^2). With all of it stiff discs in water gained a thousandfold at 30 Hz x 20. */
 static float released_share(const World *world)
 {
-    const double omega2 = (double)world->args.held_stiffness * 43.0 / 140.0 * pow(11.0 / 20.0, world->def.dimension - 1);
+    const double omega2 = (double)world->args.primal.held_stiffness * 43.0 / 140.0 * pow(11.0 / 20.0, world->def.dimension - 1);
     return (float)(1.0 / sqrt(fmax(1.0, omega2)));
 }
 
@@ -153,7 +153,7 @@ static void push_staying(const World *world, Contact *contact, size_t at)
     const float share = released_share(world);
     float *base = (float *)world->grid.node_base.data + at;
     (void)contact;
-    for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] += share * ((u[c] - base[c]) - (gradient[c] + world->args.node_push[at + c]) / base[3]);
+    for (size_t c = 0; c < 3 && base[3] > 0.0f; c++) base[c] += share * ((u[c] - base[c]) - (gradient[c] + world->args.dual.node_push[at + c]) / base[3]);
 }
 
 /* As stiff as the primal holds them among liquid. */
@@ -161,7 +161,7 @@ static void set_solids(World *world)
 {
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (world->materials.generation[slot] != 0 && world->materials.kernel[slot].kind != K_LIQUID)
-            moduli_set_solid(world, slot, joint_stiffness_share(world, &world->materials.def[slot], &world->step));
+            moduli_set_solid(world, slot, joint_stiffness_share(world, &world->materials.def[slot], &world->substep));
 }
 
 static void begin_primal(World *world)
@@ -197,16 +197,16 @@ static void find_gaps(World *world, int32_t block, size_t begin, size_t end)
 
 static void bind(World *world)
 {
-    if (world->args.node_volume) {
+    if (world->args.grid.node_volume) {
         over_blocks(world, find_gaps);
-        world->args.node_gap = world->joint.gap.data;
+        world->args.primal.node_gap = world->joint.gap.data;
     }
     const size_t count = world->particles.count, d = (size_t)world->def.dimension;
     float *array = world->joint.particle.data;
-    world->args.held_stiffness = HELD * primal_stiffest(world->settings.iterations);
-    world->args.held_pressure = array;
+    world->args.primal.held_stiffness = HELD * primal_stiffest(world->settings.iterations);
+    world->args.primal.held_pressure = array;
     for (size_t r = 0; r < d; r++)
-        for (size_t c = 0; c < d; c++) world->args.sketch[r * 3 + c] = array + (1 + r * d + c) * count;
+        for (size_t c = 0; c < d; c++) world->args.primal.sketch[r * 3 + c] = array + (1 + r * d + c) * count;
 }
 
 /* What ended both; residual and error are the primal's, for it goes on from what the dual left of solids. */

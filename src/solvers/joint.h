@@ -23,7 +23,7 @@
 #include "world/world.h"
 
 /* The share of its stiffness that an elastic material among liquid gets. */
-double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step);
+double joint_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep);
 
 /* What the kernels need to know of materials while the dual works. */
 void joint_set_materials(World *world);

@@ -6,16 +6,16 @@
 #include "solvers/plastic.h"
 #include "solvers/viscosity.h"
 
-double moduli_unit(const pbmpm_material_def *def, const StepContext *step)
+double moduli_unit(const pbmpm_material_def *def, const Substep *substep)
 {
-    return 4.0 * step->to_cells * step->to_cells / (double)def->density;
+    return 4.0 * substep->to_cells * substep->to_cells / (double)def->density;
 }
 
 static void set_liquid(World *world, uint32_t slot, float stiffest)
 {
     const pbmpm_material_def *def = &world->materials.def[slot];
     KernelMaterial *material = &world->materials.kernel[slot];
-    const double c = moduli_unit(def, &world->step);
+    const double c = moduli_unit(def, &world->substep);
     const bool incompressible = def->bulk_modulus == 0.0f;
     material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
     if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
@@ -24,10 +24,10 @@ static void set_liquid(World *world, uint32_t slot, float stiffest)
     material->viscous_share = (float)viscosity_share(world, def);
 }
 
-double moduli_sand_share(const pbmpm_material_def *def, const StepContext *step)
+double moduli_sand_share(const pbmpm_material_def *def, const Substep *substep)
 {
     static const double STIFFEST_SHEAR = 1e4;
-    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(def, step) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
+    return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(def, substep) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
 }
 
 void moduli_set_solid(World *world, uint32_t slot, double share)
@@ -35,7 +35,7 @@ void moduli_set_solid(World *world, uint32_t slot, double share)
     const pbmpm_material_def *def = &world->materials.def[slot];
     KernelMaterial *material = &world->materials.kernel[slot];
     const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
-    const double unit = moduli_unit(def, &world->step), c = unit * share;
+    const double unit = moduli_unit(def, &world->substep), c = unit * share;
     material->relaxation = def->relaxation;
     material->shear = (float)fmin(c * lame.mu, 1e30);
     material->dilation = (float)fmin(c * lame.lambda, 1e30);

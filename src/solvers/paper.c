@@ -67,7 +67,7 @@ static double pressure_head(double weight, const LiquidState *liquid) { return 3
 static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight)
 {
     const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
-    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->step.substep_dt / (double)world->def.cell_size;
+    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->substep.dt / (double)world->def.cell_size;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
@@ -75,7 +75,7 @@ static double growth_bound(const World *world, const LiquidState *liquid, const 
 static double pressure_bound(const World *world, const KernelMaterial *material, double head, double densest)
 {
     static const double BEARS = 0.5;
-    const double cells = world->step.to_cells;
+    const double cells = world->substep.to_cells;
     const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
     const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
     return heavier > 1.0 + SUM_ROUNDING ? fmin(own * heavier, fmax(own, BEARS)) : own;
@@ -94,7 +94,7 @@ static double pressure_bound(const World *world, const KernelMaterial *material,
 static float even_share(const World *world, const KernelMaterial *material)
 {
     static const double LOCKS = 1.5e5;
-    const double fall = gravity_fall(world, &world->step);
+    const double fall = gravity_fall(world, &world->substep);
     const double stiffness = (double)material->relaxation * world->settings.iterations / fmax(fall, 1e-12);
     const double share = fall > 0.0 ? fmin(fmax(stiffness / LOCKS - 1.0, 0.0), 1.0) : 0.0;
     return (float)share * material->volume_feedback;
@@ -108,16 +108,16 @@ static float even_share(const World *world, const KernelMaterial *material)
  * once, and a constant dt is not touched. */
 static float softening_of_step(World *world)
 {
-    const double dt = world->step.substep_dt;
+    const double dt = world->substep.dt;
     world->slow_dt = fmax(dt, 0.8 * world->slow_dt);
     const double ratio = dt / world->slow_dt;
     return (float)(ratio * ratio);
 }
 
-double paper_viscous_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
     const double dx = (double)world->def.cell_size;
-    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * step->substep_dt / (world->settings.iterations * dx * dx), 1.0);
+    return fmin((double)def->viscosity + 8.0 * (double)def->kinematic_viscosity * substep->dt / (world->settings.iterations * dx * dx), 1.0);
 }
 
 /* Without gravity nothing brings spray back, so crushed matter grows slowly. */
@@ -140,7 +140,7 @@ void paper_set_materials(World *world)
         if (material->kind != K_LIQUID) continue;
         material->volume_feedback = def->volume_feedback;
         material->even_share = even_share(world, material);
-        material->viscosity = (float)paper_viscous_share(world, def, &world->step);
+        material->viscosity = (float)paper_viscous_share(world, def, &world->substep);
         const bool weightless = weight == 0.0;
         material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, head, liquid.densest);

@@ -15,6 +15,6 @@ void paper_solve(World *world, const ContactFrame *contacts);
 /* The share of the deviator that each iteration removes: the material's own, and what stands for its kinematic viscosity nu. A change dD is the
  * impulse of the stress -rho dx^2 / (4 dt^2) dD; with dD = -s dev(D), D = dt grad v, that is 2 rho nu dev(grad v) with nu = s dx^2 / (8 dt), once
  * per iteration. At most 1. */
-double paper_viscous_share(const World *world, const pbmpm_material_def *def, const StepContext *step);
+double paper_viscous_share(const World *world, const pbmpm_material_def *def, const Substep *substep);
 
 #endif

@@ -10,7 +10,7 @@ enum { BLOCK_GRAIN = 2 };
 
 bool solver_uses_dual(const World *world)
 {
-    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == PBMPM_SOLVER_CONVERGENT;
+    return world->record.solver == PBMPM_SOLVER_DUAL || world->record.solver == SOLVER_JOINT;
 }
 
 bool solver_holds_liquid(const World *world)
@@ -38,12 +38,12 @@ bool solver_follows_grid(const World *world, uint32_t slot)
  * so noise of the density heats liquid the more the shorter the substep. */
 float solver_feedback_share(const World *world, const pbmpm_material_def *def)
 {
-    return (float)per_reference_step((double)def->volume_feedback, &world->step);
+    return (float)per_reference_step((double)def->volume_feedback, &world->substep);
 }
 
 double solver_joule(const World *world)
 {
-    const double cells = world->step.substep_dt * (double)(float)world->step.cells_per_metre;
+    const double cells = world->substep.dt * (double)(float)world->substep.cells_per_metre;
     return 1.0 / (cells * cells);
 }
 

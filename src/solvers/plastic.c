@@ -8,5 +8,5 @@ void plastic_set(World *world, uint32_t slot, double bulk_over_shear)
     KernelMaterial *material = &world->materials.kernel[slot];
     material->friction = (float)sin((double)def->friction_angle);
     material->bulk_over_shear = (float)bulk_over_shear;
-    material->excess_kept = (float)exp(-(double)def->flow_rate * world->step.substep_dt);
+    material->excess_kept = (float)exp(-(double)def->flow_rate * world->substep.dt);
 }

@@ -30,7 +30,7 @@ static const SolverKind kinds[] = {
     [PBMPM_SOLVER_DUAL] = {dual_set_materials, dual_prepare, dual_solve},
     [PBMPM_SOLVER_PRIMAL] = {primal_set_materials, primal_prepare, primal_solve},
     [PBMPM_SOLVER_EXPLICIT] = {explicit_set_materials, explicit_prepare, explicit_solve},
-    [PBMPM_SOLVER_CONVERGENT] = {joint_set_materials, joint_prepare, joint_solve},
+    [SOLVER_JOINT] = {joint_set_materials, joint_prepare, joint_solve},
 };
 
 /* ---- Parameters of the substep ---- */
@@ -41,7 +41,7 @@ static const double CONTROL_SHARE = 0.2;
 
 static void set_volume_control(World *world)
 {
-    const double part = gravity_fall(world, &world->step) > 0.0 ? CONTROL_SHARE : 0.0;
+    const double part = gravity_fall(world, &world->substep) > 0.0 ? CONTROL_SHARE : 0.0;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
@@ -63,7 +63,7 @@ static void follow_iterations(World *world)
 {
     static const double GROWTH = 1.04; /* per substep */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
-    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->step, before) : GROWTH * before;
+    const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->substep, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;
 }
 
@@ -78,37 +78,37 @@ void solver_bind(World *world, bool with_volume)
     Particles *p = &world->particles;
     Grid *grid = &world->grid;
     KernelArgs *a = &world->args;
-    const StepContext *step = &world->step;
-    const float calm_way = (float)(CALM_SPEED * step->substep_dt);
-    *a = (KernelArgs){.volume_ratio = p->volume_ratio,
-                      .mass = p->mass,
-                      .identity = (const uint32_t *)(const void *)p->id,
-                      .status = p->status,
-                      .run_begin = grid->run_begin,
-                      .run_key = grid->run_key,
-                      .block_run = grid->block_run.data,
-                      .neighbour = grid->neighbour.data,
-                      .particle_blocks = grid->particle_blocks,
-                      .tile = grid->tile.data,
-                      .tile_volume = with_volume ? grid->tile_volume.data : NULL,
-                      .node = grid->node.data,
-                      .node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
-                      .node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
-                      .node_volume = with_volume ? grid->node_volume.data : NULL,
-                      .node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
-                      .node_reach = grid->node_reach.data,
-                      .edged = with_volume ? grid->edged.data : NULL,
-                      .clamped = grid->clamped.data,
-                      .moved = grid->moved.data,
-                      .lost = grid->lost.data,
-                      .travel = grid->travel.data,
+    const Substep *substep = &world->substep;
+    const float calm_way = (float)(CALM_SPEED * substep->dt);
+    *a = (KernelArgs){.particles.volume_ratio = p->volume_ratio,
+                      .particles.mass = p->mass,
+                      .particles.identity = (const uint32_t *)(const void *)p->id,
+                      .particles.status = p->status,
+                      .grid.run_begin = grid->run_begin,
+                      .grid.run_key = grid->run_key,
+                      .grid.block_run = grid->block_run.data,
+                      .grid.neighbour = grid->neighbour.data,
+                      .grid.particle_blocks = grid->particle_blocks,
+                      .grid.tile = grid->tile.data,
+                      .grid.tile_volume = with_volume ? grid->tile_volume.data : NULL,
+                      .grid.node = grid->node.data,
+                      .grid.node_base = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .grid.node_before = world->record.solver == PBMPM_SOLVER_PAPER ? NULL : grid->node_base.data,
+                      .grid.node_volume = with_volume ? grid->node_volume.data : NULL,
+                      .grid.node_density = with_volume && weighs_liquids(world) ? grid->node_density.data : NULL,
+                      .grid.node_reach = grid->node_reach.data,
+                      .grid.edged = with_volume ? grid->edged.data : NULL,
+                      .grid.clamped = grid->clamped.data,
+                      .grid.moved = grid->moved.data,
+                      .grid.lost = grid->lost.data,
+                      .grid.travel = grid->travel.data,
                       .material = world->materials.kernel,
                       .iterations = world->record.solver == PBMPM_SOLVER_PAPER ? world->settings.iterations : 0,
                       .flip = world->settings.flip,
                       .feedback_way = solver_uses_dual(world) ? calm_way : 0.0f,
                       .quiet_way = world->record.solver == PBMPM_SOLVER_PRIMAL ? calm_way : 0.0f,
-                      .dt = (float)step->substep_dt,
-                      .cells_per_metre = (float)step->cells_per_metre,
+                      .dt = (float)substep->dt,
+                      .cells_per_metre = (float)substep->cells_per_metre,
                       .max_displacement = world->settings.max_displacement,
                       .max_cell = CELL_LIMIT,
                       .salt = (uint32_t)world->step_count * PBMPM_MAX_SUBSTEPS + world->record.substeps,
@@ -116,15 +116,15 @@ void solver_bind(World *world, bool with_volume)
     follow_iterations(world);
     kinds[world->record.solver].set_materials(world);
     set_volume_control(world);
-    memcpy(a->fraction, p->fraction, sizeof a->fraction);
-    memcpy(a->cell, p->cell, sizeof a->cell);
-    memcpy(a->velocity, p->velocity, sizeof a->velocity);
-    memcpy(a->affine, p->affine, sizeof a->affine);
-    memcpy(a->deformation, p->deformation, sizeof a->deformation);
+    memcpy(a->particles.fraction, p->fraction, sizeof a->particles.fraction);
+    memcpy(a->particles.cell, p->cell, sizeof a->particles.cell);
+    memcpy(a->particles.velocity, p->velocity, sizeof a->particles.velocity);
+    memcpy(a->particles.affine, p->affine, sizeof a->particles.affine);
+    memcpy(a->particles.deformation, p->deformation, sizeof a->particles.deformation);
     multistep_bind(world);
     granular_bind(world);
     for (int k = 0; k < world->def.dimension; k++) {
-        const double pull = (double)world->settings.gravity[k] * step->substep_dt * step->substep_dt * step->cells_per_metre;
+        const double pull = (double)world->settings.gravity[k] * substep->dt * substep->dt * substep->cells_per_metre;
         a->gravity[k] = fmaxf(-K_INCREMENT_MAX, fminf(K_INCREMENT_MAX, (float)pull));
     }
 }
@@ -150,7 +150,7 @@ pbmpm_solver solver_for(const World *world, uint32_t matter)
 {
     if (matter & KIND_SAND) return granular_flows(world, matter) ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_PRIMAL;
     if (!(matter & KIND_LIQUID) || world->settings.iterations == 1) return PBMPM_SOLVER_PRIMAL;
-    return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : PBMPM_SOLVER_CONVERGENT;
+    return matter == KIND_LIQUID ? PBMPM_SOLVER_DUAL : SOLVER_JOINT;
 }
 
 static pbmpm_solver chosen(const World *world)
@@ -222,7 +222,7 @@ static void fly(void *context, int32_t begin, int32_t end)
 static void let_fly(World *world)
 {
     if (world->grid.flights == 0) return;
-    world->args.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
+    world->args.dual.pressure = world->particles.pressure; /* that of none, and 0 in the paper's solver */
     pool_for(world->pool, world->grid.flights, BLOCK_GRAIN, fly, world);
 }
 

@@ -7,14 +7,14 @@
 /* Chooses the solver of this substep and takes the memory that it needs. The grid is built. */
 pbmpm_result solver_prepare(World *world);
 
-/* What PBMPM_SOLVER_CONVERGENT stands for in the next substep where matter of these kinds, see islands.h, touches; itself for the joint solver. */
+/* What PBMPM_SOLVER_CONVERGENT stands for in the next substep where matter of these kinds, see islands.h, touches. */
 pbmpm_solver solver_for(const World *world, uint32_t matter);
 
 /* Whether the substep may need the volume on the grid, asked before the grid is built; and whether it does. */
 bool solver_may_want_volume(const World *world);
 bool solver_wants_volume(const World *world);
 
-/* Points the kernel arguments at the world's arrays, for substeps as in world->step. */
+/* Points the kernel arguments at the world's arrays, for substeps as in world->substep. */
 void solver_bind(World *world, bool with_volume);
 
 /* First P2G and predictor. */

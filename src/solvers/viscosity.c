@@ -10,7 +10,7 @@ double viscosity_share(const World *world, const pbmpm_material_def *def)
 {
     const double dx = (double)world->def.cell_size;
     const double most = 0.5 * (VISCOUS_STAGES_MAX * VISCOUS_STAGES_MAX + VISCOUS_STAGES_MAX);
-    return fmin(8.0 * (double)def->kinematic_viscosity * world->step.substep_dt / (dx * dx), most);
+    return fmin(8.0 * (double)def->kinematic_viscosity * world->substep.dt / (dx * dx), most);
 }
 
 static bool wanted(const World *world)
@@ -37,12 +37,12 @@ void viscosity_apply(World *world, const ContactFrame *contacts)
         if (world->particles.of_material[slot] > 0) share = fmax(share, (double)world->materials.kernel[slot].viscous_share);
     if (share == 0.0) return;
     const int stages = (int)ceil(0.5 * (sqrt(1.0 + 8.0 * share) - 1.0));
-    a->node_push = world->dual.node_push.data;
-    memset(a->node_push, 0, (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
+    a->dual.node_push = world->dual.node_push.data;
+    memset(a->dual.node_push, 0, (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
     for (int j = 1; j <= stages; j++) {
-        a->stage_last = (float)((2.0 * j - 1.0) / j);
-        a->stage_before = (float)((1.0 - j) / j);
-        a->stage_change = 2.0f * a->stage_last / (float)(stages * stages + stages);
+        a->dual.stage_last = (float)((2.0 * j - 1.0) / j);
+        a->dual.stage_before = (float)((1.0 - j) / j);
+        a->dual.stage_change = 2.0f * a->dual.stage_last / (float)(stages * stages + stages);
         solver_over_both(world, world->kernels->viscous, world->kernels->viscous_nodes, contacts);
     }
 }

@@ -4,9 +4,9 @@
 #include <string.h>
 
 #include "base/generations.h"
+#include "base/random.h"
 #include "base/result.h"
-#include "base/scatter.h"
-#include "step/crowd.h"
+#include "step/occupancy.h"
 
 /* ---- Amounts ---- */
 
@@ -90,7 +90,7 @@ enum { FOR_PLACE = 0, FOR_VELOCITY = 3, FOR_OFFSET = 5, PURPOSES = 8 };
 /* In [-1/2, 1/2). */
 static double random_of(const pbmpm_emitter_def *def, uint64_t number, int purpose)
 {
-    return scatter_number(def->seed, number * PURPOSES + (uint64_t)purpose);
+    return random_number(def->seed, number * PURPOSES + (uint64_t)purpose);
 }
 
 /* The additive sequence with the steps 1/g, 1/g^2, .. where g^(n+1) = g + 1 for n dimensions, which fills a square or cube evenly
@@ -187,14 +187,14 @@ static void draw_velocity(const Emitter *emitter, const Nozzle *nozzle, double v
 /* ---- Whether there is space ---- */
 
 /* The nodes that particles which appear in this part can touch: in the domain, and as far out of it as to see that its walls are closed. */
-static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part)
+static Occupancy occupancy_bounds(const World *world, const Emitter *emitter, int part)
 {
-    const double dx = (double)world->def.cell_size, dt = world->step.substep_dt, parts = world->settings.substeps;
+    const double dx = (double)world->def.cell_size, dt = world->substep.dt, parts = world->settings.substeps;
     double gravity2 = 0.0;
     for (int a = 0; a < world->def.dimension; a++) gravity2 += (double)world->settings.gravity[a] * (double)world->settings.gravity[a];
     const double way = ((double)emitter->def.speed + sqrt(gravity2) * dt) * dt / dx;
-    const double reach = fmin(way, (double)world->settings.max_displacement) + CROWD_WIDE + 2.0;
-    Crowd crowd = {.size = {1, 1, 1}, .groups = world->materials.def[emitter->def.material.index].groups};
+    const double reach = fmin(way, (double)world->settings.max_displacement) + OCCUPANCY_WIDE + 2.0;
+    Occupancy occupancy = {.size = {1, 1, 1}, .groups = world->materials.def[emitter->def.material.index].groups};
     double low[2][3], high[2][3];
     for (int end = 0; end < 2; end++) {
         const Nozzle nozzle = nozzle_at(emitter, world->def.dimension, (float)((part + end) / parts));
@@ -203,12 +203,12 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part)
     for (int a = 0; a < world->def.dimension; a++) {
         double first = fmin(low[0][a], low[1][a]) / dx - reach, last = fmax(high[0][a], high[1][a]) / dx + reach;
         const double inmost = world->domain.low[a] / dx, outmost = world->domain.high[a] / dx; /* infinite where no wall is */
-        first = fmin(fmax(first, inmost - CROWD_RIM), outmost);
-        last = fmax(fmin(last, outmost + CROWD_RIM), inmost);
-        crowd.low[a] = (int32_t)floor(first);
-        crowd.size[a] = (int32_t)fmax(ceil(last) - floor(first) + 1.0, 1.0);
+        first = fmin(fmax(first, inmost - OCCUPANCY_RIM), outmost);
+        last = fmax(fmin(last, outmost + OCCUPANCY_RIM), inmost);
+        occupancy.low[a] = (int32_t)floor(first);
+        occupancy.size[a] = (int32_t)fmax(ceil(last) - floor(first) + 1.0, 1.0);
     }
-    return crowd;
+    return occupancy;
 }
 
 /* ---- Births ---- */
@@ -216,7 +216,7 @@ static Crowd crowd_bounds(const World *world, const Emitter *emitter, int part)
 /* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
 static const double DENSEST = 1.25;
 
-/* Farther from an obstacle than this [cells] all nodes that count are open: CROWD_WIDE + 1/2 and their support, 3/2, across the axes. */
+/* Farther from an obstacle than this [cells] all nodes that count are open: OCCUPANCY_WIDE + 1/2 and their support, 3/2, across the axes. */
 static const double FREE = 6.5;
 
 /* A place on a surface is not inside it, whatever rounding says. */
@@ -230,30 +230,30 @@ typedef struct Birth {
 } Birth;
 
 /* Whether there is space for it at the point [m]; then it is added. */
-static bool settle(World *world, Emitter *emitter, Crowd *crowd, const Birth *birth, const double point[3], double clear, uint32_t generation)
+static bool add_if_room(World *world, Emitter *emitter, Occupancy *occupancy, const Birth *birth, const double point[3], double clear, uint32_t generation)
 {
     const int d = world->def.dimension;
     const double dx = (double)world->def.cell_size;
     double place[3] = {0};
     Spot spot;
     for (int a = 0; a < d; a++) place[a] = point[a] / dx;
-    if (!crowd_find(crowd, d, place, &spot)) return false;
+    if (!occupancy_find(occupancy, d, place, &spot)) return false;
     const double limit = (double)emitter->def.fill_limit;
-    if (crowd->held + particle_volume(&emitter->def, d) > limit * crowd->room) return false;
-    if (crowd_density(crowd, d, &spot) > DENSEST * limit || crowd_filling(world, crowd, place, clear < FREE) > limit) return false;
+    if (occupancy->held + particle_volume(&emitter->def, d) > limit * occupancy->room) return false;
+    if (occupancy_density(occupancy, d, &spot) > DENSEST * limit || occupancy_filling(world, occupancy, place, clear < FREE) > limit) return false;
     NewParticle particle = {.mass = particle_mass(world, &emitter->def), .material = emitter->def.material.index, .user_value = emitter->def.user_value};
     for (int a = 0; a < d; a++) {
         particle.position[a] = place[a];
         particle.velocity[a] = (float)(birth->velocity[a] + (double)world->settings.gravity[a] * birth->since);
     }
     particles_append(&world->particles, &particle, generation);
-    crowd_add(crowd, d, &spot, particle_volume(&emitter->def, d));
+    occupancy_add(occupancy, d, &spot, particle_volume(&emitter->def, d));
     emitter->state.emitted++;
     return true;
 }
 
 /* Where it has come to, x + v t + g t^2 / 2, at most max_displacement; where it was born if something is in the way. */
-static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *birth, uint32_t generation)
+static bool emit_particle(World *world, Emitter *emitter, Occupancy *occupancy, const Birth *birth, uint32_t generation)
 {
     double point[3] = {0}, way[3] = {0}, length = 0.0;
     for (int a = 0; a < world->def.dimension; a++) {
@@ -263,21 +263,21 @@ static bool be_born(World *world, Emitter *emitter, Crowd *crowd, const Birth *b
     const double limit = (double)world->settings.max_displacement * (double)world->def.cell_size;
     const double slow = length > limit * limit ? limit / sqrt(length) : 1.0;
     for (int a = 0; a < world->def.dimension; a++) point[a] = birth->point[a] + slow * way[a];
-    double clear = crowd_clearance(world, crowd, point);
+    double clear = occupancy_clearance(world, occupancy, point);
     if (clear < 0.0) { /* something is in the way */
         memcpy(point, birth->point, sizeof point);
-        clear = crowd_clearance(world, crowd, point);
+        clear = occupancy_clearance(world, occupancy, point);
     }
     if (clear < -SURFACE) return false;
     const Domain *domain = &world->domain;
     for (int a = 0; a < world->def.dimension; a++) point[a] = fmin(fmax(point[a], domain->low[a]), domain->high[a]);
-    return settle(world, emitter, crowd, birth, point, clear, generation);
+    return add_if_room(world, emitter, occupancy, birth, point, clear, generation);
 }
 
 /* Particles that come due in a part of a step, counted as far as anybody can. */
 static double count_due(const World *world, const Emitter *emitter)
 {
-    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * world->step.substep_dt), 1e15);
+    return fmin(floor(emitter->state.due + particle_rate(world, &emitter->def) * world->substep.dt), 1e15);
 }
 
 static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused, int part)
@@ -291,11 +291,11 @@ static void tell_refusals(World *world, const Emitter *emitter, uint64_t refused
 }
 
 /* The j-th birth is when `due` passes the number j. */
-static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int part)
+static void emit(World *world, Emitter *emitter, Occupancy *occupancy, uint64_t due, int part)
 {
     EmitterState *state = &emitter->state;
     const EmitterState before = *state;
-    const double rate = particle_rate(world, &emitter->def), dt = world->step.substep_dt, parts = world->settings.substeps;
+    const double rate = particle_rate(world, &emitter->def), dt = world->substep.dt, parts = world->settings.substeps;
     const double spacing = (double)world->def.cell_size / (double)emitter->def.particles_per_axis;
     const uint32_t generation = generation_next_of_particles();
     const uint64_t budget = emitter->def.budget ? emitter->def.budget : UINT64_MAX;
@@ -309,7 +309,7 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
         draw_point(emitter, &nozzle, spacing, birth.point);
         draw_velocity(emitter, &nozzle, birth.velocity);
         state->born++;
-        if (!be_born(world, emitter, crowd, &birth, generation)) state->refused_full++;
+        if (!emit_particle(world, emitter, occupancy, &birth, generation)) state->refused_full++;
     }
     const uint64_t rest = due - (j - 1);
     state->born += rest;
@@ -323,14 +323,14 @@ static void emit(World *world, Emitter *emitter, Crowd *crowd, uint64_t due, int
 }
 
 /* Where the way adds more nodes than there are at its end, and too many, there is none. */
-static void jump_if_far(const World *world, Emitter *emitter, Crowd *crowd, int part)
+static void jump_if_far(const World *world, Emitter *emitter, Occupancy *occupancy, int part)
 {
     Emitter there = *emitter;
     emitter_arrive(&there);
-    const Crowd end = crowd_bounds(world, &there, part);
-    if (crowd_nodes(crowd) <= crowd_nodes(&end) + EMITTER_CELLS_MAX) return;
+    const Occupancy end = occupancy_bounds(world, &there, part);
+    if (occupancy_nodes(occupancy) <= occupancy_nodes(&end) + EMITTER_CELLS_MAX) return;
     *emitter = there;
-    *crowd = end;
+    *occupancy = end;
 }
 
 pbmpm_result emitters_prepare(World *world, int part)
@@ -342,10 +342,10 @@ pbmpm_result emitters_prepare(World *world, int part)
         pbmpm_result room = world_make_room_for(world, emitter->def.material.index);
         if (room == PBMPM_OK && emitter->def.user_value) room = particles_enable_user_values(&world->particles, &world->memory);
         if (room != PBMPM_OK) return room;
-        Crowd crowd = crowd_bounds(world, emitter, part);
-        if (emitter->moving && crowd_nodes(&crowd) > EMITTER_CELLS_MAX) jump_if_far(world, emitter, &crowd, part);
-        if (crowd_nodes(&crowd) > 1e9 || !array_reserve(&world->memory, &emitters->crowd, (size_t)crowd_nodes(&crowd), sizeof(float)))
-            return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", crowd_nodes(&crowd));
+        Occupancy occupancy = occupancy_bounds(world, emitter, part);
+        if (emitter->moving && occupancy_nodes(&occupancy) > EMITTER_CELLS_MAX) jump_if_far(world, emitter, &occupancy, part);
+        if (occupancy_nodes(&occupancy) > 1e9 || !array_reserve(&world->memory, &emitters->occupancy, (size_t)occupancy_nodes(&occupancy), sizeof(float)))
+            return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the %.0f nodes around an emitter and its way", occupancy_nodes(&occupancy));
     }
     return PBMPM_OK;
 }
@@ -358,12 +358,12 @@ void emitters_run(World *world, int part)
         if (!works(emitter)) continue;
         const double due = count_due(world, emitter);
         if (due >= 1.0) {
-            Crowd crowd = crowd_bounds(world, emitter, part);
-            crowd.volume = emitters->crowd.data;
-            crowd_measure(world, &crowd);
-            emit(world, emitter, &crowd, (uint64_t)due, part);
+            Occupancy occupancy = occupancy_bounds(world, emitter, part);
+            occupancy.volume = emitters->occupancy.data;
+            occupancy_measure(world, &occupancy);
+            emit(world, emitter, &occupancy, (uint64_t)due, part);
         }
-        const double total = emitter->state.due + particle_rate(world, &emitter->def) * world->step.substep_dt;
+        const double total = emitter->state.due + particle_rate(world, &emitter->def) * world->substep.dt;
         emitter->state.due = total - floor(total);
     }
 }

@@ -35,13 +35,13 @@ static Motion motion_of(const Flight *flight, uint32_t row)
 {
     const World *world = flight->world;
     const Particles *p = &world->particles;
-    const StepContext *step = &world->step;
+    const Substep *substep = &world->substep;
     Motion motion = {0};
     for (int a = 0; a < p->dimension; a++) {
-        const double d = ((double)p->velocity[a][row] + (double)world->settings.gravity[a] * step->substep_dt) * step->to_cells;
+        const double d = ((double)p->velocity[a][row] + (double)world->settings.gravity[a] * substep->dt) * substep->to_cells;
         motion.way += d * d;
-        motion.growth += (double)p->affine[a * 4][row] * step->substep_dt;
-        for (int c = 0; c < p->dimension; c++) motion.strain += fabs((double)p->affine[a * 3 + c][row]) * step->substep_dt;
+        motion.growth += (double)p->affine[a * 4][row] * substep->dt;
+        for (int c = 0; c < p->dimension; c++) motion.strain += fabs((double)p->affine[a * 3 + c][row]) * substep->dt;
     }
     motion.way = sqrt(motion.way);
     return motion;

@@ -72,10 +72,10 @@ static void wind_at(const Force *force, const double point[3], double out[3])
 }
 
 /* k dt. Infinity is 1e9: what is left of a velocity is then 0, and of an acceleration a billionth. */
-static double drag_at(const Force *force, double share, const StepContext *step)
+static double drag_at(const Force *force, double share, const Substep *substep)
 {
     const double rate = force->def.kind == PBMPM_FORCE_DRAG ? (double)force->def.strength * share : -REFERENCE_RATE * log1p(-share);
-    return fmin(rate * step->substep_dt, 1e9);
+    return fmin(rate * substep->dt, 1e9);
 }
 
 /* ---- At a node ---- */
@@ -99,7 +99,7 @@ typedef struct Felt {
 
 static void feel(const World *world, const Reaching *reaching, const double point[3], Felt *felt)
 {
-    const StepContext *step = &world->step;
+    const Substep *substep = &world->substep;
     felt->any = false;
     felt->total_drag = 0.0;
     for (int a = 0; a < 3; a++) felt->acceleration[a] = felt->wind[a] = 0.0;
@@ -111,13 +111,13 @@ static void feel(const World *world, const Reaching *reaching, const double poin
         felt->any = true;
         if (is_drag(&force->def)) {
             wind_at(force, point, felt->change[i]);
-            felt->drag[i] = drag_at(force, share, step);
+            felt->drag[i] = drag_at(force, share, substep);
             felt->total_drag += felt->drag[i];
             for (int a = 0; a < 3; a++) felt->wind[a] += felt->drag[i] * felt->change[i][a];
             continue;
         }
         acceleration_at(force, point, share, (double)world->def.cell_size, felt->change[i]);
-        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= step->substep_dt;
+        for (int a = 0; a < 3; a++) felt->acceleration[a] += felt->change[i][a] *= substep->dt;
     }
     for (int a = 0; a < 3 && felt->total_drag > 0.0; a++) felt->wind[a] /= felt->total_drag;
 }
@@ -151,7 +151,7 @@ typedef struct ForceJob {
 /* The displacement of a node in the predictor [cells], changed by what it feels; see pbmpm_force_def. `pull`: of gravity. */
 static void change_node(const ForceJob *job, const Felt *felt, float *u, double gained[3])
 {
-    const double drag = felt->total_drag, lost = -expm1(-drag), to_velocity = job->world->step.to_velocity, to_cells = 1.0 / to_velocity;
+    const double drag = felt->total_drag, lost = -expm1(-drag), to_velocity = job->world->substep.to_velocity, to_cells = 1.0 / to_velocity;
     for (int a = 0; a < job->world->def.dimension; a++) {
         const double pull = (double)job->world->args.gravity[a], before = (double)u[a];
         if (drag == 0.0) {
@@ -208,8 +208,8 @@ static void change_block(const ForceJob *job, int32_t block, const double corner
         for (int a = 0; a < world->def.dimension; a++) reach = fmaxf(reach, fabsf(u[a]));
     }
     ((float *)world->grid.node_reach.data)[block] = reach;
-    if (!world->args.node_base) return;
-    memcpy(world->args.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
+    if (!world->args.grid.node_base) return;
+    memcpy(world->args.grid.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
 }
 
 static void change_blocks(void *context, int32_t begin, int32_t end)
@@ -247,12 +247,12 @@ pbmpm_result forces_apply(World *world)
     forces->on = job.on;
     if (job.on == 0) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    const bool keep = world->args.node_base != NULL;
+    const bool keep = world->args.grid.node_base != NULL;
     const pbmpm_result result = take_memory(world, job.on, floats, keep);
     if (result != PBMPM_OK) return result;
     if (keep) {
-        memcpy(forces->before.data, world->args.node_base, floats * sizeof(float));
-        world->args.node_before = forces->before.data;
+        memcpy(forces->before.data, world->args.grid.node_base, floats * sizeof(float));
+        world->args.grid.node_before = forces->before.data;
     }
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, change_blocks, &job);
     return PBMPM_OK;

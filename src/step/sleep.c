@@ -14,7 +14,7 @@
 
 void sleep_begin_step(World *world)
 {
-    const double dt = world->step.substep_dt;
+    const double dt = world->substep.dt;
     Sleep *sleep = &world->sleep;
     static const double SAME = 1.1; /* factor between lengths of substeps with which matter at rest stays at rest */
     if (!world->settings.sleeping) {
@@ -147,7 +147,7 @@ static void fall_asleep(const Decision *d, uint32_t blocks)
     for (uint32_t f = 0; f < blocks; f++) {
         SleepBlock *block = &d->next[f];
         if (block->stage != SLEEP_AWAKE) continue;
-        block->quiet = is_quiet_around(d, block) ? block->quiet + (float)d->world->step.substep_dt : 0.0f;
+        block->quiet = is_quiet_around(d, block) ? block->quiet + (float)d->world->substep.dt : 0.0f;
         if (!(block->quiet > d->world->settings.sleep_time) || sleep_is_measured(d->world, block->place)) continue;
         block->stage = SLEEP_DROWSY;
         block->moved = 1;
@@ -353,7 +353,7 @@ pbmpm_result sleep_prepare(World *world)
 {
     Sleep *sleep = &world->sleep;
     const Particles *p = &world->particles;
-    world->args.drift = sleep->drift.data;
+    world->args.grid.drift = sleep->drift.data;
     if (!p->pressure || sleep->still_rows == 0) return PBMPM_OK;
     if (!array_reserve(&world->memory, &sleep->pressure, sleep->still_rows, sizeof(float)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the pressures of %u particles that sleep", sleep->still_rows);
@@ -368,11 +368,11 @@ static const double MEMORY = 0.03; /* [s] */
 
 static bool would_move(const World *world, SleepBlock *block, const float *drift)
 {
-    const double to_velocity = world->step.to_velocity, limit = (double)world->settings.sleep_speed;
+    const double to_velocity = world->substep.to_velocity, limit = (double)world->settings.sleep_speed;
     const double mass = fmax((double)drift[0], FLT_MIN);
     double gained2 = 0.0;
     for (int a = 0; a < 3; a++) {
-        block->gained[a] = (float)((double)block->gained[a] * exp(-world->step.substep_dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
+        block->gained[a] = (float)((double)block->gained[a] * exp(-world->substep.dt / MEMORY) + (double)drift[1 + a] / mass * to_velocity);
         gained2 += (double)block->gained[a] * (double)block->gained[a];
     }
     const double fastest = sqrt((double)drift[4]) * to_velocity;

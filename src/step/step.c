@@ -112,7 +112,7 @@ static void remove_marked(World *world)
 {
     if (world->sleep.on) sleep_settle(world);
     particles_compact(&world->particles, world->sleep.rows);
-    world_touch(world);
+    world_expire_views(world);
 }
 
 /* ---- Phases ---- */
@@ -195,38 +195,38 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
-    Sight *sight = &world->sight[islands_kinds(world)];
+    ObstacleCache *cache = &world->obstacle_cache[islands_kinds(world)];
     *contacts = (ContactFrame){.colliders = &world->colliders,
                                .grid = &world->grid,
                                .cell_size = cell_size,
-                               .step = &world->step,
+                               .substep = &world->substep,
                                .max_displacement = world->settings.max_displacement,
-                               .fall = gravity_fall(world, &world->step),
+                               .fall = gravity_fall(world, &world->substep),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
-                               .apart = solver == PBMPM_SOLVER_CONVERGENT,
+                               .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
     walls_clear(&world->walls);
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
-    if (result == PBMPM_OK) result = sight_open(contacts, sight, &world->memory);
+    if (result == PBMPM_OK) result = obstacle_cache_open(contacts, cache, &world->memory);
     if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = reach_find(contacts, world->materials.kernel, &world->memory);
+    if (result == PBMPM_OK && solver == SOLVER_JOINT) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;
     }
     if (result == PBMPM_OK) result = contacts_find(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == PBMPM_SOLVER_CONVERGENT) result = joint_find_contacts(world, contacts);
+    if (result == PBMPM_OK && solver == SOLVER_JOINT) result = joint_find_contacts(world, contacts);
     if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
     if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
         result = fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the open shares of %d blocks", world->grid.node_blocks);
     if (result != PBMPM_OK)
-        sight_forget(sight);
+        obstacle_cache_forget(cache);
     else
-        result = sight_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
+        result = obstacle_cache_keep(contacts, contacts->walls ? &world->walls : NULL, with_volume ? contacts_opened(contacts, by_ratio) : 0, &world->memory);
     return result;
 }
 
@@ -340,12 +340,12 @@ pbmpm_result world_step(World *world, float dt)
 {
     const double begin = now_ms();
     const int parts = world->settings.substeps;
-    world->step = world_context(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
+    world->substep = world_substep(world, (double)(float)((double)dt / parts)); /* the kernels take it as a float */
     world->record = (StepRecord){.iterations = (uint32_t)world->settings.iterations};
     events_clear(&world->events);
     impulses_clear(&world->colliders.impulses);
     forces_begin_step(&world->forces);
-    world_touch(world);
+    world_expire_views(world);
     sleep_begin_step(world);
     pool_set_serial(world->pool, world->particles.count - world->sleep.rows < SERIAL_BELOW);
     for (int part = 0; part < parts; part++) {
@@ -355,7 +355,7 @@ pbmpm_result world_step(World *world, float dt)
         if (result == PBMPM_OK) result = world->particles.count ? substep(world, part) : empty_substep(world, part);
         if (result != PBMPM_OK) return result;
         emitters_run(world, part);
-        world->simulated_seconds += world->step.substep_dt;
+        world->simulated_seconds += world->substep.dt;
         world->record.substeps++;
     }
     colliders_end_step(&world->colliders);

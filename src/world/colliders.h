@@ -12,7 +12,7 @@ struct Collider {
     float target_rotation[4];
     bool moving;
     const DistanceGrid *grid; /* of a baked shape; else null */
-    /* Bit n: material n touches it, as touches_find() finds now, and as it told last. */
+    /* Bit n: material n touches it, as collider_touches_find() finds now, and as it told last. */
     uint64_t touching[PBMPM_MAX_MATERIALS / 64], touched[PBMPM_MAX_MATERIALS / 64];
 };
 

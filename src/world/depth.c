@@ -90,9 +90,16 @@ double gravity_strength(const World *world)
     return sqrt(square);
 }
 
-double gravity_fall(const World *world, const StepContext *step)
+double gravity_direction(const World *world, double down[3])
 {
-    return gravity_strength(world) * step->substep_dt * step->substep_dt / (double)world->def.cell_size;
+    const double strength = gravity_strength(world);
+    for (int a = 0; a < 3; a++) down[a] = a < world->def.dimension && strength > 0.0 ? (double)world->settings.gravity[a] / strength : 0.0;
+    return strength;
+}
+
+double gravity_fall(const World *world, const Substep *substep)
+{
+    return gravity_strength(world) * substep->dt * substep->dt / (double)world->def.cell_size;
 }
 
 double matter_depth(const World *world)

@@ -21,7 +21,10 @@ double slowest_pressure(const World *world);
 /* |g| [m/s^2]. */
 double gravity_strength(const World *world);
 
+/* The direction that gravity pulls in; zeros without gravity. Returns |g|. */
+double gravity_direction(const World *world, double down[3]);
+
 /* What gravity moves matter by in a substep: |g| dt^2 / dx [cells]. */
-double gravity_fall(const World *world, const StepContext *step);
+double gravity_fall(const World *world, const Substep *substep);
 
 #endif

@@ -68,7 +68,7 @@ const char *emitter_problem(const pbmpm_emitter_def *def, const pbmpm_shape *sha
 void emitters_free(Emitters *emitters, Memory *memory)
 {
     memory_give(memory, emitters->slot, PBMPM_MAX_EMITTERS * sizeof(Emitter));
-    array_free(memory, &emitters->crowd);
+    array_free(memory, &emitters->occupancy);
     *emitters = (Emitters){0};
 }
 

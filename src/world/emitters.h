@@ -33,7 +33,7 @@ typedef struct Emitter {
 typedef struct Emitters {
     Emitter *slot; /* PBMPM_MAX_EMITTERS; null until there is one */
     uint32_t used; /* slots [used, PBMPM_MAX_EMITTERS) were never taken */
-    Array crowd;   /* float per node around one emitter: rest volume per cell */
+    Array occupancy;   /* float per node around one emitter: rest volume per cell */
 } Emitters;
 
 void emitters_free(Emitters *emitters, Memory *memory);

@@ -7,16 +7,16 @@
 
 #include "base/memory.h"
 #include "base/pool.h"
-#include "base/step_context.h"
-#include "contact/sight.h"
+#include "base/substep.h"
+#include "contact/obstacle_cache.h"
 #include "contact/walls.h"
 #include "grid/bodies.h"
 #include "grid/grid.h"
 #include "grid/islands.h"
 #include "grid/kernels.h"
 #include "grid/multilevel.h"
-#include "matter/lookup.h"
 #include "matter/materials.h"
+#include "matter/particle_tree.h"
 #include "matter/particles.h"
 #include "pbmpm/pbmpm.h"
 #include "world/colliders.h"
@@ -25,6 +25,9 @@
 #include "world/forces.h"
 #include "world/sinks.h"
 #include "world/sleep_list.h"
+
+/* In StepRecord.solver: the dual and the primal together. Statistics tell it by the number of the setting that leads to it. */
+#define SOLVER_JOINT PBMPM_SOLVER_CONVERGENT
 
 /* Costs and counts of the last step, summed over its substeps. */
 typedef struct StepRecord {
@@ -62,7 +65,7 @@ typedef struct EddyDamping {
     Bodies bodies;
     EddyAccount account[ISLAND_GROUPS + 1]; /* of each set of kinds */
     Array sums, body_sums; /* per node block, and per body */
-    Array kept;            /* see KernelArgs.affine_kept */
+    Array kept;            /* see KernelArgs.dual.affine_kept */
 } EddyDamping;
 
 /* Sand of the islands with one set of kinds, see granular.h. */
@@ -82,6 +85,7 @@ typedef struct Stirred {
 /* Of all of them. */
 typedef struct Granular {
     GranularState of[ISLAND_GROUPS + 1]; /* each set of kinds */
+    bool begins[ISLAND_GROUPS + 1];      /* to fall, in this substep */
     Stirred stirred;
     Array blocks;                        /* see granular.c */
 } Granular;
@@ -109,7 +113,7 @@ typedef struct GuessMeasures {
 
 /* What the guess of the pressure keeps. */
 typedef struct GuessState {
-    Array cells, sums; /* see guess.c */
+    Array cells, sums; /* see pressure_guess.c */
     Multilevel multilevel;
     bool closed; /* matter fills a closed box */
     GuessMeasures measures;
@@ -117,6 +121,8 @@ typedef struct GuessState {
 
 /* A step on a thread of its own; see background.c. */
 typedef struct Background Background;
+/* What was worked out for surfaces; see skin/state.h. */
+typedef struct Skin Skin;
 /* Pairs of steps that the primal solver remembers. */
 enum { PRIMAL_MEMORY = 5 };
 
@@ -131,7 +137,7 @@ typedef struct PrimalState {
     Array couple, among_liquid; /* see KernelArgs; of islands of solids and liquid */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
-    Array rigid, rub, moves;   /* per body, see primal_rigid.c, holds.h and primal_momentum.c */
+    Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */
     bool bounces;              /* a body of this substep, see primal_bounce.c */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
@@ -169,12 +175,12 @@ typedef struct World {
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     Islands islands;
-    StepContext step; /* of the present step, or the last one */
+    Substep substep; /* of the present substep, or the last one */
     KernelArgs args;
     DualState dual;
     GuessState guess;
     Walls walls;
-    Sight sight[ISLAND_GROUPS + 1]; /* of each set of kinds */
+    ObstacleCache obstacle_cache[ISLAND_GROUPS + 1]; /* of each set of kinds */
     PrimalState primal;
     JointState joint;
     Granular granular;
@@ -184,8 +190,9 @@ typedef struct World {
     bool strain_unchecked; /* F was set from outside and not looked at since */
 
     pthread_mutex_t making; /* see readers.h */
-    Lookup lookup;          /* of queries; empty until the first */
+    ParticleTree particle_tree; /* of queries; empty until the first */
     Array submersion;       /* see submerged.c; empty until it is first asked for */
+    Skin *skin;             /* null until a surface is asked for, see src/skin */
     Background *background; /* null until a step is begun in the background */
 
     Events events;
@@ -220,12 +227,12 @@ static inline double world_cell_volume(const World *world)
 }
 
 /* Of substeps of so many seconds. */
-static inline StepContext world_context(const World *world, double substep_dt) { return step_context(substep_dt, (double)world->def.cell_size); }
+static inline Substep world_substep(const World *world, double dt) { return substep_of(dt, (double)world->def.cell_size); }
 
 /* To be called before the first particle of a live material is added; does nothing the second time. */
 pbmpm_result world_make_room_for(World *world, uint32_t material);
 
-/* Expires all views: the particles are not what they were. */
-static inline void world_touch(World *world) { world->generation++; }
+/* To be called when the particles are no longer what they were. */
+static inline void world_expire_views(World *world) { world->generation++; }
 
 #endif

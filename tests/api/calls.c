@@ -303,6 +303,20 @@ static pbmpm_result call_particles_fill(const target *ids)
     return pbmpm_particles_fill(ids->world, &fill, &shape, NULL);
 }
 
+static pbmpm_result call_surface_extract(const target *ids)
+{
+    pbmpm_surface_mesh mesh = {.size = sizeof mesh};
+    const pbmpm_result result = pbmpm_surface_extract(ids->world, NULL, &mesh);
+    return result == PBMPM_ERROR_UNSUPPORTED ? PBMPM_OK : result; /* the world is in 2D */
+}
+
+static pbmpm_result call_surface_points(const target *ids)
+{
+    static pbmpm_point room[1 << 13];
+    uint32_t count;
+    return pbmpm_surface_points(ids->world, NULL, room, 1 << 13, &count);
+}
+
 static pbmpm_result call_particles_copy(const target *ids)
 {
     static float room[1 << 16];
@@ -620,6 +634,8 @@ const world_call world_calls[] = {
     {"pbmpm_particles_count", call_particles_count, 0},
     {"pbmpm_particles_view", call_particles_view, 0},
     {"pbmpm_particles_copy", call_particles_copy, 0},
+    {"pbmpm_surface_extract", call_surface_extract, 0},
+    {"pbmpm_surface_points", call_surface_points, 0},
     {"pbmpm_particles_set", call_particles_set, USES_PARTICLE},
     {"pbmpm_particles_find", call_particles_find, USES_PARTICLE},
     {"pbmpm_query_shape", call_query_shape, 0},

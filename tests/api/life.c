@@ -30,6 +30,9 @@ static unsigned char baked[BAKED_ROOM], saved[SAVED_ROOM];
         if (turn_ == LIFE_ENDS) return false;                            \
     } while (0)
 
+/* Worlds in 2D have no surface, which is no failure of theirs. */
+static pbmpm_result if_3d(pbmpm_result result) { return result == PBMPM_ERROR_UNSUPPORTED ? PBMPM_OK : result; }
+
 /* The same for one that always succeeds. */
 #define TELLS(call) CALL(((void)(call), PBMPM_OK))
 
@@ -267,6 +270,10 @@ static bool ask_where_matter_is(const life_watch *watch, const life *it, const r
     float filling[3], height[3];
     pbmpm_ray_hit hit = {.size = sizeof hit};
     pbmpm_ray ray;
+    static pbmpm_point points_room[MOST];
+    pbmpm_surface_def surface;
+    pbmpm_surface_mesh mesh = {.size = sizeof mesh};
+    pbmpm_points_def look;
     uint32_t count;
     CALL(pbmpm_query_shape(it->world, &box, NULL, 0, &count));
     CALL(pbmpm_query_region(it->world, &box, NULL, 0, &count));
@@ -277,6 +284,10 @@ static bool ask_where_matter_is(const life_watch *watch, const life *it, const r
     ray.origin[0] = 1;
     ray.origin[1] = 1.9f;
     CALL(pbmpm_query_ray(it->world, &ray, &hit));
+    CALL(pbmpm_surface_def_init(&surface, sizeof surface));
+    CALL(if_3d(pbmpm_surface_extract(it->world, &surface, &mesh)));
+    CALL(pbmpm_points_def_init(&look, sizeof look));
+    CALL(pbmpm_surface_points(it->world, &look, points_room, MOST, &count));
     return true;
 }
 

@@ -17,6 +17,12 @@ pbmpm_world_def default_world(int32_t dimension, float cell_size, uint32_t capac
     return def;
 }
 
+void three_threads(pbmpm_world_def *def, void *user)
+{
+    (void)user;
+    def->thread_count = 3;
+}
+
 pbmpm_settings default_settings(void)
 {
     pbmpm_settings settings;

@@ -7,6 +7,9 @@
 /** Changes a world definition before the world is made (allocator, threads, hooks ...). */
 typedef void scene_tweak(pbmpm_world_def *def, void *user);
 
+/** Gives it three threads. */
+scene_tweak three_threads;
+
 /** A scene that was built. */
 typedef struct stage {
     pbmpm_world_id world;

@@ -9,7 +9,7 @@ target world;
 #define DEFAULTS(X)                                                                                                     \
     X(pbmpm_world_def) X(pbmpm_settings) X(pbmpm_material_def) X(pbmpm_shape) X(pbmpm_collider_def) X(pbmpm_particles_def) \
     X(pbmpm_fill_def) X(pbmpm_emitter_def) X(pbmpm_drain_def) X(pbmpm_force_def) X(pbmpm_kill_bounds) X(pbmpm_mesh_def) \
-    X(pbmpm_heights_def) X(pbmpm_ray) X(pbmpm_copy_def)
+    X(pbmpm_heights_def) X(pbmpm_ray) X(pbmpm_copy_def) X(pbmpm_surface_def) X(pbmpm_points_def)
 
 #define INIT_FUNCTION(type) static pbmpm_result init_##type(void *given, size_t size) { return type##_init(given, size); }
 DEFAULTS(INIT_FUNCTION)
@@ -461,6 +461,61 @@ static pbmpm_result give_copy(const void *structure, void *outcome)
     return pbmpm_particles_copy(world.world, structure, buffer, sizeof buffer, outcome);
 }
 
+/* Surfaces are of worlds in 3D. */
+static pbmpm_world_id world_in_3d(void)
+{
+    const pbmpm_world_def def = default_world(3, 0.1f, 1000);
+    const pbmpm_world_id made = create_world(&def);
+    fill_shape(made, create_material(made, PBMPM_LIQUID), box_shape(0, 0, 0, 0.2f, 0.2f, 0.2f), (const float[3]){0, 0, 0});
+    return made;
+}
+
+static void sound_surface(void *structure)
+{
+    pbmpm_surface_def *def = structure;
+    OK(pbmpm_surface_def_init(def, sizeof *def));
+    def->subdivision = 1;
+    def->level = 0.4f;
+}
+
+static pbmpm_result give_surface(const void *structure, void *outcome)
+{
+    const pbmpm_world_id solid = world_in_3d();
+    pbmpm_surface_mesh mesh = {.size = sizeof mesh};
+    const pbmpm_result result = pbmpm_surface_extract(solid, structure, &mesh);
+    memcpy(outcome, &mesh.vertex_count, sizeof mesh.vertex_count);
+    OK(pbmpm_world_destroy(solid));
+    return result;
+}
+
+/* Its pointers are read: none. */
+static pbmpm_result take_mesh(void *structure)
+{
+    const pbmpm_world_id solid = world_in_3d();
+    uint32_t size;
+    memcpy(&size, structure, sizeof size);
+    if (size >= sizeof(pbmpm_surface_mesh) && size <= 4096) memset((char *)structure + sizeof size, 0, size - sizeof size);
+    const pbmpm_result result = pbmpm_surface_extract(solid, NULL, structure);
+    OK(pbmpm_world_destroy(solid));
+    return result;
+}
+
+static void sound_points(void *structure)
+{
+    pbmpm_points_def *def = structure;
+    OK(pbmpm_points_def_init(def, sizeof *def));
+    def->radius_scale = 2.0f;
+}
+
+static pbmpm_result give_points(const void *structure, void *outcome)
+{
+    static pbmpm_point points[1 << 13];
+    uint32_t count;
+    const pbmpm_result result = pbmpm_surface_points(world.world, structure, points, 1 << 13, &count);
+    memcpy(outcome, &points[0].radius, sizeof points[0].radius);
+    return result;
+}
+
 #define READ_BACK(type, call, fill, give) {#type, #call, sizeof(type), fill, give, true}
 #define COUNTED(type, call, fill, give) {#type, #call, sizeof(type), fill, give, false}
 
@@ -502,6 +557,8 @@ const sized_input sized_inputs[] = {
     COUNTED(pbmpm_ray, pbmpm_query_ray, sound_ray, give_ray),
     COUNTED(pbmpm_rigid_def, pbmpm_rigid_advance, sound_rigid, give_rigid),
     COUNTED(pbmpm_copy_def, pbmpm_particles_copy, sound_copy, give_copy),
+    COUNTED(pbmpm_surface_def, pbmpm_surface_extract, sound_surface, give_surface),
+    COUNTED(pbmpm_points_def, pbmpm_surface_points, sound_points, give_points),
 };
 const int sized_input_count = (int)(sizeof sized_inputs / sizeof *sized_inputs);
 
@@ -592,6 +649,7 @@ const sized_output sized_outputs[] = {
     TAKEN(pbmpm_flow, pbmpm_world_get_flow, take_flow),
     TAKEN(pbmpm_stats, pbmpm_world_get_stats, take_stats),
     TAKEN(pbmpm_ray_hit, pbmpm_query_ray, take_ray_hit),
+    TAKEN(pbmpm_surface_mesh, pbmpm_surface_extract, take_mesh),
 };
 const int sized_output_count = (int)(sizeof sized_outputs / sizeof *sized_outputs);
 

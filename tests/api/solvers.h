@@ -13,6 +13,7 @@ typedef struct way {
     float flip;
 } way;
 
+enum { WAY_PAPER, WAY_DUAL }; /**< the first of `ways` */
 extern const way ways[];
 extern const int way_count;
 

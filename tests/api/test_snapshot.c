@@ -96,12 +96,6 @@ static void check_going_on(const stage *first, const stage *twin, runner *run, i
     restore(first->world, &end);
 }
 
-static void three_threads(pbmpm_world_def *def, void *user)
-{
-    (void)user;
-    def->thread_count = 3;
-}
-
 static void check_ways(int32_t dimension)
 {
     for (int w = 0; w < way_count; w++) {

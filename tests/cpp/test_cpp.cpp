@@ -406,6 +406,32 @@ static void test_questions()
     CHECK(world.query_ray(ray)->hit == 1 && std::fabs(world.query_ray(ray)->distance - 0.4f) < 0.02f && world.query_ray(ray)->material == water);
 }
 
+static void test_surfaces()
+{
+    pbmpm::world_def def;
+    def.dimension = 3;
+    def.particle_capacity = 1000;
+    const pbmpm::world world = pbmpm::world::create(def).value();
+    pbmpm::fill_def fill;
+    fill.material = world.material_create(pbmpm::material_def()).value();
+    pbmpm::shape ball;
+    ball.kind = PBMPM_SPHERE;
+    ball.radius = 0.25f;
+    const std::uint32_t particles = world.particles_fill(fill, ball).value();
+    pbmpm::surface_def surface;
+    pbmpm_surface_mesh mesh{};
+    CHECK(world.surface_extract(surface, mesh) && mesh.vertex_count > 100 && mesh.index_count == 6 * mesh.vertex_count - 12); /* as of a ball */
+    std::vector<float> positions(3 * std::size_t{mesh.vertex_count});
+    mesh.positions = positions.data();
+    CHECK(fails(world.surface_extract(surface, mesh), PBMPM_ERROR_CAPACITY) && mesh.vertex_count * std::size_t{3} == positions.size());
+    mesh.vertex_capacity = mesh.vertex_count;
+    CHECK(world.surface_extract(surface, mesh) && std::fabs(positions[0]) < 0.3f && positions[0] != 0);
+    const auto no_room = world.surface_points(pbmpm::points_def(), {});
+    CHECK(fails(no_room, PBMPM_ERROR_CAPACITY) && no_room.error().needed == particles);
+    std::vector<pbmpm_point> points(particles);
+    CHECK(world.surface_points(pbmpm::points_def(), points).value() == particles && points[0].colour == 0xffffffffu);
+}
+
 static void test_saves()
 {
     const pbmpm::world world = make_world();
@@ -435,6 +461,7 @@ int main()
     test_solids();
     test_flow();
     test_questions();
+    test_surfaces();
     test_saves();
     CHECK(pbmpm::shutdown());
     std::printf("%d checks, %d failures\n", checks, failures);

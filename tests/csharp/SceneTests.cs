@@ -1,3 +1,4 @@
+using System;
 using Pbmpm;
 using Pbmpm.Native;
 
@@ -125,6 +126,50 @@ static class SceneTests
             Expect.Equal(8, world.DebugLines(lines, DebugPart.Colliders | DebugPart.Domain), "lines");
             Expect.Equal(DebugPart.Domain, lines[0].Part, "the domain comes first");
             Expect.Equal(DebugPart.Colliders, lines[7].Part, "then obstacles");
+        }
+    }
+
+    [Test]
+    static void ASurfaceIsClosedAndFits()
+    {
+        using (var world = Scenes.Pool(3))
+        {
+            var counts = world.CountSurface(SurfaceDef.Default);
+            Expect.True(counts.Vertices > 100, "vertices");
+            Expect.Equal(6 * counts.Vertices - 12, counts.Indices, "as many indices as a ball has");
+            var few = new Float3[10];
+            Expect.True(!world.TryMakeSurface(few, null, new uint[counts.Indices], out counts), "there is no room");
+            Expect.Equal(0f, few[0].X, "nothing was written");
+            Float3[] positions = new Float3[counts.Vertices], normals = new Float3[counts.Vertices];
+            var indices = new uint[counts.Indices];
+            Expect.True(world.TryMakeSurface(positions, normals, indices, out counts), "there is room");
+            for (var i = 0; i < positions.Length; i++)
+            {
+                Expect.Near(1, positions[i].Y, 0.25, "around the block");
+                double along = (positions[i].X - 1) * normals[i].X + (positions[i].Y - 1) * normals[i].Y + (positions[i].Z - 1) * normals[i].Z;
+                Expect.True(along > 0, "normals point outwards");
+            }
+            foreach (var index in indices) Expect.True(index < positions.Length, "indices are of vertices");
+        }
+    }
+
+    [Test]
+    static unsafe void PointsHaveColours()
+    {
+        using (var world = Scenes.Pool(3))
+        {
+            var points = new Point[world.ParticleCount];
+            Expect.Equal(points.Length, world.CopyPoints(points), "all particles");
+            Expect.Equal(0xffffffff, points[0].Colour, "white");
+            var material = world.GetMaterials()[0];
+            var colour = 0x80402010;
+            var definition = PointsDef.Default;
+            definition.Materials = (IntPtr)(&material);
+            definition.MaterialCount = 1;
+            definition.Palette = &colour;
+            Expect.Equal(points.Length, world.CopyPoints(definition, points), "all of one material");
+            Expect.Equal(colour, points[7].Colour, "its colour");
+            Expect.Near(0.031, points[7].Radius, 0.001, "of a ball of an eighth of a cell");
         }
     }
 }

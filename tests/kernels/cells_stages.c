@@ -99,9 +99,9 @@ void cells_check_mean(DualStage *stage)
     KernelArgs *a = &scene->world->args;
     RefGrid sizes, sum = scene_tiles(scene, &sizes);
     scene_run_nodes(scene, scene->kernels->cells_mean);
-    RefGrid mass = scene_scalars_of(scene, a->cell_mass), growth = scene_scalars_of(scene, a->cell_growth);
-    RefGrid soft = scene_scalars_of(scene, a->cell_softness), pressure = scene_scalars_of(scene, a->cell_pressure);
-    RefGrid old = scene_scalars_of(scene, a->cell_pressure_old);
+    RefGrid mass = scene_scalars_of(scene, a->cells.mass), growth = scene_scalars_of(scene, a->cells.growth);
+    RefGrid soft = scene_scalars_of(scene, a->cells.softness), pressure = scene_scalars_of(scene, a->cells.pressure);
+    RefGrid old = scene_scalars_of(scene, a->cells.pressure_old);
     const double each = 20.0 * UNIT_ROUNDOFF;
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double m = sum.node[i].u[0];
@@ -143,13 +143,13 @@ void cells_check_solids(DualStage *stage)
     Scene *scene = &stage->scene;
     KernelArgs *a = &scene->world->args;
     check_sums(stage, scene->kernels->solids_begin, SOLIDS, solid_quantities);
-    RefGrid sizes, sum = scene_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cell_mass);
-    RefGrid growth = scene_scalars_of(scene, a->cell_growth), soft = scene_scalars_of(scene, a->cell_softness);
-    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
+    RefGrid sizes, sum = scene_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cells.mass);
+    RefGrid growth = scene_scalars_of(scene, a->cells.growth), soft = scene_scalars_of(scene, a->cells.softness);
+    RefGrid pressure = scene_scalars_of(scene, a->cells.pressure);
     scene_run_nodes(scene, scene->kernels->solids_mean);
-    RefGrid all_mass = scene_scalars_of(scene, a->cell_mass), strain = scene_scalars_of(scene, a->cell_strain);
-    RefGrid less = scene_scalars_of(scene, a->cell_growth), softness = scene_scalars_of(scene, a->cell_softness);
-    RefGrid start = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    RefGrid all_mass = scene_scalars_of(scene, a->cells.mass), strain = scene_scalars_of(scene, a->cells.strain);
+    RefGrid less = scene_scalars_of(scene, a->cells.growth), softness = scene_scalars_of(scene, a->cells.softness);
+    RefGrid start = scene_scalars_of(scene, a->cells.pressure), old = scene_scalars_of(scene, a->cells.pressure_old);
     const double each = 24.0 * UNIT_ROUNDOFF;
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double solid = sum.node[i].u[0], liquid = mass.node[i].mass, m = solid + liquid;
@@ -193,10 +193,10 @@ void cells_check_push(DualStage *stage)
     Scene *scene = &stage->scene;
     KernelArgs *a = &scene->world->args;
     const int n = scene->step.dimension;
-    const double momentum = (double)a->momentum;
+    const double momentum = (double)a->dual.momentum;
     scene_run_particles(scene, scene->kernels->cells_push);
     RefGrid sizes, sum = scene_tiles(scene, &sizes), pushed = reference_grid(n, scene->low, scene->high);
-    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    RefGrid pressure = scene_scalars_of(scene, a->cells.pressure), old = scene_scalars_of(scene, a->cells.pressure_old);
     BoundNode *bounds = calloc(node_count(&sum), sizeof *bounds);
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
@@ -204,17 +204,17 @@ void cells_check_push(DualStage *stage)
         const double light = lightness_of(&p);
         double Y[9] = {0}, S[9], expected = 0.0, bound = 0.0, error = 0.0;
         const bool liquid = p.material.kind == K_LIQUID;
-        for (int c = 0; c < centres.count && (liquid || a->cell_strain); c++) {
+        for (int c = 0; c < centres.count && (liquid || a->cells.strain); c++) {
             const int64_t at = reference_index(&sum, centres.cell[c]);
             const double now = pressure.node[at].mass, change = momentum * (now - old.node[at].mass);
             expected += light * centres.weight[c] * (now + change);
             bound += light * (centres.weight[c] * CENTRE_ROUNDINGS + 1.0) * UNIT_ROUNDOFF * (fabs(now) + 2.0 * fabs(change)) + FLUSHED;
         }
         if (liquid) {
-            check_near(expected, (double)a->pressure[i], bound, "pressure of a particle", (long)i);
-            for (int k = 0; k < n; k++) Y[k * 4] = (double)a->pressure[i];
+            check_near(expected, (double)a->dual.pressure[i], bound, "pressure of a particle", (long)i);
+            for (int k = 0; k < n; k++) Y[k * 4] = (double)a->dual.pressure[i];
         } else {
-            if (a->cell_strain) check_isotropic(stage, i, expected, bound);
+            if (a->cells.strain) check_isotropic(stage, i, expected, bound);
             dual_extrapolated(stage, i, Y);
         }
         dual_multiplier(stage, i, S);
@@ -266,9 +266,9 @@ void cells_check_carry(DualStage *stage, float fine)
     KernelArgs *a = &world->args;
     const uint32_t count = world->particles.count;
     double *own = malloc(count * sizeof *own);
-    for (uint32_t i = 0; i < count; i++) own[i] = is_sand(stage, i) ? borne_pressure(stage, i) : dual_first_pressure(stage, i, a->pressure[i]);
-    RefGrid pressure = scene_scalars_of(scene, a->cell_pressure);
-    a->fine_carried = a->grains_carried = fine;
+    for (uint32_t i = 0; i < count; i++) own[i] = is_sand(stage, i) ? borne_pressure(stage, i) : dual_first_pressure(stage, i, a->dual.pressure[i]);
+    RefGrid pressure = scene_scalars_of(scene, a->cells.pressure);
+    a->dual.fine_carried = a->dual.grains_carried = fine;
     scene_run_particles(scene, scene->kernels->cells_carry);
     for (uint32_t i = 0; i < count; i++) {
         const RefParticle p = scene_particle(scene, i);
@@ -280,8 +280,8 @@ void cells_check_carry(DualStage *stage, float fine)
             check_near(fmax(0.0, expected), borne_pressure(stage, i), rounding, "what sand carries", (long)i);
             continue;
         }
-        check_near(fmax(0.0, expected), (double)a->pressure[i], 2.0 * error + 8.0 * UNIT_ROUNDOFF * (own[i] + mean), "what is carried", (long)i);
-        check_true(a->pressure[i] == a->pressure_old[i], "it is the one before as well", (long)i);
+        check_near(fmax(0.0, expected), (double)a->dual.pressure[i], 2.0 * error + 8.0 * UNIT_ROUNDOFF * (own[i] + mean), "what is carried", (long)i);
+        check_true(a->dual.pressure[i] == a->dual.pressure_old[i], "it is the one before as well", (long)i);
     }
     dual_check_tiles(stage, "what is carried in tiles");
     free(own);
@@ -295,17 +295,17 @@ void cells_check_add(DualStage *stage, Random *random)
     World *world = scene->world;
     KernelArgs *a = &world->args;
     const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
-    memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
+    memcpy(a->cells.pressure_old, a->cells.pressure, cells * sizeof(float));
     for (size_t i = 0; i < cells; i++)
-        if (a->cell_mass[i] > 0.0f) a->cell_pressure[i] = (float)((double)a->cell_pressure[i] * random_in(random, 0.0, 2.0) + random_in(random, 0.0, 0.05));
-    RefGrid before = scene_scalars_of(scene, a->cell_pressure_old), now = scene_scalars_of(scene, a->cell_pressure);
+        if (a->cells.mass[i] > 0.0f) a->cells.pressure[i] = (float)((double)a->cells.pressure[i] * random_in(random, 0.0, 2.0) + random_in(random, 0.0, 0.05));
+    RefGrid before = scene_scalars_of(scene, a->cells.pressure_old), now = scene_scalars_of(scene, a->cells.pressure);
     scene_run_particles(scene, scene->kernels->cells_add);
     for (uint32_t i = 0; i < world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
         double errors[2];
         if (p.material.kind != K_LIQUID) continue;
-        const double old = (double)a->pressure_old[i], change = at_particle(&now, &p, &errors[0]) - at_particle(&before, &p, &errors[1]);
-        check_near(fmax(0.0, old + change), (double)a->pressure[i], errors[0] + errors[1] + 4.0 * UNIT_ROUNDOFF * old, "what the guess adds", (long)i);
+        const double old = (double)a->dual.pressure_old[i], change = at_particle(&now, &p, &errors[0]) - at_particle(&before, &p, &errors[1]);
+        check_near(fmax(0.0, old + change), (double)a->dual.pressure[i], errors[0] + errors[1] + 4.0 * UNIT_ROUNDOFF * old, "what the guess adds", (long)i);
     }
     dual_check_tiles(stage, "what the guess adds in tiles");
     reference_grid_free(&before);
@@ -356,9 +356,9 @@ void cells_check_guess_trace(DualStage *stage)
 {
     Scene *scene = &stage->scene;
     RefGrid nodes = scene_nodes(scene);
-    scene->world->args.probing = 1;
+    scene->world->args.cells.probing = 1;
     scene_run_particles(scene, scene->kernels->cells_trace);
-    scene->world->args.probing = 0;
+    scene->world->args.cells.probing = 0;
     check_traces(stage, ALL, &nodes);
     reference_grid_free(&nodes);
 }
@@ -371,8 +371,8 @@ static void check_reports(const DualStage *stage, double change2, double uphill,
     const World *world = stage->scene.world;
     double reported[2] = {0};
     for (int32_t block = 0; block < world->grid.node_blocks; block++) {
-        reported[0] += (double)world->args.cell_change2[block];
-        reported[1] += (double)world->args.cell_uphill[block];
+        reported[0] += (double)world->args.cells.change2[block];
+        reported[1] += (double)world->args.cells.uphill[block];
     }
     check_near(change2, reported[0], error, "change of cells", 0);
     check_near(uphill, reported[1], error, "uphill of cells", 0);
@@ -383,12 +383,12 @@ void cells_check_update(DualStage *stage)
     Scene *scene = &stage->scene;
     KernelArgs *a = &scene->world->args;
     const int n = scene->step.dimension;
-    const double momentum = (double)a->momentum, w = (double)a->cell_relaxation;
-    RefGrid sizes, sum = scene_scalar_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cell_mass);
-    RefGrid growth = scene_scalars_of(scene, a->cell_growth), soft = scene_scalars_of(scene, a->cell_softness);
-    RefGrid now = scene_scalars_of(scene, a->cell_pressure), old = scene_scalars_of(scene, a->cell_pressure_old);
+    const double momentum = (double)a->dual.momentum, w = (double)a->cells.relaxation;
+    RefGrid sizes, sum = scene_scalar_tiles(scene, &sizes), mass = scene_scalars_of(scene, a->cells.mass);
+    RefGrid growth = scene_scalars_of(scene, a->cells.growth), soft = scene_scalars_of(scene, a->cells.softness);
+    RefGrid now = scene_scalars_of(scene, a->cells.pressure), old = scene_scalars_of(scene, a->cells.pressure_old);
     scene_run_nodes(scene, scene->kernels->cells_update);
-    RefGrid next = scene_scalars_of(scene, a->cell_pressure), kept = scene_scalars_of(scene, a->cell_pressure_old);
+    RefGrid next = scene_scalars_of(scene, a->cells.pressure), kept = scene_scalars_of(scene, a->cells.pressure_old);
     double change2 = 0.0, uphill = 0.0, error = 0.0;
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double m = mass.node[i].mass, p = now.node[i].mass, y = p + momentum * (p - old.node[i].mass), s = soft.node[i].mass;

@@ -30,25 +30,25 @@ static void bind(DualStage *stage)
     const size_t rows = world->particles.count + K_MAX_GANG, nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     float **memory = stage->memory;
     int used = 0;
-    a->pressure = world->particles.pressure;
-    a->pressure_old = memory[used++] = filled(rows, NAN);
+    a->dual.pressure = world->particles.pressure;
+    a->dual.pressure_old = memory[used++] = filled(rows, NAN);
     for (int i = 0; i < 6; i++) {
-        a->stress[i] = memory[used++] = filled(rows, NAN);
-        a->stress_old[i] = memory[used++] = filled(rows, NAN);
+        a->dual.stress[i] = memory[used++] = filled(rows, NAN);
+        a->dual.stress_old[i] = memory[used++] = filled(rows, NAN);
     }
-    a->node_push = memory[used++] = filled(nodes * K_NODE_WIDTH, 7.0f); /* a substep before may have left anything finite */
-    a->change2 = memory[used++] = filled((size_t)world->grid.node_blocks, NAN);
-    a->uphill = memory[used++] = filled((size_t)world->grid.node_blocks, NAN);
-    float **const cells[] = {&a->cell_mass,         &a->cell_growth,  &a->cell_softness, &a->cell_pressure,
-                             &a->cell_pressure_old, &a->cell_change2, &a->cell_uphill};
+    a->dual.node_push = memory[used++] = filled(nodes * K_NODE_WIDTH, 7.0f); /* a substep before may have left anything finite */
+    a->dual.change2 = memory[used++] = filled((size_t)world->grid.node_blocks, NAN);
+    a->dual.uphill = memory[used++] = filled((size_t)world->grid.node_blocks, NAN);
+    float **const cells[] = {&a->cells.mass,         &a->cells.growth,  &a->cells.softness, &a->cells.pressure,
+                             &a->cells.pressure_old, &a->cells.change2, &a->cells.uphill};
     for (size_t i = 0; i < sizeof cells / sizeof *cells; i++) *cells[i] = memory[used++] = filled(nodes, NAN);
     stage->strain = memory[used++] = filled(nodes, NAN);
-    a->settle = 1.0f;
-    a->elastic_guesses = 1;
-    a->cell_relaxation = 1.3f;
-    a->growth_max = (float)REF_GROWTH_MAX;
-    a->crushed_carried = 0.5f;
-    a->momentum = 0.0f;
+    a->cells.settle = 1.0f;
+    a->cells.elastic_guesses = 1;
+    a->cells.relaxation = 1.3f;
+    a->dual.growth_max = (float)REF_GROWTH_MAX;
+    a->dual.crushed_carried = 0.5f;
+    a->dual.momentum = 0.0f;
 }
 
 DualStage dual_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
@@ -65,7 +65,7 @@ DualStage dual_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_
     bind(&stage);
     scene_run_particles(scene, scene->kernels->scatter);
     scene_run_nodes(scene, scene->kernels->predict_nodes);
-    stage.base = scene_nodes_of(scene, scene->world->args.node_base);
+    stage.base = scene_nodes_of(scene, scene->world->args.grid.node_base);
     return stage;
 }
 
@@ -112,18 +112,18 @@ static void read_multiplier(const DualStage *stage, uint32_t row, const float *p
 void dual_multiplier(const DualStage *stage, uint32_t row, double S[9])
 {
     const KernelArgs *a = &stage->scene.world->args;
-    read_multiplier(stage, row, a->pressure, a->stress, S);
+    read_multiplier(stage, row, a->dual.pressure, a->dual.stress, S);
 }
 
 void dual_multiplier_before(const DualStage *stage, uint32_t row, double S[9])
 {
     const KernelArgs *a = &stage->scene.world->args;
-    read_multiplier(stage, row, a->pressure_old, a->stress_old, S);
+    read_multiplier(stage, row, a->dual.pressure_old, a->dual.stress_old, S);
 }
 
 void dual_extrapolated(const DualStage *stage, uint32_t row, double Y[9])
 {
-    const double momentum = (double)stage->scene.world->args.momentum;
+    const double momentum = (double)stage->scene.world->args.dual.momentum;
     double now[9], old[9];
     dual_multiplier(stage, row, now);
     dual_multiplier_before(stage, row, old);
@@ -164,7 +164,7 @@ static void check_block_mass(const DualStage *stage)
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) {
         double mass = 0.0;
         for (uint32_t i = begin[block]; i < begin[block + 1]; i++) mass += (double)world->particles.mass[i];
-        check_near(mass, (double)world->args.change2[block], (begin[block + 1] - begin[block]) * UNIT_ROUNDOFF * mass, "mass of a block", block);
+        check_near(mass, (double)world->args.dual.change2[block], (begin[block + 1] - begin[block]) * UNIT_ROUNDOFF * mass, "mass of a block", block);
     }
 }
 
@@ -175,7 +175,7 @@ double dual_first_pressure(const DualStage *stage, uint32_t row, float pascal)
     const double scale = reference_scale(&stage->scene.step, (double)world->materials.def[world->particles.material[row]].density);
     const double start = dual_carried_share(world) * scale * (double)pascal;
     const double missing = 1.0 / p.volume_ratio - 1.0 - start * (double)p.material.inverse_stiffness / (p.volume_ratio * p.volume_ratio);
-    return p.material.kind == K_LIQUID && missing > REF_GROWTH_MAX ? (double)world->args.crushed_carried * start : start;
+    return p.material.kind == K_LIQUID && missing > REF_GROWTH_MAX ? (double)world->args.dual.crushed_carried * start : start;
 }
 
 /* Liquids start from their pressures, others from nothing. */
@@ -192,9 +192,9 @@ void dual_check_begin(DualStage *stage)
         double S[9], Y[9];
         dual_multiplier(stage, i, S);
         check_near(expected, S[0], 4.0 * UNIT_ROUNDOFF * expected, "first multiplier", (long)i);
-        world->args.momentum = 0.5f;
+        world->args.dual.momentum = 0.5f;
         dual_extrapolated(stage, i, Y);
-        world->args.momentum = 0.0f;
+        world->args.dual.momentum = 0.0f;
         for (int k = 0; k < 9; k++) {
             check_true(S[k] == Y[k], "the first multiplier is the one before as well", (long)i);
             if (scene_particle(scene, i).material.kind == K_ELASTIC) check_true(S[k] == 0.0, "no stress at first", (long)i);
@@ -212,14 +212,14 @@ void dual_check_push(DualStage *stage)
 {
     Scene *scene = &stage->scene;
     KernelArgs *a = &scene->world->args;
-    const double momentum = (double)a->momentum;
+    const double momentum = (double)a->dual.momentum;
     RefGrid sizes, sum = scene_tiles(scene, &sizes), old = reference_grid(scene->step.dimension, scene->low, scene->high);
     if (momentum > 0.0) {
         reference_grid_free(&old);
-        old = scene_nodes_of(scene, a->node_push);
+        old = scene_nodes_of(scene, a->dual.node_push);
     }
     scene_run_nodes(scene, scene->kernels->push_nodes);
-    RefGrid node = scene_nodes_of(scene, a->node), push = scene_nodes_of(scene, a->node_push);
+    RefGrid node = scene_nodes_of(scene, a->grid.node), push = scene_nodes_of(scene, a->dual.node_push);
     for (size_t i = 0; i < node_count(&sum); i++) {
         const double mass = stage->base.node[i].mass;
         check_true(node.node[i].mass == mass, "a node keeps its mass", (long)i);
@@ -241,20 +241,20 @@ void dual_check_push(DualStage *stage)
 void dual_check_displacements(DualStage *stage, double momentum)
 {
     const Scene *scene = &stage->scene;
-    const float kept = scene->world->args.momentum;
+    const float kept = scene->world->args.dual.momentum;
     RefGrid node = scene_nodes(scene), q = reference_grid(scene->step.dimension, scene->low, scene->high);
     BoundNode *bounds = calloc(node_count(&q), sizeof *bounds);
     for (uint32_t i = 0; i < scene->world->particles.count; i++) {
         const RefParticle p = scene_particle(scene, i);
         double Y[9], S[9];
-        scene->world->args.momentum = (float)momentum;
+        scene->world->args.dual.momentum = (float)momentum;
         dual_extrapolated(stage, i, Y);
         dual_multiplier(stage, i, S);
         reference_push(&q, &p, Y);
         for (int k = 0; k < 9; k++) S[k] = fabs(S[k]) + 2.0 * fabs(Y[k] - S[k]);
         bound_push(&q, bounds, &p, S, 0.0);
     }
-    scene->world->args.momentum = kept;
+    scene->world->args.dual.momentum = kept;
     for (size_t i = 0; i < node_count(&q); i++) {
         const double mass = stage->base.node[i].mass;
         for (int k = 0; k < 3 && mass > 0.0; k++) {
@@ -339,8 +339,8 @@ void dual_check_multipliers(DualStage *stage, Kernel *kernel, bool liquids)
             check_step(&nodes, &p, Y + 9 * i, Y_error, S, (long)i);
             tally_add(&tally, p.mass, S, Y + 9 * i, now + 9 * i);
         }
-        check_near(tally.change2, (double)world->args.change2[block], tally.change2_error + FLUSHED, "change of a block", block);
-        check_near(tally.uphill, (double)world->args.uphill[block], tally.uphill_error + FLUSHED, "uphill of a block", block);
+        check_near(tally.change2, (double)world->args.dual.change2[block], tally.change2_error + FLUSHED, "change of a block", block);
+        check_near(tally.uphill, (double)world->args.dual.uphill[block], tally.uphill_error + FLUSHED, "uphill of a block", block);
     }
     free(now);
     free(Y);

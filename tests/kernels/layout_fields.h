@@ -6,13 +6,24 @@
     FIELD(yields) FIELD(friction) FIELD(cohesion) FIELD(looseness) FIELD(bulk_over_shear) FIELD(yield_strain) FIELD(excess_kept)
 
 #define KERNEL_ARGS_FIELDS(FIELD)                                                                                             \
-    FIELD(fraction) FIELD(cell) FIELD(velocity) FIELD(affine) FIELD(volume_ratio) FIELD(mass) FIELD(deformation)      \
-    FIELD(identity) FIELD(past_velocity) FIELD(past_affine) FIELD(past_way) FIELD(past_turn) FIELD(past_dt) FIELD(status) FIELD(run_begin) FIELD(run_key) FIELD(block_run) FIELD(neighbour) FIELD(particle_blocks) FIELD(tile) FIELD(tile_volume)   \
-    FIELD(node) FIELD(node_base) FIELD(node_before) FIELD(node_volume) FIELD(node_density) FIELD(node_reach) FIELD(edged) FIELD(clamped) FIELD(moved) FIELD(lost) FIELD(travel) FIELD(drift) FIELD(pressure) FIELD(pressure_old) FIELD(stress) FIELD(stress_old) FIELD(node_push) \
-    FIELD(change2) FIELD(uphill) FIELD(node_force) FIELD(block_share) FIELD(affine_kept) FIELD(block_energy) FIELD(couple) FIELD(among_liquid) FIELD(fed) FIELD(may_feed) FIELD(held_pressure) FIELD(sketch) FIELD(held_stiffness) FIELD(node_gap) FIELD(cell_mass) FIELD(cell_growth) FIELD(cell_strain) FIELD(settle) FIELD(elastic_guesses) FIELD(cell_softness) \
-    FIELD(cell_pressure) FIELD(cell_pressure_old) FIELD(cell_trace) FIELD(cell_change2) FIELD(cell_uphill) FIELD(probing) FIELD(cell_relaxation) FIELD(stage_last) FIELD(stage_before) \
-    FIELD(stage_change) FIELD(momentum) FIELD(fine_carried) FIELD(grains_carried) FIELD(crushed_carried) FIELD(growth_max) FIELD(material) FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) \
-    FIELD(cells_per_metre) FIELD(gravity) FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
+    FIELD(particles.fraction) FIELD(particles.cell) FIELD(particles.velocity) FIELD(particles.affine)                         \
+    FIELD(particles.volume_ratio) FIELD(particles.mass) FIELD(particles.deformation) FIELD(particles.identity)                \
+    FIELD(particles.past_velocity) FIELD(particles.past_affine) FIELD(particles.past_way) FIELD(particles.past_turn)          \
+    FIELD(particles.past_dt) FIELD(particles.status) FIELD(grid.run_begin) FIELD(grid.run_key) FIELD(grid.block_run)          \
+    FIELD(grid.neighbour) FIELD(grid.tile) FIELD(grid.tile_volume) FIELD(grid.node) FIELD(grid.node_base)                     \
+    FIELD(grid.node_before) FIELD(grid.node_volume) FIELD(grid.node_density) FIELD(grid.node_reach) FIELD(grid.edged)         \
+    FIELD(grid.clamped) FIELD(grid.moved) FIELD(grid.lost) FIELD(grid.travel) FIELD(grid.drift)                               \
+    FIELD(grid.particle_blocks) FIELD(dual.pressure) FIELD(dual.pressure_old) FIELD(dual.stress) FIELD(dual.stress_old)       \
+    FIELD(dual.node_push) FIELD(dual.change2) FIELD(dual.uphill) FIELD(dual.affine_kept) FIELD(dual.stage_last)               \
+    FIELD(dual.stage_before) FIELD(dual.stage_change) FIELD(dual.momentum) FIELD(dual.fine_carried)                           \
+    FIELD(dual.grains_carried) FIELD(dual.grains_free) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \
+    FIELD(primal.block_share) FIELD(primal.block_energy) FIELD(primal.couple) FIELD(primal.among_liquid)                      \
+    FIELD(primal.fed) FIELD(primal.held_pressure) FIELD(primal.sketch) FIELD(primal.node_gap) FIELD(primal.may_feed)          \
+    FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.strain) FIELD(cells.softness)              \
+    FIELD(cells.pressure) FIELD(cells.pressure_old) FIELD(cells.trace) FIELD(cells.change2) FIELD(cells.uphill)               \
+    FIELD(cells.settle) FIELD(cells.elastic_guesses) FIELD(cells.probing) FIELD(cells.relaxation) FIELD(material)             \
+    FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) FIELD(cells_per_metre) FIELD(gravity)        \
+    FIELD(max_displacement) FIELD(max_cell) FIELD(salt) FIELD(check_strain)
 
 /* The table a probe writes: the size of the structure, then offset and size of each field. */
 enum { LAYOUT_VALUES = 1 + 2 * 128 };

@@ -19,7 +19,7 @@ typedef void CloseAll(const float *d, float *stress, float *energy, int32_t coun
 /* Deformations after the return of a plastic material, and multipliers after the cut: matrices as above. */
 typedef void YieldAll(const KernelMaterial *material, const float *before, float *after, int32_t count);
 /* Deformations after giving up volume for which there is `room`, one number per matrix. */
-typedef void CrowdAll(const KernelMaterial *material, const float *room, const float *before, float *after, int32_t count);
+typedef void GiveUpAll(const KernelMaterial *material, const float *room, const float *before, float *after, int32_t count);
 /* `out`: see LAYOUT_VALUES. */
 typedef void WriteLayout(int32_t *out);
 
@@ -31,7 +31,7 @@ typedef struct Probes {
     EnergyAll *energy_all;
     CloseAll *close_all;
     YieldAll *yield_all, *cut_all;
-    CrowdAll *crowd_all;
+    GiveUpAll *give_up_all;
 } Probes;
 
 const Probes *probes_for(pbmpm_isa isa, int dimension);

@@ -44,9 +44,9 @@ export void yield_all3(const uniform struct KernelMaterial *uniform material, co
                        uniform int count) {
     yield_all(material, before, after, count);
 }
-export void crowd_all3(const uniform struct KernelMaterial *uniform material, const uniform float room[], const uniform float before[],
-                       uniform float after[], uniform int count) {
-    crowd_all(material, room, before, after, count);
+export void give_up_all3(const uniform struct KernelMaterial *uniform material, const uniform float room[], const uniform float before[],
+                         uniform float after[], uniform int count) {
+    give_up_all(material, room, before, after, count);
 }
 export void cut_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[], uniform int count) {
     cut_all(material, before, after, count);

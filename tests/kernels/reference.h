@@ -33,7 +33,7 @@ typedef struct RefStep {
     int32_t max_cell;
     uint32_t salt; /* of the nudges */
     bool with_volume;
-    bool edged;          /* blocks are near edges of obstacles, see KernelArgs.edged */
+    bool edged;          /* blocks are near edges of obstacles, see KernelArgs.grid.edged */
     double excess;       /* of the volume that J claims in the block, see reference_excess() */
     bool tensionless;    /* liquids bear no tension: all solvers but the paper's */
     bool weighs;         /* liquids differ in density: they count what is lighter by its mass */
@@ -59,7 +59,7 @@ typedef struct RefNode {
     double u[3];
     double mass;
     double volume; /* rest volume per cell */
-    double gap;    /* see KernelArgs.node_gap */
+    double gap;    /* see KernelArgs.primal.node_gap */
 } RefNode;
 
 /* A dense box of nodes. */

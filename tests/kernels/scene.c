@@ -194,7 +194,7 @@ static void keep_affine(Scene *scene)
     if (scene->step.affine_lost == 0.0) return;
     scene->affine_kept = realloc(scene->affine_kept, (size_t)world->grid.particle_blocks * sizeof *scene->affine_kept);
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) scene->affine_kept[block] = (float)(1.0 - scene->step.affine_lost);
-    world->args.affine_kept = scene->affine_kept;
+    world->args.dual.affine_kept = scene->affine_kept;
 }
 
 /* The node with local index i of a box of `axis` nodes per axis whose first node is `corner`. */
@@ -231,7 +231,7 @@ static void open_gaps(Scene *scene)
         scene->node_gap[i] = reference_index(&reached, at) >= 0 ? (float)gap : 0.0f;
     }
     reference_grid_free(&reached);
-    world->args.node_gap = scene->node_gap;
+    world->args.primal.node_gap = scene->node_gap;
 }
 
 void scene_bind(Scene *scene, bool check_strain)
@@ -241,7 +241,7 @@ void scene_bind(Scene *scene, bool check_strain)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, with_volume));
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
     world->strain_unchecked = check_strain;
-    world->step = world_context(world, (double)TIME_STEP);
+    world->substep = world_substep(world, (double)TIME_STEP);
     solver_bind(world, with_volume);
     if (world->record.solver == PBMPM_SOLVER_PAPER) set_materials(scene);
     for (int32_t block = 0; with_volume && block < world->grid.node_blocks; block++) ((uint32_t *)world->grid.edged.data)[block] = scene->step.edged;
@@ -253,7 +253,7 @@ void scene_bind(Scene *scene, bool check_strain)
     scene->step.max_cell = args->max_cell;
     scene->step.salt = args->salt;
     scene->step.with_volume = with_volume;
-    scene->step.weighs = args->node_density != NULL;
+    scene->step.weighs = args->grid.node_density != NULL;
     scene->step.flip = (double)args->flip;
     scene->step.feedback_way = (double)args->feedback_way;
     scene->step.quiet_way = (double)args->quiet_way;
@@ -350,14 +350,14 @@ RefGrid scene_scalars_of(const Scene *scene, const float *values)
 RefGrid scene_nodes(const Scene *scene)
 {
     const KernelArgs *args = &scene->world->args;
-    RefGrid out = scene_nodes_of(scene, args->node);
-    if (!args->node_volume) return out;
-    RefGrid volumes = scene_scalars_of(scene, args->node_volume);
+    RefGrid out = scene_nodes_of(scene, args->grid.node);
+    if (!args->grid.node_volume) return out;
+    RefGrid volumes = scene_scalars_of(scene, args->grid.node_volume);
     const size_t count = (size_t)out.size[0] * (size_t)out.size[1] * (size_t)out.size[2];
     for (size_t i = 0; i < count; i++) out.node[i].volume = volumes.node[i].mass;
     reference_grid_free(&volumes);
-    if (!args->node_gap) return out;
-    RefGrid gaps = scene_scalars_of(scene, args->node_gap);
+    if (!args->primal.node_gap) return out;
+    RefGrid gaps = scene_scalars_of(scene, args->primal.node_gap);
     for (size_t i = 0; i < count; i++) out.node[i].gap = gaps.node[i].mass;
     reference_grid_free(&gaps);
     return out;
@@ -386,8 +386,8 @@ RefGrid scene_tiles(const Scene *scene, RefGrid *sizes)
         int32_t corner[3], at[3];
         corner_of(scene, block, 1, corner);
         for (int i = 0; i < grid->tile_nodes; i++) {
-            const float *values = args->tile + (size_t)block * floats + (size_t)i * K_NODE_WIDTH;
-            const double volume = args->tile_volume ? (double)args->tile_volume[(size_t)block * scalars + (size_t)i] : 0.0;
+            const float *values = args->grid.tile + (size_t)block * floats + (size_t)i * K_NODE_WIDTH;
+            const double volume = args->grid.tile_volume ? (double)args->grid.tile_volume[(size_t)block * scalars + (size_t)i] : 0.0;
             node_at(corner, K_TILE_AXIS, i, at);
             const int64_t to = reference_index(&sum, at);
             if (to >= 0)
@@ -410,7 +410,7 @@ RefGrid scene_scalar_tiles(const Scene *scene, RefGrid *sizes)
         int32_t corner[3], at[3];
         corner_of(scene, block, 1, corner);
         for (int i = 0; i < grid->tile_nodes; i++) {
-            const double value = (double)scene->world->args.tile[(size_t)block * scalars + (size_t)i];
+            const double value = (double)scene->world->args.grid.tile[(size_t)block * scalars + (size_t)i];
             node_at(corner, K_TILE_AXIS, i, at);
             const int64_t to = reference_index(&sum, at);
             check_true(to >= 0 || value == 0.0, "a tile is 0 where no particle reaches", i);

@@ -30,10 +30,10 @@ typedef struct SceneSpec {
     bool check_strain;
     pbmpm_solver solver; /* default: the paper's */
     float flip;
-    float affine_lost; /* 1 - KernelArgs.affine_kept, of all blocks */
-    double gap;        /* KernelArgs.node_gap, up to this; 0: null */
+    float affine_lost; /* 1 - KernelArgs.dual.affine_kept, of all blocks */
+    double gap;        /* KernelArgs.primal.node_gap, up to this; 0: null */
     bool pool;  /* instead of cells by chance: full ones up to `spread` from the centre, two particles per axis, each up to a tenth of a cell off its place */
-    bool edged; /* all blocks are, see KernelArgs.edged */
+    bool edged; /* all blocks are, see KernelArgs.grid.edged */
 } SceneSpec;
 
 typedef struct Scene {

@@ -141,8 +141,8 @@ static void check_reach(const Scene *scene)
         float reach = 0.0f;
         for (int i = 0; i < grid->block_cells; i++)
             for (int a = 0; a < 3; a++)
-                reach = fmaxf(reach, fabsf(args->node[((size_t)block * (size_t)grid->block_cells + (size_t)i) * K_NODE_WIDTH + (size_t)a]));
-        check_near((double)reach, (double)args->node_reach[block], 0.0, "reach of a block", block);
+                reach = fmaxf(reach, fabsf(args->grid.node[((size_t)block * (size_t)grid->block_cells + (size_t)i) * K_NODE_WIDTH + (size_t)a]));
+        check_near((double)reach, (double)args->grid.node_reach[block], 0.0, "reach of a block", block);
     }
 }
 
@@ -341,8 +341,8 @@ static void check_counts(const Scene *scene, const RefParticle *before)
             moved += p.cell[0] != before[i].cell[0] || p.cell[1] != before[i].cell[1] || p.cell[2] != before[i].cell[2];
             lost += p.status != K_ALIVE;
         }
-        check_true(moved == scene->world->args.moved[block], "particles that left their cells", block);
-        check_true(lost == scene->world->args.lost[block], "particles that have to go", block);
+        check_true(moved == scene->world->args.grid.moved[block], "particles that left their cells", block);
+        check_true(lost == scene->world->args.grid.lost[block], "particles that have to go", block);
     }
 }
 

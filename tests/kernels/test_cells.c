@@ -33,10 +33,10 @@ static SceneSpec liquid_scene(const char *name)
 /* The momentum of the nodes is in the multipliers already. */
 static void push_nodes(DualStage *stage)
 {
-    const float momentum = stage->scene.world->args.momentum;
-    stage->scene.world->args.momentum = 0.0f;
+    const float momentum = stage->scene.world->args.dual.momentum;
+    stage->scene.world->args.dual.momentum = 0.0f;
     dual_check_push(stage);
-    stage->scene.world->args.momentum = momentum;
+    stage->scene.world->args.dual.momentum = momentum;
 }
 
 static void check_rounds(DualStage *stage)
@@ -49,7 +49,7 @@ static void check_rounds(DualStage *stage)
     for (size_t k = 0; k < sizeof momenta / sizeof *momenta; k++) {
         cells_check_trace(stage);
         cells_check_update(stage);
-        stage->scene.world->args.momentum = momenta[k];
+        stage->scene.world->args.dual.momentum = momenta[k];
         cells_check_push(stage);
         push_nodes(stage);
     }
@@ -60,7 +60,7 @@ static void check_guess(DualStage *stage)
 {
     cells_check_begin(stage);
     cells_check_mean(stage);
-    stage->scene.world->args.cell_strain = stage->strain;
+    stage->scene.world->args.cells.strain = stage->strain;
     cells_check_solids(stage);
     cells_check_push(stage);
     push_nodes(stage);
@@ -76,13 +76,13 @@ static void check_kept(DualStage *stage)
     const size_t count = stage->scene.world->particles.count;
     float *pascal = malloc(count * sizeof *pascal);
     TEST_ASSERT_NOT_NULL(pascal);
-    memcpy(pascal, stage->scene.world->args.pressure, count * sizeof *pascal);
+    memcpy(pascal, stage->scene.world->args.dual.pressure, count * sizeof *pascal);
     cells_check_begin(stage);
     cells_check_mean(stage);
-    stage->scene.world->args.cell_strain = stage->strain;
+    stage->scene.world->args.cells.strain = stage->strain;
     cells_check_solids(stage);
     for (size_t k = 0; k < sizeof fine / sizeof *fine; k++) {
-        memcpy(stage->scene.world->args.pressure, pascal, count * sizeof *pascal);
+        memcpy(stage->scene.world->args.dual.pressure, pascal, count * sizeof *pascal);
         cells_check_carry(stage, fine[k]);
         push_nodes(stage);
         cells_check_add(stage, &random);

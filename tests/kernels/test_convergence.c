@@ -52,7 +52,7 @@ static Solved solve(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_
     scene_bind(scene, false);
     const uint32_t mode = float_mode_enter();
     solver_predict(world);
-    solved.stage.base = scene_nodes_of(scene, world->args.node_base);
+    solved.stage.base = scene_nodes_of(scene, world->args.grid.node_base);
     const ContactFrame nothing = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = (double)world->def.cell_size, .max_displacement = 32.0f};
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&nothing, &world->memory, world->pool));
     solver_solve(world, &nothing);
@@ -142,7 +142,7 @@ static void test_incompressible_liquid(void)
                 double d[3], D[9], S[9];
                 reference_gather(&solved.node, &p, d, D);
                 dual_multiplier(&solved.stage, i, S);
-                const double lacking = fmin(1.0 / p.volume_ratio - 1.0, (double)solved.stage.scene.world->args.growth_max) - matrix_trace(dimension, D);
+                const double lacking = fmin(1.0 / p.volume_ratio - 1.0, (double)solved.stage.scene.world->args.dual.growth_max) - matrix_trace(dimension, D);
                 check_true(S[0] >= 0.0 && lacking <= 1e-4, "room enough", (long)i);
                 check_true(S[0] < 1e-3 || fabs(lacking) <= 1e-4, "pressure only where matter is held", (long)i);
                 pressed += S[0] > 0.0;
@@ -162,7 +162,7 @@ static void test_growth_is_bounded_not_the_strain_that_pressure_explains(void)
         {
             check_subject(spec.name, isa, dimension);
             Solved solved = solve(&spec, isa, dimension, 1, PBMPM_PRESSURE_PARTICLES, 1000);
-            const double most = (double)solved.stage.scene.world->args.growth_max;
+            const double most = (double)solved.stage.scene.world->args.dual.growth_max;
             int bounded = 0, explained = 0;
             for (uint32_t i = 0; i < solved.stage.scene.world->particles.count; i++) {
                 const RefParticle p = scene_particle(&solved.stage.scene, i);

@@ -7,7 +7,7 @@
 #include "check.h"
 #include "world/depth.h"
 #include "dual_stages.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "isas.h"
 
 void setUp(void) {}
@@ -35,7 +35,7 @@ static double gain_at(Scene *scene, const float *start, const float *end, float 
 {
     World *world = scene->world;
     for (size_t i = 0; i < cell_count(world); i++)
-        world->args.cell_pressure[i] = world->args.cell_pressure_old[i] = start[i] + t * (end[i] - start[i]);
+        world->args.cells.pressure[i] = world->args.cells.pressure_old[i] = start[i] + t * (end[i] - start[i]);
     scene_run_particles(scene, scene->kernels->cells_push);
     scene_run_nodes(scene, scene->kernels->push_nodes);
     Loops none;
@@ -63,26 +63,26 @@ static void check_last_step(DualStage *stage)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, guess_prepare(world));
     scene_run_particles(scene, scene->kernels->cells_begin);
     scene_run_nodes(scene, scene->kernels->cells_mean);
-    memset(world->args.cell_pressure, 0, cells * sizeof(float));
-    float *start = copy_of(world->args.cell_pressure, cells);
+    memset(world->args.cells.pressure, 0, cells * sizeof(float));
+    float *start = copy_of(world->args.cells.pressure, cells);
     guess_begin(world, &contacts);
     const double before = gain_at(scene, start, start, 0.0f);
     guess_solve(world, &contacts, 1);
-    float *end = copy_of(world->args.cell_pressure, cells);
-    check_true(memcmp(world->args.cell_pressure_old, start, cells * sizeof(float)) == 0, "the guess keeps the pressures before it", 0);
+    float *end = copy_of(world->args.cells.pressure, cells);
+    check_true(memcmp(world->args.cells.pressure_old, start, cells * sizeof(float)) == 0, "the guess keeps the pressures before it", 0);
     const double after = gain_at(scene, start, end, 1.0f), beyond = gain_at(scene, start, end, 2.0f);
     const double slope = 0.5 * (4.0 * after - 3.0 * before - beyond), curvature = 2.0 * after - before - beyond;
     double soft = 0.0;
-    for (size_t i = 0; i < cells; i++) soft += 0.25 * (double)world->args.cell_mass[i] * (double)end[i] * (double)end[i];
+    for (size_t i = 0; i < cells; i++) soft += 0.25 * (double)world->args.cells.mass[i] * (double)end[i] * (double)end[i];
     soft *= 0.1 * slowest_pressure(world) * slowest_pressure(world);
     check_true(curvature > 0.0 && after > before, "the step is uphill", 0);
     check_near(1.0 + soft / curvature, slope / curvature, 1e-3, "where the gain is greatest", 0);
-    memcpy(world->args.cell_pressure_old, start, cells * sizeof(float)); /* as guess_solve() left it */
+    memcpy(world->args.cells.pressure_old, start, cells * sizeof(float)); /* as guess_solve() left it */
     Loops loops;
     loops_open(&loops, world->pool);
     guess_take_back(world, &loops);
     loops_run(&loops);
-    check_true(memcmp(world->args.cell_pressure, start, cells * sizeof(float)) == 0, "pressures taken back", 0);
+    check_true(memcmp(world->args.cells.pressure, start, cells * sizeof(float)) == 0, "pressures taken back", 0);
     free(start);
     free(end);
 }

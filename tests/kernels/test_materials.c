@@ -176,8 +176,8 @@ static double run_fed(Scene *scene, float *fed, bool may_feed, float feedback)
 {
     World *world = scene->world;
     double sum = 0.0;
-    world->args.fed = fed;
-    world->args.may_feed = may_feed;
+    world->args.primal.fed = fed;
+    world->args.primal.may_feed = may_feed;
     world->materials.kernel[0].volume_feedback = feedback;
     scene_run_particles(scene, scene->kernels->scatter);
     scene_run_nodes(scene, scene->kernels->predict_nodes);

@@ -193,7 +193,7 @@ static void test_crowded_visco_gives_up_volume(void)
             check_subject("crowded visco", isa, dimension);
             draw(dimension, 0.6, 1.5, 21);
             for (int i = 0; i < COUNT; i++) room[i] = (float)random_in(&random, 0.1, 1.5);
-            probes_for(isa, dimension)->crowd_all(&material, room, before, after, COUNT);
+            probes_for(isa, dimension)->give_up_all(&material, room, before, after, COUNT);
             for (int i = 0; i < COUNT; i++) {
                 double was[9], is[9];
                 read_matrix(before + 9 * i, was);

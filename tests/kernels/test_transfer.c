@@ -110,7 +110,7 @@ static void test_speed_limit(void)
                 slowed += length2 > 9.0 * (1.0 - 1e-5);
                 check_true(length2 <= 9.0 * (1.0 + 1e-5), "speed is limited", (long)i);
             }
-            for (int32_t b = 0; b < grid->particle_blocks; b++) counted += scene.world->args.clamped[b];
+            for (int32_t b = 0; b < grid->particle_blocks; b++) counted += scene.world->args.grid.clamped[b];
             TEST_ASSERT_TRUE(slowed > 0);
             TEST_ASSERT_EQUAL_UINT32(slowed, counted);
             scene_close(&scene);

@@ -126,7 +126,7 @@ static void check_viscosity(const char *name, double share)
             RefGrid before = scene_nodes(&scene);
             viscosity_apply(world, &nothing);
             float_mode_leave(mode);
-            RefGrid after = scene_nodes(&scene), base = scene_nodes_of(&scene, world->args.node_base), expected = legendre(&scene, &before, stages);
+            RefGrid after = scene_nodes(&scene), base = scene_nodes_of(&scene, world->args.grid.node_base), expected = legendre(&scene, &before, stages);
             const double bound = 64.0 * UNIT_ROUNDOFF * stages * stages;
             for (size_t i = 0; i < node_count(&after); i++)
                 for (int a = 0; a < dimension; a++) {

@@ -330,7 +330,7 @@ static bool feels(const World *world, int32_t block)
 static int count_marked(const Scene *scene)
 {
     int marked = 0;
-    for (int32_t block = 0; block < scene->world->grid.node_blocks; block++) marked += scene->world->args.edged[block] != 0;
+    for (int32_t block = 0; block < scene->world->grid.node_blocks; block++) marked += scene->world->args.grid.edged[block] != 0;
     return marked;
 }
 
@@ -341,7 +341,7 @@ static int marked_blocks(int dimension, bool with_box, double place)
     if (with_box) add_box(scene.world, place);
     predict(&scene);
     for (int32_t block = 0; with_box && block < scene.world->grid.node_blocks; block++)
-        if (feels(scene.world, block)) TEST_ASSERT_EQUAL_UINT32(1, scene.world->args.edged[block]);
+        if (feels(scene.world, block)) TEST_ASSERT_EQUAL_UINT32(1, scene.world->args.grid.edged[block]);
     const int marked = count_marked(&scene);
     scene_close(&scene);
     return marked;
@@ -398,22 +398,22 @@ static ContactFrame find_walls(Scene *scene)
 static void press_evenly(Scene *scene)
 {
     World *world = scene->world;
-    float *node = world->args.node;
+    float *node = world->args.grid.node;
     for (size_t i = 0; i < count_nodes(scene); i++)
         for (size_t a = 0; a < 3; a++) node[i * K_NODE_WIDTH + a] = 0.0f;
     TEST_ASSERT_TRUE(array_reserve(&world->memory, &world->dual.cells, count_nodes(scene), sizeof(float)));
     float *pressure = world->dual.cells.data;
     for (size_t i = 0; i < count_nodes(scene); i++) pressure[i] = 1.0f;
-    world->args.cell_pressure = world->args.cell_pressure_old = pressure;
+    world->args.cells.pressure = world->args.cells.pressure_old = pressure;
     for (int slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) world->materials.kernel[slot].lightness = 1.0f;
-    world->args.probing = 1;
+    world->args.cells.probing = 1;
     solver_over_both(world, world->kernels->cells_push, world->kernels->respond_nodes, NULL);
-    world->args.probing = 0;
+    world->args.cells.probing = 0;
 }
 
 static double largest(const Scene *scene)
 {
-    const float *node = scene->world->args.node;
+    const float *node = scene->world->args.grid.node;
     double most = 0.0;
     for (size_t i = 0; i < count_nodes(scene); i++)
         for (size_t a = 0; a < 3; a++) most = fmax(most, fabs((double)node[i * K_NODE_WIDTH + a]));
@@ -465,7 +465,7 @@ static void test_the_density_at_walls_is_folded(void)
 /* m-weighted products. */
 static double product(const Scene *scene, const float *a, const float *b)
 {
-    const float *node = scene->world->args.node;
+    const float *node = scene->world->args.grid.node;
     double sum = 0.0;
     for (size_t i = 0; i < count_nodes(scene); i++)
         for (size_t k = 0; k < 3; k++) sum += (double)node[i * K_NODE_WIDTH + 3] * (double)a[i * K_NODE_WIDTH + k] * (double)b[i * K_NODE_WIDTH + k];
@@ -474,7 +474,7 @@ static double product(const Scene *scene, const float *a, const float *b)
 
 static void shake(Scene *scene, Random *random)
 {
-    float *node = scene->world->args.node;
+    float *node = scene->world->args.grid.node;
     for (size_t i = 0; i < count_nodes(scene); i++)
         for (int a = 0; a < scene->step.dimension && node[i * K_NODE_WIDTH + 3] > 0.0f; a++)
             node[i * K_NODE_WIDTH + (size_t)a] = (float)random_in(random, -1.0, 1.0);
@@ -507,7 +507,7 @@ static void check_norm(int dimension, int shift, bool sloped)
     for (uint32_t i = 0; i < scene.world->particles.count; i++) scene.world->particles.mass[i] *= (float)random_in(&random, 0.2, 2.0);
     ContactFrame frame = find_walls(&scene);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
-    float *node = scene.world->args.node, *first = malloc(floats * sizeof *first), *second = malloc(floats * sizeof *second), *of_first = malloc(floats * sizeof *first);
+    float *node = scene.world->args.grid.node, *first = malloc(floats * sizeof *first), *second = malloc(floats * sizeof *second), *of_first = malloc(floats * sizeof *first);
     TEST_ASSERT_TRUE(first && second && of_first);
     shake(&scene, &random);
     memcpy(first, node, floats * sizeof *node);
@@ -548,7 +548,7 @@ static void test_held_nodes_do_not_answer(void)
         TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_find(&frame, &world->memory, world->pool));
         shake(&scene, &random);
         walls_apply(&world->walls, &frame, world->pool, true, NULL);
-        const float *node = world->args.node;
+        const float *node = world->args.grid.node;
         int rest = 0, move = 0;
         for (size_t i = 0; i < count_nodes(&scene); i++) {
             const size_t cells = (size_t)world->grid.block_cells;
@@ -571,7 +571,7 @@ static void test_held_nodes_do_not_answer(void)
 static double value_of(Scene *scene, ContactFrame *frame, const float *base, const float *push)
 {
     World *world = scene->world;
-    float *node = world->args.node;
+    float *node = world->args.grid.node;
     double value = 0.0;
     for (size_t i = 0; i < count_nodes(scene) * K_NODE_WIDTH; i += K_NODE_WIDTH)
         for (size_t a = i; a < i + 3 && node[i + 3] > 0.0f; a++) node[a] = base[a] + push[a] / node[i + 3];
@@ -593,7 +593,7 @@ static void check_value(int dimension, int shift)
     Scene scene = full_box(cpu_isa(), dimension, 0.1 * shift, 2);
     ContactFrame frame = find_walls(&scene);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
-    float *node = scene.world->args.node, *base = malloc(floats * sizeof *base), *push = malloc(floats * sizeof *push), *more = malloc(floats * sizeof *more);
+    float *node = scene.world->args.grid.node, *base = malloc(floats * sizeof *base), *push = malloc(floats * sizeof *push), *more = malloc(floats * sizeof *more);
     TEST_ASSERT_TRUE(base && push && more);
     shake(&scene, &random);
     memcpy(base, node, floats * sizeof *base);

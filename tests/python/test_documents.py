@@ -12,7 +12,7 @@ import pytest
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "bindings").glob("*/README.md"), ROOT / "samples" / "scenes" / "README.md"])
 NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
-HEADERS = sorted((ROOT / "include" / "pbmpm").glob("*.h"))
+HEADERS = sorted([*(ROOT / "include" / "pbmpm").glob("*.h"), *(ROOT / "bindings" / "engine").rglob("*.hpp")])
 LONGEST = 20
 """Words of a sentence that a reader takes in at once."""
 

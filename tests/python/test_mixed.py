@@ -1,6 +1,6 @@
 """Liquids and solids in one world with the dual solver, at 60 Hz x 5 as a game would run it: bodies keep shape and volume, liquids keep theirs.
 
-The limits lie between what is measured and what is without the guess and the rounds that solids take part in (src/solvers/dual/guess.h, src/solvers/dual/rounds.h)."""
+The limits lie between what is measured and what is without the guess and the rounds that solids take part in (src/solvers/dual/pressure_guess.h, src/solvers/dual/rounds.h)."""
 
 from __future__ import annotations
 

@@ -13,7 +13,10 @@ from pbmpm.lab.simulation import RunSettings, Simulation
 NAMES = ["glass_jelly", "water_wheel", "hourglass", "boat", "jelly_tower", "tiled_level"]
 
 
-@pytest.mark.parametrize("name", [f"{name}_{dimension}d" for dimension in (2, 3) for name in NAMES])
+ENGINES = ["drink_3d", "raft_3d", "sandbox_3d"]
+
+
+@pytest.mark.parametrize("name", [*(f"{name}_{dimension}d" for dimension in (2, 3) for name in NAMES), *ENGINES])
 def test_a_sample_at_the_pace_of_a_game(root: Path, name: str) -> None:
     scene = load_scene(root / "samples" / "scenes" / f"{name}.json")
     settings = RunSettings.of(scene)

@@ -14,7 +14,7 @@ import tempfile
 from pathlib import Path
 
 #: From top to bottom. Folders in a room belong to it.
-ROOMS = ("api", "services", "snapshot", "step", "solvers", "world", "contact", "grid", "matter", "shape", "base")
+ROOMS = ("api", "services", "skin", "snapshot", "step", "solvers", "world", "contact", "grid", "matter", "shape", "base")
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 #: Of other folders than src: the public headers, and what C and the kernels share.
 _FOREIGN = re.compile(r"pbmpm/\w+\.h|kernel_types\.h")
@@ -105,7 +105,7 @@ PLANTED = (
     ("world/depth.c", '#include "depth.h"', "world/depth.c includes depth.h, which is no file in a room"),
     ("attic/things.h", "", "attic/things.h is in no room"),
     ("base/memory.c", "void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "src/base/memory.c: f() has 8 parameters"),
-    ("../ispc/crowd.isph", "static void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "ispc/crowd.isph: f() has 8 parameters"),
+    ("../ispc/compression.isph", "static void f(int a, int b, int c, int d, int e, int f, int g, int h) {}", "ispc/compression.isph: f() has 8 parameters"),
 )
 
 

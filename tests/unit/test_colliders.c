@@ -147,7 +147,7 @@ typedef struct Setting {
     Grid grid;
     Colliders colliders;
     Domain domain;
-    StepContext step;
+    Substep substep;
     ContactFrame frame;
 } Setting;
 
@@ -168,8 +168,8 @@ static void setting_open(Setting *s, int dimension, int32_t extent)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&s->grid, &s->memory, &s->particles, s->pool, false));
     const pbmpm_world_def def = world_def_defaults();
     s->domain = domain_of(&def);
-    s->step = step_context((double)0.01f, CELL_SIZE);
-    s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .step = &s->step, .max_displacement = LIMIT};
+    s->substep = substep_of((double)0.01f, CELL_SIZE);
+    s->frame = (ContactFrame){.colliders = &s->colliders, .grid = &s->grid, .cell_size = CELL_SIZE, .substep = &s->substep, .max_displacement = LIMIT};
 }
 
 static void setting_close(Setting *s)

@@ -154,7 +154,7 @@ static void test_rates_of_emitters(void)
 static void predict(void)
 {
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, solver_prepare(world));
-    world->step = world_context(world, (double)0.01f);
+    world->substep = world_substep(world, (double)0.01f);
     solver_bind(world, false);
     solver_predict(world);
 }
@@ -216,7 +216,7 @@ static void check_reach(int dimension, uint32_t seed)
         TEST_ASSERT_EQUAL_FLOAT(reach, ((const float *)world->grid.node_reach.data)[block]);
     }
     TEST_ASSERT_EQUAL_MEMORY(node, world->grid.node_base.data, node_floats() * sizeof(float));
-    TEST_ASSERT_EQUAL_MEMORY(before, world->args.node_before, node_floats() * sizeof(float));
+    TEST_ASSERT_EQUAL_MEMORY(before, world->args.grid.node_before, node_floats() * sizeof(float));
     forces_account(&world->forces, world->grid.node_blocks);
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * impulse + 1e-9, impulse, forces_find(&world->forces, id)->impulse[1]);
     world_destroy(world);

@@ -73,7 +73,7 @@ static void test_the_cells_around_solids(void)
         World *world = open_world(2 + i % 2);
         ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid};
         scatter(world, &random);
-        world->step = world_context(world, (double)0.01f);
+        world->substep = world_substep(world, (double)0.01f);
         solver_bind(world, false);
         TEST_ASSERT_EQUAL_INT(PBMPM_OK, grid_build(&world->grid, &world->memory, &world->particles, world->pool, false));
         for (int again = 0; again < 2; again++) { /* what was found before is forgotten */

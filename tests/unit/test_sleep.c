@@ -5,7 +5,7 @@
 
 #include "random.h"
 #include "services/lifecycle.h"
-#include "step/crowd.h"
+#include "step/occupancy.h"
 #include "step/sleep.h"
 #include "step/step.h"
 #include "world/sleep_rows.h"
@@ -266,7 +266,7 @@ static void test_matter_fills_as_much_asleep(void)
         double held[REGIONS], most = 0.0;
         Random random = {11};
         World *world = open_world(dimension);
-        Crowd crowd = {.size = {SIZE, SIZE, dimension == 3 ? SIZE : 1}};
+        Occupancy occupancy = {.size = {SIZE, SIZE, dimension == 3 ? SIZE : 1}};
         fill_blocks(world, &random);
         world->materials.kernel[0].inverse_density = 1.0f;
         TEST_ASSERT_TRUE(sleep_reserve(&world->sleep, &world->memory, BLOCKS, 0));
@@ -275,13 +275,13 @@ static void test_matter_fills_as_much_asleep(void)
             for (int i = 0; i < REGIONS; i++) {
                 int32_t place[3];
                 place_of((int)random_below(&same, BLOCKS), place);
-                for (int a = 0; a < dimension; a++) crowd.low[a] = place[a] * K_BLOCK_AXIS + (int32_t)random_below(&same, 20) - 12;
-                crowd.volume = lie ? asleep : awake[i];
-                crowd_measure(world, &crowd);
-                if (lie) TEST_ASSERT_DOUBLE_WITHIN(1e-3, held[i], crowd.held);
+                for (int a = 0; a < dimension; a++) occupancy.low[a] = place[a] * K_BLOCK_AXIS + (int32_t)random_below(&same, 20) - 12;
+                occupancy.volume = lie ? asleep : awake[i];
+                occupancy_measure(world, &occupancy);
+                if (lie) TEST_ASSERT_DOUBLE_WITHIN(1e-3, held[i], occupancy.held);
                 for (int n = 0; n < NODES && lie; n++) TEST_ASSERT_FLOAT_WITHIN(1e-3f, awake[i][n], asleep[n]);
-                held[i] = crowd.held;
-                most = fmax(most, crowd.held);
+                held[i] = occupancy.held;
+                most = fmax(most, occupancy.held);
             }
             make_leaving(world);
             sleep_settle(world);

@@ -10,10 +10,10 @@
 #include "base/generations.h"
 #include "books.h"
 #include "random.h"
-#include "services/edit.h"
-#include "services/inspect.h"
+#include "services/edit_particles.h"
 #include "services/lifecycle.h"
 #include "services/registry.h"
+#include "services/state_hash.h"
 #include "snapshot/snapshot.h"
 #include "step/step.h"
 
@@ -152,9 +152,9 @@ static uint64_t find_field(uint32_t tag)
 
 static void expect_foreign_and_unchanged(const char *what)
 {
-    const uint64_t hash = inspect_hash(world), generation = world->generation;
+    const uint64_t hash = state_hash(world), generation = world->generation;
     TEST_ASSERT_EQUAL_INT_MESSAGE(PBMPM_ERROR_FOREIGN, restore_forged(), what);
-    TEST_ASSERT_EQUAL_HEX64_MESSAGE(hash, inspect_hash(world), what);
+    TEST_ASSERT_EQUAL_HEX64_MESSAGE(hash, state_hash(world), what);
     TEST_ASSERT_EQUAL_UINT64_MESSAGE(generation, world->generation, what);
 }
 
@@ -349,7 +349,7 @@ static void test_without_memory_nothing_changes(void)
     save_world();
     world_destroy(world);
     make_world(2);
-    const uint64_t used = world->memory.used, hash = inspect_hash(world), blocks = books.live_blocks;
+    const uint64_t used = world->memory.used, hash = state_hash(world), blocks = books.live_blocks;
     const int fields = world->particles.field_count;
     uint64_t failures = 0;
     pbmpm_result result;
@@ -363,7 +363,7 @@ static void test_without_memory_nothing_changes(void)
         TEST_ASSERT_EQUAL_UINT64(blocks, books.live_blocks);
         TEST_ASSERT_EQUAL_INT(fields, world->particles.field_count);
         TEST_ASSERT_TRUE(!world->particles.deformation[0] && !world->particles.pressure && !world->particles.past_affine[0] && !world->particles.past_dt);
-        TEST_ASSERT_EQUAL_HEX64(hash, inspect_hash(world));
+        TEST_ASSERT_EQUAL_HEX64(hash, state_hash(world));
     } while (failures < 100);
     books.fail_at = 0;
     TEST_ASSERT_TRUE(failures >= 10 && failures < 100); /* four fields and six lists of who sleeps */

@@ -7,7 +7,7 @@
 #include <unity.h>
 
 #include "shape/bake.h"
-#include "shape/concave.h"
+#include "shape/tangent_planes.h"
 #include "meshes.h"
 #include "random.h"
 #include "base/result.h"
@@ -618,7 +618,7 @@ static void check_ways(int d, double most)
             for (int a = 0; a < d; a++) there[a] = point[a] + way[a] * cell * k / PLACES;
             deepest = fmin(deepest, solid_distance(&solid, there, unused) / cell);
         }
-        const int planes = concave_planes(&solid, cell, point, &nearest, way, margin, plane);
+        const int planes = tangent_planes(&solid, cell, point, &nearest, way, margin, plane);
         bool forbidden = false;
         for (int k = 0; k < planes; k++) {
             const double along = plane[k].normal[0] * way[0] + plane[k].normal[1] * way[1] + plane[k].normal[2] * way[2];

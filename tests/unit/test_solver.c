@@ -31,20 +31,20 @@ static World *open_world(int dimension, float cell_size)
 
 static void bind_for(World *world, float dt, bool with_volume)
 {
-    world->step = world_context(world, (double)dt);
+    world->substep = world_substep(world, (double)dt);
     solver_bind(world, with_volume);
 }
 
 static double share_of(const World *world, const pbmpm_material_def *def, double dt)
 {
-    const StepContext step = world_context(world, dt);
-    return dual_stiffness_share(world, def, &step);
+    const Substep substep = world_substep(world, dt);
+    return dual_stiffness_share(world, def, &substep);
 }
 
 static double cap_of(const World *world, const pbmpm_material_def *def, double dt)
 {
-    const StepContext step = world_context(world, dt);
-    return dual_stiffness_cap(world, def, &step);
+    const Substep substep = world_substep(world, dt);
+    return dual_stiffness_cap(world, def, &substep);
 }
 
 static const KernelMaterial *bound_material(World *world, const pbmpm_material_def *def, pbmpm_solver solver, float dt)

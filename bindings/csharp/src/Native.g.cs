@@ -1555,6 +1555,52 @@ namespace Pbmpm
         /// <summary>step_count when it happened</summary>
         public ulong Step;
     }
+
+    /// <summary>What a surface is of, and how fine. Fill it with pbmpm_surface_def_init(), then change what differs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct SurfaceDef
+    {
+        /// <summary>sizeof(pbmpm_surface_def), set by pbmpm_surface_def_init()</summary>
+        public uint Size;
+        /// <summary>points of the lattice per cell and axis: 1 (a quarter of the triangles, some half of the time) or 2 (default)</summary>
+        public uint Subdivision;
+        /// <summary>of which it is: `material_count` of them, each once</summary>
+        public IntPtr Materials;
+        /// <summary>0 (default): all materials</summary>
+        public uint MaterialCount;
+        /// <summary>filling at the surface, in [0.1, 0.9]; default 0.5: where matter ends. A lower one makes it fatter.</summary>
+        public float Level;
+        /// <summary>1 (default): layers and threads that are a particle thick are part of it, with about their volume. 0: they vanish</summary>
+        public int KeepsThin;
+        /// <summary>per index: 2, for up to 65535 vertices, or 4 (default)</summary>
+        public uint IndexBytes;
+
+        /// <summary>The library's defaults.</summary>
+        public static SurfaceDef Default
+        {
+            get
+            {
+                Library.Check();
+                SurfaceDef it;
+                Library.Require(Methods.pbmpm_surface_def_init(&it, (UIntPtr)sizeof(SurfaceDef)));
+                return it;
+            }
+        }
+    }
+
+    /// <summary>A particle to draw: 32 bytes, the layout of {vec3, float, vec3, uint} in GLSL's std430. This structure never grows.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public partial struct Point
+    {
+        /// <summary>[m], relative to the origin; 2D: z is 0</summary>
+        public Float3 Position;
+        /// <summary>[m] of a ball (2D: a disc) of the particle's present volume, times def.radius_scale</summary>
+        public float Radius;
+        /// <summary>[m/s]; 2D: z is 0</summary>
+        public Float3 Velocity;
+        /// <summary>4 bytes: red, green, blue, opacity, in this order in memory</summary>
+        public uint Colour;
+    }
 }
 
 namespace Pbmpm.Native
@@ -1804,6 +1850,68 @@ namespace Pbmpm.Native
         public int CameTrue;
         /// <summary>one sentence, constant, valid as long as the library; never null</summary>
         public IntPtr Text;
+    }
+
+    /// <summary>Where a mesh goes. Each pointer may be null: then that is not written, nor worked out. Memory is the caller's; a float or index needs no alignment.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct SurfaceMesh
+    {
+        /// <summary>sizeof(pbmpm_surface_mesh), set by the caller</summary>
+        public uint Size;
+        /// <summary>bytes from one vertex to the next, a multiple of 4, in each of the following; 0: they are packed. So all may lie in one record</summary>
+        public uint Stride;
+        /// <summary>3 floats per vertex [m], relative to the origin</summary>
+        public float* Positions;
+        /// <summary>3 floats per vertex: unit vector out of the matter, smooth</summary>
+        public float* Normals;
+        /// <summary>3 floats per vertex [m/s]: the mean of particles near by</summary>
+        public float* Velocities;
+        /// <summary>def.material_count floats per vertex: the share that each material has of the matter near by. They add up to 1.</summary>
+        public float* Weights;
+        /// <summary>3 per triangle, counterclockwise from outside, of def.index_bytes each</summary>
+        public IntPtr Indices;
+        /// <summary>vertices that there is room for, in each of the above</summary>
+        public uint VertexCapacity;
+        /// <summary>indices that there is room for</summary>
+        public uint IndexCapacity;
+        /// <summary>out</summary>
+        public uint VertexCount;
+        /// <summary>out</summary>
+        public uint IndexCount;
+    }
+
+    /// <summary>Which particles become points, and how they look. Fill it with pbmpm_points_def_init(), then change what differs.</summary>
+    [StructLayout(LayoutKind.Sequential)]
+    public unsafe partial struct PointsDef
+    {
+        /// <summary>sizeof(pbmpm_points_def), set by pbmpm_points_def_init()</summary>
+        public uint Size;
+        /// <summary>of `materials`; 0 (default): all</summary>
+        public uint MaterialCount;
+        /// <summary>whose particles become points, each once</summary>
+        public IntPtr Materials;
+        /// <summary>the colour of each of `materials`, or null (default): opaque white</summary>
+        public uint* Palette;
+        /// <summary>1: the colour is PBMPM_USER_VALUE of the particle; 0 (default)</summary>
+        public int ColourFromUser;
+        /// <summary>in (0, 100]; default 1. Neighbours in a lattice touch at 0.81.</summary>
+        public float RadiusScale;
+        /// <summary>1: only particles that the surface with the defaults and these materials leaves out, in 3D; 0 (default): all</summary>
+        public int SprayOnly;
+        /// <summary>0</summary>
+        public uint Reserved;
+
+        /// <summary>The library's defaults.</summary>
+        public static PointsDef Default
+        {
+            get
+            {
+                Library.Check();
+                PointsDef it;
+                Library.Require(Methods.pbmpm_points_def_init(&it, (UIntPtr)sizeof(PointsDef)));
+                return it;
+            }
+        }
     }
 
     /// <summary>Receives one line per notable happening. Any thread that calls the library may call it, and a step in the background; several at once, too.
@@ -2516,6 +2624,30 @@ namespace Pbmpm.Native
         /// capacity is 0; otherwise events[0].size must be set. Errors: INVALID_ID, INVALID_ARGUMENT (null), UNSUPPORTED (size), BUSY.</summary>
         [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
         public static extern Result pbmpm_world_events(WorldId world, Event* events, uint capacity, uint* count, uint* missed);
+
+        /// <summary>Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_surface_def_init(SurfaceDef* def, UIntPtr size);
+
+        /// <summary>Makes the surface. `def` may be null: the defaults. With all pointers null it only counts. A host whose buffers were too small enlarges them and calls again:
+        /// what the first call worked out is kept until the particles change.
+        ///
+        /// Spray is no part of it: particles that are alone, and drops of less than a cell with nothing else within some 4 cells. pbmpm_surface_points() with
+        /// spray_only has them.
+        /// Errors: INVALID_ID (also: a material); INVALID_ARGUMENT (null, a value out of range, weights without materials); CAPACITY: the buffers are too small, or there are more
+        /// vertices than indices of 2 bytes can tell apart. Then only the counts are written. UNSUPPORTED (size; the world is in 2D); OUT_OF_MEMORY; BUSY (also: another thread
+        /// makes a surface of this world, or a step runs in the background); FORKED.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_surface_extract(WorldId world, SurfaceDef* def, SurfaceMesh* mesh);
+
+        /// <summary>Writes the defaults, as pbmpm_surface_def_init() does.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_points_def_init(PointsDef* def, UIntPtr size);
+
+        /// <summary>Particles as points for splatting, in the order of views. `def` may be null: the defaults. *count is how many there are; `points` has room for `capacity`.
+        /// Errors: as pbmpm_surface_extract(); in 2D UNSUPPORTED only with spray_only. CAPACITY: nothing is written but *count.</summary>
+        [DllImport(LibraryName, CallingConvention = CallingConvention.Cdecl, ExactSpelling = true)]
+        public static extern Result pbmpm_surface_points(WorldId world, PointsDef* def, Point* points, uint capacity, uint* count);
     }
 
     /// <summary>Where the fields of the structures above lie.</summary>
@@ -2571,6 +2703,10 @@ namespace Pbmpm.Native
             RigidState(fields);
             Stats(fields);
             Event(fields);
+            SurfaceDef(fields);
+            SurfaceMesh(fields);
+            Point(fields);
+            PointsDef(fields);
             return fields;
         }
 
@@ -3195,6 +3331,60 @@ namespace Pbmpm.Native
             fields.Add(new MirrorField("pbmpm_event", "substep", &it, &it.Substep, &it.Substep + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "step", &it, &it.Step, &it.Step + 1, false));
             fields.Add(new MirrorField("pbmpm_event", "", &it, &it, &it + 1, true));
+        }
+
+        static void SurfaceDef(List<MirrorField> fields)
+        {
+            var it = default(SurfaceDef);
+            fields.Add(new MirrorField("pbmpm_surface_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "subdivision", &it, &it.Subdivision, &it.Subdivision + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "materials", &it, &it.Materials, &it.Materials + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "material_count", &it, &it.MaterialCount, &it.MaterialCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "level", &it, &it.Level, &it.Level + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "keeps_thin", &it, &it.KeepsThin, &it.KeepsThin + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "index_bytes", &it, &it.IndexBytes, &it.IndexBytes + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_def", "", &it, &it, &it + 1, true));
+        }
+
+        static void SurfaceMesh(List<MirrorField> fields)
+        {
+            var it = default(SurfaceMesh);
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "stride", &it, &it.Stride, &it.Stride + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "positions", &it, &it.Positions, &it.Positions + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "normals", &it, &it.Normals, &it.Normals + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "velocities", &it, &it.Velocities, &it.Velocities + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "weights", &it, &it.Weights, &it.Weights + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "indices", &it, &it.Indices, &it.Indices + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "vertex_capacity", &it, &it.VertexCapacity, &it.VertexCapacity + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "index_capacity", &it, &it.IndexCapacity, &it.IndexCapacity + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "vertex_count", &it, &it.VertexCount, &it.VertexCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "index_count", &it, &it.IndexCount, &it.IndexCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_surface_mesh", "", &it, &it, &it + 1, true));
+        }
+
+        static void Point(List<MirrorField> fields)
+        {
+            var it = default(Point);
+            fields.Add(new MirrorField("pbmpm_point", "position", &it, &it.Position, &it.Position + 1, false));
+            fields.Add(new MirrorField("pbmpm_point", "radius", &it, &it.Radius, &it.Radius + 1, false));
+            fields.Add(new MirrorField("pbmpm_point", "velocity", &it, &it.Velocity, &it.Velocity + 1, false));
+            fields.Add(new MirrorField("pbmpm_point", "colour", &it, &it.Colour, &it.Colour + 1, false));
+            fields.Add(new MirrorField("pbmpm_point", "", &it, &it, &it + 1, false));
+        }
+
+        static void PointsDef(List<MirrorField> fields)
+        {
+            var it = default(PointsDef);
+            fields.Add(new MirrorField("pbmpm_points_def", "size", &it, &it.Size, &it.Size + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "material_count", &it, &it.MaterialCount, &it.MaterialCount + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "materials", &it, &it.Materials, &it.Materials + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "palette", &it, &it.Palette, &it.Palette + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "colour_from_user", &it, &it.ColourFromUser, &it.ColourFromUser + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "radius_scale", &it, &it.RadiusScale, &it.RadiusScale + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "spray_only", &it, &it.SprayOnly, &it.SprayOnly + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "reserved", &it, &it.Reserved, &it.Reserved + 1, false));
+            fields.Add(new MirrorField("pbmpm_points_def", "", &it, &it, &it + 1, true));
         }
     }
 }

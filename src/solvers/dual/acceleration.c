@@ -6,14 +6,14 @@ static double next_of(double t) { return 0.5 * (1.0 + sqrt(1.0 + 4.0 * t * t)); 
 
 Acceleration acceleration_begin(World *world)
 {
-    world->args.momentum = 0.0f;
+    world->args.dual.momentum = 0.0f;
     return (Acceleration){world, 1.0};
 }
 
 void acceleration_next(Acceleration *acceleration, bool uphill, bool more)
 {
     const double t = acceleration->t, next = next_of(t);
-    acceleration->world->args.momentum = uphill || !more ? 0.0f : (float)((t - 1.0) / next);
+    acceleration->world->args.dual.momentum = uphill || !more ? 0.0f : (float)((t - 1.0) / next);
     acceleration->t = uphill ? 1.0 : next;
 }
 

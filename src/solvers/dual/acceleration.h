@@ -16,7 +16,7 @@ typedef struct Acceleration {
 
 Acceleration acceleration_begin(World *world);
 
-/* Sets args.momentum for the push that follows: 0 after the last iteration. */
+/* Sets args.dual.momentum for the push that follows: 0 after the last iteration. */
 void acceleration_next(Acceleration *acceleration, bool uphill, bool more);
 
 /* The extrapolation before the last of so many iterations, where none went uphill. */

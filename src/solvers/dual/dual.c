@@ -7,7 +7,7 @@
 #include "base/result.h"
 #include "solvers/dual/acceleration.h"
 #include "solvers/dual/dual_error.h"
-#include "solvers/dual/guess.h"
+#include "solvers/dual/pressure_guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
 #include "solvers/moduli.h"
@@ -53,7 +53,7 @@ static const double CARRIED_SHARE = 0.5;
 static const double CARRIED_SHARE_OF_ONE = 0.45;
 
 /* The guess finds the pressures of cells anew, as a correction: all is kept, but see fine_carried(). Not where liquids differ in density: there the guess is
- * truncated too, by what the heavy one may rise (guess.c). With all kept liquids of 1:10 to 1:10,000 gained 0.3 to 111 % of energy at 60 Hz x 2, with three
+ * truncated too, by what the heavy one may rise (pressure_guess.c). With all kept liquids of 1:10 to 1:10,000 gained 0.3 to 111 % of energy at 60 Hz x 2, with three
  * quarters 0.1 %, with a half nothing. The price: oil on 6 cells of water stirs at 9 mm/s at 60 Hz x 5, not at 3.
  * Nor of liquid so crushed that growth_max() cuts short what it asks for (crushed_carried). In a slit between walls nothing answers to that, and it would add up from
  * substep to substep: 180 times what one asks for, which threw it out at 82 m/s at 240 Hz x 2 when the walls opened. With a half it leaves at 6 to 11. */
@@ -138,17 +138,17 @@ static void bind_cells(World *world)
     KernelArgs *a = &world->args;
     const size_t nodes = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
     float *cells = world->dual.cells.data;
-    a->cell_mass = cells;
-    a->cell_growth = cells + nodes;
-    a->cell_softness = cells + 2 * nodes;
-    a->cell_pressure = cells + 3 * nodes;
-    a->cell_pressure_old = cells + 4 * nodes;
-    a->cell_strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
-    a->settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->step) : 1.0f;
-    a->elastic_guesses = shares_world(world);
-    a->cell_change2 = world->dual.cell_change2.data;
-    a->cell_uphill = world->dual.cell_uphill.data;
-    a->cell_relaxation = smallest_relaxation(world);
+    a->cells.mass = cells;
+    a->cells.growth = cells + nodes;
+    a->cells.softness = cells + 2 * nodes;
+    a->cells.pressure = cells + 3 * nodes;
+    a->cells.pressure_old = cells + 4 * nodes;
+    a->cells.strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
+    a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
+    a->cells.elastic_guesses = shares_world(world);
+    a->cells.change2 = world->dual.cell_change2.data;
+    a->cells.uphill = world->dual.cell_uphill.data;
+    a->cells.relaxation = smallest_relaxation(world);
 }
 
 /* The largest growth that crushed liquid is asked for in 1/60 s, and per substep of a single iteration. What grows by a share per substep moves faster the
@@ -161,7 +161,7 @@ static const double GROWTH_MAX = 0.3;
 static float growth_max(const World *world)
 {
     const double heavier = materials_density_contrast(&world->materials, &world->particles);
-    const double in_time = world->step.reference_steps * sqrt(heavier), iterations = (double)world->settings.iterations;
+    const double in_time = world->substep.reference_steps * sqrt(heavier), iterations = (double)world->settings.iterations;
     return (float)(GROWTH_MAX * fmin(1.0, fmax(in_time, 1.0 / (iterations * iterations))));
 }
 
@@ -171,22 +171,22 @@ static void bind(World *world)
 {
     KernelArgs *a = &world->args;
     Particles *p = &world->particles;
-    a->pressure = p->pressure;
-    a->pressure_old = particles_spare(p, CLASS_SCALAR, 0);
-    a->node_push = world->dual.node_push.data;
-    a->change2 = world->dual.change2.data;
-    a->uphill = world->dual.uphill.data;
-    a->momentum = 0.0f;
-    a->growth_max = growth_max(world);
-    a->crushed_carried = (float)fmin(1.0, CARRIED_SHARE / dual_carried_share(world));
-    a->fine_carried = fine_carried(world);
+    a->dual.pressure = p->pressure;
+    a->dual.pressure_old = particles_spare(p, CLASS_SCALAR, 0);
+    a->dual.node_push = world->dual.node_push.data;
+    a->dual.change2 = world->dual.change2.data;
+    a->dual.uphill = world->dual.uphill.data;
+    a->dual.momentum = 0.0f;
+    a->dual.growth_max = growth_max(world);
+    a->dual.crushed_carried = (float)fmin(1.0, CARRIED_SHARE / dual_carried_share(world));
+    a->dual.fine_carried = fine_carried(world);
     const int d = p->dimension, parts = d * (d + 1) / 2;
     for (int i = 0; i < 2 * parts && p->deformation[0]; i++) {
         float *array = i < d * d ? particles_spare(p, CLASS_MATRIX, i) : particles_spare(p, CLASS_VECTOR, i - d * d);
         if (i < parts)
-            a->stress[i] = array;
+            a->dual.stress[i] = array;
         else
-            a->stress_old[i - parts] = array;
+            a->dual.stress_old[i - parts] = array;
     }
 }
 
@@ -198,14 +198,14 @@ static double sum_blocks(const Array *array, int32_t blocks)
     return sum;
 }
 
-/* Displacements from the multipliers, extrapolated by args.momentum. *still is for the arguments of nodes, and has to live until the loops run. */
+/* Displacements from the multipliers, extrapolated by args.dual.momentum. *still is for the arguments of nodes, and has to live until the loops run. */
 static void add_push(World *world, Loops *loops, const ContactFrame *contacts, KernelArgs *still)
 {
     const Kernels *kernels = world->kernels;
     *still = world->args;
     if (in_cells(world)) {
         solver_add_rows(loops, world, kernels->cells_push, &world->args); /* of the extrapolated multipliers */
-        still->momentum = 0.0f;
+        still->dual.momentum = 0.0f;
     }
     solver_add_nodes(loops, world, kernels->push_nodes, still, contacts);
 }
@@ -232,7 +232,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
     Loops loops;
     loops_open(&loops, world->pool);
     guess_begin(world, contacts);
-    a->probing = in_cells(world);
+    a->cells.probing = in_cells(world);
     add_guess(world, &loops, contacts, kernels->cells_carry);
     if (sketch) {
         loops_run(&loops);
@@ -240,7 +240,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
         add_solids(world, &loops);
     }
     const double before = guess_gain(world, &loops);
-    a->probing = 0;
+    a->cells.probing = 0;
     guess_solve(world, contacts, iterations);
     add_guess(world, &loops, contacts, kernels->cells_add);
     if (!(guess_gain(world, &loops) >= before)) {
@@ -249,7 +249,7 @@ static void guess(World *world, const ContactFrame *contacts, int iterations, Du
         loops_run(&loops);
     }
     const size_t cells = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells;
-    memcpy(a->cell_pressure_old, a->cell_pressure, cells * sizeof(float));
+    memcpy(a->cells.pressure_old, a->cells.pressure, cells * sizeof(float));
 }
 
 /* First multipliers, and the displacements that they make. Returns the mass of the particles. */
@@ -263,7 +263,7 @@ static double start(World *world, const ContactFrame *contacts, DualSketch *sket
     if (in_cells(world) || guesses > 0) {
         solver_add_rows(&loops, world, kernels->cells_begin, &world->args);
         solver_add_nodes(&loops, world, kernels->cells_mean, &world->args, NULL);
-        if (world->args.cell_strain && !joint_is_chosen(world)) add_solids(world, &loops);
+        if (world->args.cells.strain && !joint_is_chosen(world)) add_solids(world, &loops);
     } else {
         solver_add_rows(&loops, world, kernels->dual_begin, &world->args);
     }
@@ -319,7 +319,7 @@ static int sand_rounds(const World *world)
 {
     static const double CELLS_PER_ITERATION = 4.0;
     if (!solver_holds_sand(world)) return 0;
-    const double wanted = ceil(matter_depth(world) * world->step.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
+    const double wanted = ceil(matter_depth(world) * world->substep.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
     return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
 }
 
@@ -350,7 +350,7 @@ static void iterate_all(World *world, const ContactFrame *contacts, double mass)
         if (!more || watched) dual_compare_displacements(world, &loops);
         if (more) add_iterate(world, &loops); /* the next one; nobody decides in between */
         loops_run(&loops);
-        if (!more || watched) dual_find_response(&modes, residual, sqrt(dual_compared(world) / mass), (double)world->args.momentum);
+        if (!more || watched) dual_find_response(&modes, residual, sqrt(dual_compared(world) / mass), (double)world->args.dual.momentum);
     }
     /* What ended the iterations stands as it was found. */
     if (record->stop != PBMPM_STOP_ERROR) record->predicted_error = dual_predicted_error(&modes, record->residual);
@@ -390,7 +390,7 @@ void dual_set_solids(World *world)
         const pbmpm_material_def *def = &world->materials.def[slot];
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0 || material->kind == K_LIQUID) continue;
-        moduli_set_solid(world, slot, dual_stiffness_cap(world, def, &world->step));
+        moduli_set_solid(world, slot, dual_stiffness_cap(world, def, &world->substep));
         material->relaxation = fminf(def->relaxation, dual_longest_relaxation(world->settings.iterations));
     }
 }
@@ -405,22 +405,22 @@ void dual_set_materials(World *world)
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->step), 1e30);
+        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->substep), 1e30);
     }
 }
 
-double dual_stiffness_of(const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_of(const pbmpm_material_def *def, const Substep *substep)
 {
     const Lame lame = lame_of((double)def->young_modulus, (double)def->poisson_ratio);
-    return moduli_unit(def, step) * (2.0 * lame.mu + lame.lambda);
+    return moduli_unit(def, substep) * (2.0 * lame.mu + lame.lambda);
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
  * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
-double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step);
-    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, substep);
+    const double stiffness = dual_stiffness_of(def, substep), iterations = trusted_iterations(world);
     const double rounds = takes_rounds(world) ? rounds_wanted(stiffness, world->settings.iterations) : 0.0;
     const double held = (iterations + rounds) / DUAL_ITERATIONS_PER_ROOT;
     return fmin(1.0, held * held / stiffness);
@@ -431,9 +431,9 @@ double dual_stiffness_share(const World *world, const pbmpm_material_def *def, c
  * pressure there is 4 g dt^2/dx per cell of depth. */
 static const double WEIGHT_STRAIN = 0.05;
 
-static double weight_stiffness(const World *world, const StepContext *step)
+static double weight_stiffness(const World *world, const Substep *substep)
 {
-    const double fall = gravity_fall(world, step);
+    const double fall = gravity_fall(world, substep);
     return fall > 0.0 ? 4.0 * fall * matter_depth(world) / WEIGHT_STRAIN : 0.0;
 }
 
@@ -441,10 +441,10 @@ static double weight_stiffness(const World *world, const StepContext *step)
  * the iterations do not hold is crushed by as much at once, unevenly, and its particles go on holding strains against each other (J 0.2 off the mean). The
  * stiffer they are held, the higher the body stands once iterations rise: asked for 5 at 15 Hz x 10 by 2 to 10 % of the energy it fell with (cells of 0.2 m,
  * eight seedings), asked for 2.5 by 0.6 % at most. */
-static double asked_per_iteration(const World *world, const StepContext *step)
+static double asked_per_iteration(const World *world, const Substep *substep)
 {
     static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
-    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, step), SHORT_FALL));
+    return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
 }
 
 /* A single iteration lets no particle answer another. */
@@ -459,10 +459,10 @@ static double most_asked(double each, double iterations)
  * E. Lifshitz, Mechanics, 1976, section 49), the root of M: by exp(1/6) per swing. Backward Euler takes from it the share (2 pi / T)^2 per substep of the T that a
  * swing has, exp(-4 pi^2 / T) per swing, which is exp(-1/4) at n = 1, T = 160, and more from there on. In one swing it would grow by exp(1/2), in two by as
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
-double dual_stiffened(const World *world, const StepContext *step, double iterations)
+double dual_stiffened(const World *world, const Substep *substep, double iterations)
 {
     static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0;
-    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, step);
+    const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, substep);
     const double risen = fmax(root * root, most_asked(each, iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
     const double for_weight = risen / each; /* n (n - 1) up to n = 2, n from there on */
     return fmin(DUAL_ITERATIONS_PER_ROOT * sqrt(risen), for_weight < 2.0 ? 0.5 + sqrt(0.25 + for_weight) : for_weight);
@@ -471,24 +471,24 @@ double dual_stiffened(const World *world, const StepContext *step, double iterat
 /* Of solids among liquids or sand, by so many iterations. */
 static double shared_stiffness_cap(double iterations, double stiffness) { return fmin(1.0, 16.0 * iterations * iterations / stiffness); }
 
-bool dual_holds_solids(const World *world, const StepContext *step)
+bool dual_holds_solids(const World *world, const Substep *substep)
 {
     bool held = true;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (world->particles.of_material[slot] == 0 || !material_is_solid(&world->materials, slot) || def->kind == PBMPM_SAND) continue;
-        held = held && shared_stiffness_cap((double)world->settings.iterations, dual_stiffness_of(def, step)) == 1.0;
+        held = held && dual_stiffness_share(world, def, substep) == 1.0;
     }
     return held;
 }
 
-double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const StepContext *step)
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
-    const double stiffness = dual_stiffness_of(def, step), iterations = trusted_iterations(world);
-    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, step); /* it remembers what it bears, not strain: see ispc/granular.isph */
+    const double stiffness = dual_stiffness_of(def, substep), iterations = trusted_iterations(world);
+    if (def->kind == PBMPM_SAND) return moduli_sand_share(def, substep); /* it remembers what it bears, not strain: see ispc/granular.isph */
     if (shares_world(world)) return shared_stiffness_cap(iterations, stiffness);
-    const double share = dual_stiffness_share(world, def, step);
+    const double share = dual_stiffness_share(world, def, substep);
     if (share == 1.0) return share;
-    const double asked = most_asked(asked_per_iteration(world, step), iterations);
-    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, step), asked) / stiffness));
+    const double asked = most_asked(asked_per_iteration(world, substep), iterations);
+    return fmax(share, fmin(1.0, fmin(weight_stiffness(world, substep), asked) / stiffness));
 }

@@ -21,17 +21,17 @@ typedef void DualSketch(World *world, const ContactFrame *contacts);
 void dual_solve_with(World *world, const ContactFrame *contacts, DualSketch *sketch);
 
 /* c (2 mu + lambda) of an elastic material: the square of twice the Courant number of its pressure wave. */
-double dual_stiffness_of(const pbmpm_material_def *def, const StepContext *step);
+double dual_stiffness_of(const pbmpm_material_def *def, const Substep *substep);
 
 /* The share of an elastic material's stiffness that the iterations of a substep can hold, and the share that they are asked for. */
-double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const StepContext *step);
-double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const StepContext *step);
+double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep);
+double dual_stiffness_cap(const World *world, const pbmpm_material_def *def, const Substep *substep);
 
 /* Whether they hold all of the stiffness of the solids that share the world with sand or liquid. */
-bool dual_holds_solids(const World *world, const StepContext *step);
+bool dual_holds_solids(const World *world, const Substep *substep);
 
 /* How many iterations solids may count on in the next substep that count on so many in this one, where more are set; see solver.c. */
-double dual_stiffened(const World *world, const StepContext *step, double iterations);
+double dual_stiffened(const World *world, const Substep *substep, double iterations);
 
 /* The share of its last pressure that a liquid starts a substep from. */
 double dual_carried_share(const World *world);

@@ -52,7 +52,7 @@ static bool has_past(const World *world, int32_t block)
         const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
         if (material->kind != K_ELASTIC || material->yields != K_NO_YIELD) return false;
         for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++)
-            if (world->particles.past_dt[row] != (float)world->step.substep_dt) return false;
+            if (world->particles.past_dt[row] != (float)world->substep.dt) return false;
     }
     return true;
 }
@@ -64,12 +64,12 @@ void multistep_bind(World *world)
     float *of_body = world->primal.body_share.data, *share = world->primal.block_share.data;
     KernelArgs *a = &world->args;
     if (!is_on(world)) return;
-    a->past_dt = p->past_dt;
-    a->block_share = share;
-    memcpy(a->past_velocity, p->past_velocity, sizeof a->past_velocity);
-    memcpy(a->past_affine, p->past_affine, sizeof a->past_affine);
-    memcpy(a->past_way, p->past_way, sizeof a->past_way);
-    memcpy(a->past_turn, p->past_turn, sizeof a->past_turn);
+    a->particles.past_dt = p->past_dt;
+    a->primal.block_share = share;
+    memcpy(a->particles.past_velocity, p->past_velocity, sizeof a->particles.past_velocity);
+    memcpy(a->particles.past_affine, p->past_affine, sizeof a->particles.past_affine);
+    memcpy(a->particles.past_way, p->past_way, sizeof a->particles.past_way);
+    memcpy(a->particles.past_turn, p->past_turn, sizeof a->particles.past_turn);
     for (int32_t i = 0; i < world->primal.bodies.count; i++) of_body[i] = BDF2_SHARE;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++)
         if (!has_past(world, block)) of_body[body[block]] = 1.0f;
@@ -80,14 +80,14 @@ void multistep_predict(World *world, int32_t begin, int32_t end)
 {
     const KernelArgs *a = &world->args;
     const size_t floats = (size_t)world->grid.block_cells * K_NODE_WIDTH;
-    for (int32_t block = begin; block < end && a->block_share; block++) {
-        const float less = 1.0f - a->block_share[block];
+    for (int32_t block = begin; block < end && a->primal.block_share; block++) {
+        const float less = 1.0f - a->primal.block_share[block];
         if (less == 0.0f) continue;
         for (size_t i = (size_t)block * floats; i < ((size_t)block + 1) * floats; i += K_NODE_WIDTH) {
-            if (a->node_base[i + 3] == 0.0f) continue;
+            if (a->grid.node_base[i + 3] == 0.0f) continue;
             for (size_t c = 0; c < 3; c++) {
-                const float forces = a->node_before ? a->node_base[i + c] - a->node_before[i + c] : 0.0f;
-                a->node_base[i + c] -= less * (a->gravity[c] + forces);
+                const float forces = a->grid.node_before ? a->grid.node_base[i + c] - a->grid.node_before[i + c] : 0.0f;
+                a->grid.node_base[i + c] -= less * (a->gravity[c] + forces);
             }
         }
     }
@@ -95,5 +95,5 @@ void multistep_predict(World *world, int32_t begin, int32_t end)
 
 void multistep_forget(World *world, int32_t block)
 {
-    if (world->args.block_share) world->args.block_share[block] = 0.0f;
+    if (world->args.primal.block_share) world->args.primal.block_share[block] = 0.0f;
 }

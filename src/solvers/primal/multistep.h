@@ -20,7 +20,7 @@ void multistep_expire(World *world);
 pbmpm_result multistep_prepare(World *world);
 void multistep_free(World *world);
 
-/* Chooses the share of forces for each block, see KernelArgs.block_share. */
+/* Chooses the share of forces for each block, see KernelArgs.primal.block_share. */
 void multistep_bind(World *world);
 
 /* Scales the predictor's forces by the shares. After this node_base is the predictor of the step, without contacts. */

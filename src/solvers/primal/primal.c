@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "base/result.h"
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/moduli.h"
 #include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
@@ -44,19 +44,19 @@ static void bind_couples(Primal *p)
     uint32_t *among_liquid = world->primal.among_liquid.data;
     if (!primal_is_mixed(world)) return;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) among_liquid[block] = primal_body_of(p, block)->with_liquid;
-    for (size_t k = 0; k < couples_of(world); k++) world->args.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
-    world->args.among_liquid = among_liquid;
+    for (size_t k = 0; k < couples_of(world); k++) world->args.primal.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
+    world->args.primal.among_liquid = among_liquid;
 }
 
 /* ---- Memory ---- */
 
 void primal_set_materials(World *world)
 {
-    moduli_set(world, primal_liquid_dilation(world, &world->step));
+    moduli_set(world, primal_liquid_dilation(world, &world->substep));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
-        if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->step));
+        if (material->yields == K_SAND) moduli_set_solid(world, slot, moduli_sand_share(&world->materials.def[slot], &world->substep));
     }
 }
 
@@ -74,7 +74,7 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->sums, SUMS * blocks, sizeof(double)) &&
                     bodies_find(&state->bodies, memory, &world->grid) &&
                     array_reserve(memory, &state->body_sums, (size_t)state->bodies.count, sizeof(BodySum)) &&
-                    array_reserve(memory, &state->rub, (size_t)state->bodies.count, sizeof(BodyRub)) &&
+                    array_reserve(memory, &state->friction, (size_t)state->bodies.count, sizeof(BodyFriction)) &&
                     array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
                     array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
@@ -85,7 +85,7 @@ pbmpm_result primal_prepare(World *world)
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->rub, &s->moves};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -109,10 +109,10 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
         p.step[i] = vector + (size_t)(4 + 2 * i) * length;
         p.change[i] = p.step[i] + length;
     }
-    world->args.node_force = p.force;
-    world->args.block_energy = state->block_energy.data;
+    world->args.primal.node_force = p.force;
+    world->args.primal.block_energy = state->block_energy.data;
     p.joint = joint_is_chosen(world);
-    world->args.fed = p.joint ? NULL : state->fed.data;
+    world->args.primal.fed = p.joint ? NULL : state->fed.data;
     return p;
 }
 
@@ -203,7 +203,7 @@ static void finish_gradient(Primal *p, int32_t block, size_t begin, size_t end, 
     const float *restrict node = p->node, *restrict base = p->base, *restrict best = p->best, *restrict gradient = p->gradient;
     float *restrict force = p->force;
     double energy[W] = {0}, before[W] = {0}, after[W] = {0};
-    if (p->rubs) sum[0] += holds_rub(p->contacts, node, force, 1.0f, p->slip_min, block);
+    if (p->rubs) sum[0] += constraints_friction(p->contacts, node, force, 1.0f, p->slip_min, block);
     for (size_t i = begin; i < end; i += W) {
         const float mass = base[i + 3];
         for (size_t c = 0; c < W; c++) {
@@ -263,13 +263,13 @@ static float share_of_levels(const Primal *p, const BodySum *body, size_t node)
 /* The preconditioner's N = m + k, the nodes' mass and stiffness; and for the multilevel one the mass per axis, which where a node is held is
  * the stiffness of the jump, and the stiffness. Not less than the mass: a contact that holds now may let go in a later step, and liquid
  * that has come apart has no stiffness. These stand in p->change[0] and [1] while there are no pairs. After the first pass and
- * holds_find(). */
+ * constraints_find_active(). */
 static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
     float *inverse = p->world->primal.inverse.data, *share = p->step[0], *weight = p->change[0], *stiff = p->change[1];
     memset(share + begin, 0, (end - begin) * sizeof *share);
-    holds_share(p->contacts, share, block, block + 1);
+    constraints_held_share(p->contacts, share, block, block + 1);
     for (size_t i = begin; i < end; i += W) {
         const float mass = p->base[i + 3], stiffness = p->force[i + 3];
         inverse[i / W] = mass > 0.0f ? 1.0f / (mass + stiffness) : 0.0f;
@@ -280,7 +280,7 @@ static void weigh_nodes(Primal *p, int32_t block, size_t begin, size_t end, doub
         sum[0] += (double)mass;
         sum[1] += (double)stiffness;
     }
-    if (p->rubs) holds_rub_weigh(p->contacts, p->best, weight, p->slip_min, block);
+    if (p->rubs) constraints_friction_diagonal(p->contacts, p->best, weight, p->slip_min, block);
 }
 
 /* ---- Accepting displacements ---- */
@@ -292,9 +292,9 @@ static void take_over_bare(Primal *p, int32_t block, size_t begin, size_t end, d
     memcpy(p->best + begin, p->node + begin, bytes);
     memcpy(p->gradient + begin, p->force + begin, bytes);
     for (size_t i = begin; i < end; i += W) p->gradient[i + 3] = 0.0f;
-    if (p->rubs) sum[0] = holds_rub(p->contacts, p->best, p->gradient, -1.0f, p->slip_min, block);
+    if (p->rubs) sum[0] = constraints_friction(p->contacts, p->best, p->gradient, -1.0f, p->slip_min, block);
     memcpy(p->right + begin, p->gradient + begin, bytes);
-    holds_find(p->contacts, p->best, p->right, block, block + 1);
+    constraints_find_active(p->contacts, p->best, p->right, block, block + 1);
     for (size_t i = begin; i < end && p->rubs; i += W)
         for (size_t c = 0; c < 3; c++) sum[1 + c] += (double)p->base[i + 3] * ((double)p->best[i + c] - (double)p->base[i + c]);
 }
@@ -307,9 +307,9 @@ static void take_over(Primal *p, int32_t block, size_t begin, size_t end, double
 
 static void add_friction(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    sum[SUMS - 1] = holds_rub(p->contacts, p->best, p->gradient, 1.0f, p->slip_min, block);
-    holds_rub(p->contacts, p->best, p->right, 1.0f, p->slip_min, block);
-    holds_remove(p->contacts, p->right, block, block + 1);
+    sum[SUMS - 1] = constraints_friction(p->contacts, p->best, p->gradient, 1.0f, p->slip_min, block);
+    constraints_friction(p->contacts, p->best, p->right, 1.0f, p->slip_min, block);
+    constraints_remove(p->contacts, p->right, block, block + 1);
     for (int i = 0; i < p->pairs; i++) sum[i] = dot(p->step[i], p->right, begin, end);
 }
 
@@ -317,7 +317,7 @@ static void add_friction(Primal *p, int32_t block, size_t begin, size_t end, dou
 static void renew_friction(Primal *p)
 {
     PrimalState *state = &p->world->primal;
-    BodyRub *body = state->rub.data;
+    BodyFriction *body = state->friction.data;
     const int32_t *of_block = state->bodies.of_block.data;
     const double *sums = state->sums.data;
     p->energy -= p->total[0];
@@ -328,10 +328,10 @@ static void renew_friction(Primal *p)
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         for (int c = 0; c < 3; c++) body[of_block[block]].gained[c] += sums[(size_t)block * SUMS + 1 + (size_t)c];
-        holds_push(p->contacts, p->best, p->gradient, p->slip_min, block, &body[of_block[block]]);
+        constraints_sum_push(p->contacts, p->best, p->gradient, p->slip_min, block, &body[of_block[block]]);
     }
-    holds_scale(body, state->bodies.count);
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) holds_limit(p->contacts, block, &body[of_block[block]]);
+    constraints_scale(body, state->bodies.count);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) constraints_set_limits(p->contacts, block, &body[of_block[block]]);
     primal_over_blocks(p, add_friction);
     p->energy += p->total[SUMS - 1];
 }
@@ -407,13 +407,13 @@ static void join_levels(Primal *p, int32_t block, size_t begin, size_t end)
         for (size_t c = 0; c < W; c++) joining[i + c] = joins * right[i + c];
         for (size_t c = 0; c < W; c++) direction[i + c] = own * right[i + c];
     }
-    if (p->rubs) holds_soften(p->contacts, p->best, inverse, direction, p->slip_min, block);
+    if (p->rubs) constraints_soften(p->contacts, p->best, inverse, direction, p->slip_min, block);
 }
 
 static void add_changes(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     for (int k = 0; k < p->pairs; k++) add(p->right, -p->first[k], p->change[k], begin, end);
-    holds_remove(p->contacts, p->right, block, block + 1);
+    constraints_remove(p->contacts, p->right, block, block + 1);
     if (p->rigid)
         primal_sum_rigid(p, block, p->right + begin, sum);
     else
@@ -441,7 +441,7 @@ static void project_direction(Primal *p, int32_t block, size_t begin, size_t end
         const float joins = inverse[i / W] > 0.0f ? share_of_levels(p, body, i / W) : 0.0f;
         for (size_t c = 0; c < W; c++) p->direction[i + c] = joins > JOINS_MIN ? joins * p->direction[i + c] : inverse[i / W] * p->right[i + c];
     }
-    holds_remove(p->contacts, p->direction, block, block + 1);
+    constraints_remove(p->contacts, p->direction, block, block + 1);
     if (p->rigid) {
         primal_sum_inertia(p, block, begin, end, sum);
         return;
@@ -452,7 +452,7 @@ static void project_direction(Primal *p, int32_t block, size_t begin, size_t end
 static void add_steps(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     for (int k = 0; k < p->pairs; k++) add(p->direction, p->second[k], p->step[k], begin, end);
-    holds_remove(p->contacts, p->direction, block, block + 1);
+    constraints_remove(p->contacts, p->direction, block, block + 1);
     sum[0] = dot(p->gradient, p->direction, begin, end);
 }
 
@@ -498,7 +498,7 @@ static void try_step(Primal *p, int32_t block, size_t begin, size_t end, double 
     (void)sum;
     memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof(float));
     add(p->node, -(double)p->share, p->direction, begin, end);
-    holds_project(p->contacts, p->node, block, block + 1);
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
 static bool is_good(const Primal *p)
@@ -597,7 +597,7 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
 /* See multistep.h. A solution that is far from done must not be extrapolated either: its error would feed the next step. */
 static void forget_past(Primal *p)
 {
-    if (!p->world->args.block_share) return;
+    if (!p->world->args.primal.block_share) return;
     primal_over_blocks(p, sum_change);
     const bool done = p->world->record.residual <= FAR_FROM_DONE * sqrt(p->total[0] / p->mass);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
@@ -626,20 +626,20 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     const bool balanced = body->leans && (!body->with_liquid || p->mixed);
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
-        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.node_before[c] - p->world->args.gravity[c - i];
-    holds_project(p->contacts, p->node, block, block + 1);
+        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
+    constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }
 
 static void find_friction(Primal *p)
 {
     PrimalState *state = &p->world->primal;
-    BodyRub *body = state->rub.data;
-    p->slip_min = holds_slip_min(&p->world->step);
-    p->rubs = holds_any_rub(p->contacts);
+    BodyFriction *body = state->friction.data;
+    p->slip_min = constraints_slip_min(&p->world->substep);
+    p->rubs = constraints_have_friction(p->contacts);
     if (!p->rubs) return;
     for (int32_t i = 0; i < state->bodies.count; i++) body[i].groups = 0;
-    holds_group(p->contacts, state->bodies.of_block.data, body);
+    constraints_group(p->contacts, state->bodies.of_block.data, body);
 }
 
 /* Up to the iterations. */
@@ -691,6 +691,6 @@ void primal_solve(World *world, const ContactFrame *contacts)
     if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
-    holds_book(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
+    constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
 }

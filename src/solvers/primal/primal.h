@@ -9,7 +9,7 @@
  * preconditioner. Steps are accepted by Armijo's rule, or by the slope where the difference of two energies is rounding (W. Hager,
  * H. Zhang, "A new conjugate gradient method with guaranteed descent", SIAM J. Optim. 16(1), 2005).
  *
- * Contacts: nodes may sink as far as the particles they carry have room (primal_gaps.c); friction is a part of the energy (holds.h). Rigid motions, which
+ * Contacts: nodes may sink as far as the particles they carry have room (primal_gaps.c); friction is a part of the energy (contact_constraints.h). Rigid motions, which
  * a stiff body does nearly alone, have solvers of their own: the start (primal_start.c), the preconditioner (primal_rigid.c), what is missing at the end
  * (primal_momentum.c). What backward Euler takes from rotations and bounces is given back (primal_spin.c, primal_bounce.c).
  *
@@ -30,7 +30,6 @@
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_H
 
-
 #include "world/world.h"
 
 /* The dilation of what stands for an incompressible liquid by itself: as stiff as N iterations can hold; sound travels N / 4 cells per substep. */
@@ -40,7 +39,7 @@ static inline float primal_stiffest(int iterations) { return 0.25f * (float)iter
 bool primal_is_mixed(const World *world);
 
 /* The dilation of liquids that are stiffer than what the iterations can hold; see primal_liquid.c. */
-float primal_liquid_dilation(const World *world, const StepContext *step);
+float primal_liquid_dilation(const World *world, const Substep *substep);
 
 /* What the kernels need to know of materials. */
 void primal_set_materials(World *world);

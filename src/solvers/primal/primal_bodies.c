@@ -1,7 +1,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
 /* ---- The energy check ---- */
@@ -14,7 +14,7 @@ BodySum *primal_body_of(const Primal *p, int32_t block)
 
 bool primal_is_multistep(const Primal *p, int32_t block)
 {
-    const float *share = p->world->args.block_share;
+    const float *share = p->world->args.primal.block_share;
     return share && share[block] < 1.0f;
 }
 
@@ -22,7 +22,7 @@ bool primal_is_multistep(const Primal *p, int32_t block)
 static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const bool multistep = primal_is_multistep(p, block);
-    const float *pull = p->world->args.gravity, *without_forces = p->world->args.node_before;
+    const float *pull = p->world->args.gravity, *without_forces = p->world->args.grid.node_before;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
         sum[3] += mass;
@@ -42,8 +42,8 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    sum[2] = holds_work(p->contacts, p->gradient, p->best, p->slip_min, block);
-    sum[7] = (double)holds_touching(p->contacts, block);
+    sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    sum[7] = (double)constraints_active(p->contacts, block);
 }
 
 static bool has_liquid(const World *world, int32_t block)
@@ -113,10 +113,10 @@ uint32_t primal_check_bodies(Primal *p)
         failed += body[i].failed;
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++)
-        holds_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
+        constraints_turn_aside(p->contacts, block, primal_body_of(p, block)->start);
     for (int32_t block = 0; block < p->world->grid.node_blocks && failed > 0; block++) {
         BodySum *b = primal_body_of(p, block);
-        const double share = holds_free_share(p->contacts, block, b->start);
+        const double share = constraints_free_share(p->contacts, block, b->start);
         for (int c = 0; c < 3; c++) b->start[c] *= share;
     }
     return failed;
@@ -131,7 +131,7 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
     if (body->failed && p->turned && primal_rigid_of(p, block)->turns) {
         primal_write_rigid(p, block, begin, end, p->node);
         for (size_t i = begin; i < end; i++) p->node[i] = i % W == 3 ? p->base[i] : p->node[i] + p->share * (p->best[i] - p->node[i]);
-        holds_project(p->contacts, p->node, block, block + 1);
+        constraints_project(p->contacts, p->node, block, block + 1);
         return;
     }
     const bool goes_on = p->joint && body->with_liquid;
@@ -141,7 +141,7 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
         const float start = body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
         p->node[i] = body->failed && !goes_on ? start + p->share * (p->best[i] - start) : p->best[i];
     }
-    holds_project(p->contacts, p->node, block, block + 1);
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
 void primal_pull_back_to(Primal *p, float share)
@@ -235,8 +235,8 @@ void primal_find_leaning(Primal *p)
     if (!p->sketches) primal_widen_gaps(p); /* the dual needs the spare array */
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *body = primal_body_of(p, block);
-        body->leans = body->leans || holds_any(p->contacts, body->with_liquid ? 0.0f : fall, block);
-        body->held = body->held || holds_held(p->contacts, block);
-        body->meets = body->meets || holds_contacts(p->contacts, block) > 0;
+        body->leans = body->leans || constraints_any_within(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->held = body->held || constraints_any_stick(p->contacts, block);
+        body->meets = body->meets || constraints_count(p->contacts, block) > 0;
     }
 }

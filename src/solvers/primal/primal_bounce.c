@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
@@ -23,7 +23,7 @@ static const double MOST = 1.0;      /* of the change: the velocity at the end o
 
 static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
-    const float *before = p->world->args.node_before;
+    const float *before = p->world->args.grid.node_before;
     if (!primal_rigid_of(p, block)->bounces) return;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
@@ -35,7 +35,7 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[4 + c] += mass * change;
         }
     }
-    sum[3] = holds_rubbed(p->contacts, p->best, p->slip_min, block);
+    sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
 static void find_bounce(RigidBody *body, const BodySum *of, const float *g)
@@ -74,7 +74,7 @@ void primal_find_bounces(Primal *p)
 
 double primal_fastest(const World *world)
 {
-    return (double)world->settings.max_displacement * (double)world->def.cell_size / world->step.substep_dt;
+    return (double)world->settings.max_displacement * (double)world->def.cell_size / world->substep.dt;
 }
 
 /* a q^2 + 2 b q = limit^2 - v^2, the larger root. */
@@ -150,7 +150,7 @@ static void each_velocity(World *world, int32_t begin, int32_t end, bool keep)
     const int32_t *of_block = world->primal.bodies.of_block.data;
     const uint32_t *rows = world->grid.block_begin.data;
     Particles *p = &world->particles;
-    const float fall = (float)world->step.substep_dt;
+    const float fall = (float)world->substep.dt;
     for (int32_t block = begin; block < end; block++) {
         const float bounce = (float)bodies[of_block[block]].bounce;
         if (bounce == 0.0f || sleep_is_still(world, block)) continue;
@@ -181,6 +181,6 @@ void primal_bounce(World *world, const ContactFrame *contacts)
     if (!world->primal.bounces) return;
     primal_find_shares(world, share_of_bounce);
     for (int32_t i = 0; i < world->primal.bodies.count; i++) bodies[i].bounce *= bodies[i].share;
-    for (int32_t block = 0; block < world->grid.node_blocks; block++) holds_scale_booked(contacts, block, 1.0 + bodies[of_block[block]].bounce);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) constraints_scale_impulses(contacts, block, 1.0 + bodies[of_block[block]].bounce);
     pool_for(world->pool, world->grid.particle_blocks, 8, bounce_blocks, world);
 }

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
 static const double RADIUS = 0.25; /* [cells] of a particle, with two per cell and axis as fill() puts them */
@@ -69,7 +69,7 @@ static bool any_contact(const Primal *p, int32_t block)
     const Grid *grid = &p->world->grid;
     const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
     for (int n = 0; n < grid->neighbours; n++)
-        if (neighbour[n] >= 0 && holds_contacts(p->contacts, neighbour[n]) > 0) return true;
+        if (neighbour[n] >= 0 && constraints_count(p->contacts, neighbour[n]) > 0) return true;
     return false;
 }
 
@@ -219,7 +219,7 @@ static void widen_blocks(void *context, int32_t begin, int32_t end)
         for (uint32_t i = contact_begin[block]; i < contact_begin[block + 1]; i++) {
             Contact *contact = (Contact *)colliders->contact.data + i;
             float sum[2] = {0.0f, 0.0f};
-            if (holds_whole(contact)) continue;
+            if (constraints_stick(contact)) continue;
             gather_at(job, block, contact->node, 2, sum);
             if (sum[0] > 0.0f) contact->gap = fmaxf(contact->gap, sum[1] / sum[0]);
         }

@@ -12,7 +12,7 @@
 #include <float.h>
 #include <math.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/eddy_damping.h"
 #include "solvers/passes.h"
 #include "solvers/primal/primal.h"
@@ -32,9 +32,9 @@ bool primal_is_mixed(const World *world)
 }
 
 /* c K with K = rho g H / WEIGHT_SQUEEZES and c = 4 dt^2 / (dx^2 rho), or what the iterations hold in any liquid. */
-float primal_liquid_dilation(const World *world, const StepContext *step)
+float primal_liquid_dilation(const World *world, const Substep *substep)
 {
-    const double fall = gravity_fall(world, step);
+    const double fall = gravity_fall(world, substep);
     const double weight = fall > 0.0 && solver_holds_liquid(world) ? 4.0 * fall * liquid_depth(world) / WEIGHT_SQUEEZES : 0.0;
     return fmaxf(primal_stiffest(world->settings.iterations), (float)fmin(weight, 1e30));
 }
@@ -84,7 +84,7 @@ static void earn(Primal *p)
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++)
         if (body[i].with_liquid) lost += fmax(0.0, body[i].before + body[i].work - body[i].after);
     p->world->primal.credit += lost * solver_joule(p->world);
-    p->world->args.may_feed = p->world->primal.credit > 0.0;
+    p->world->args.primal.may_feed = p->world->primal.credit > 0.0;
 }
 
 static void spend(World *world)
@@ -117,7 +117,7 @@ static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *
         if (!(force2 <= EXPLAINED * EXPLAINED * away2 && away2 < FLT_MAX)) continue; /* finite, too */
         for (size_t c = 0; c < 3; c++) p->best[i + c] = p->base[i + c] - force[c] / mass;
     }
-    holds_project(p->contacts, p->best, block, block + 1);
+    constraints_project(p->contacts, p->best, block, block + 1);
 }
 
 void primal_let_fly(Primal *p)
@@ -183,7 +183,7 @@ static void calm_block(World *world, const BodySum *body, int32_t block)
 {
     const uint32_t *begin = world->grid.block_begin.data;
     Particles *particles = &world->particles;
-    const float to_cells = (float)world->step.substep_dt * (float)world->step.cells_per_metre;
+    const float to_cells = (float)world->substep.dt * (float)world->substep.cells_per_metre;
     for (int a = 0; a < particles->dimension; a++) {
         for (uint32_t row = begin[block]; row < begin[block + 1]; row++)
             particles->velocity[a][row] = kept_of(body, a, particles->velocity[a][row] * to_cells) / to_cells;
@@ -213,7 +213,7 @@ static void calm_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t block = begin; block < end; block++) {
         const BodySum *body = &bodies[of_block[block]];
         if (body->with_liquid && body->kept < 1.0f) calm_block(world, body, block);
-        if (world->args.fed && world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
+        if (world->args.primal.fed && world->particles.pressure && !sleep_is_still(world, block)) note_pressures(world, block);
     }
 }
 
@@ -222,6 +222,6 @@ void primal_calm(World *world, const ContactFrame *contacts)
     primal_bounce(world, contacts);
     primal_turn(world);
     if (!solver_holds_liquid(world)) return;
-    if (world->args.fed) spend(world);
+    if (world->args.primal.fed) spend(world);
     pool_for(world->pool, world->grid.particle_blocks, 8, calm_blocks, world);
 }

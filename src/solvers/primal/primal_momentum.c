@@ -13,7 +13,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
 static void sum_momentum_error(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
@@ -60,8 +60,8 @@ static void find_blocked(const Primal *p)
             const Contact *contact = (const Contact *)colliders->contact.data + i;
             BodyMove *move = move_of(p, block);
             const float *u = p->best + (size_t)block * (size_t)p->floats + (size_t)contact->node * W;
-            if (!contact->active && (double)holds_room(contact, u) > move->longest) continue;
-            if (holds_whole(contact)) move->blocked = 3;
+            if (!contact->active && (double)constraints_room(contact, u) > move->longest) continue;
+            if (constraints_stick(contact)) move->blocked = 3;
             else block_normal(move, contact->normal);
         }
 }
@@ -75,7 +75,7 @@ static void move_on(Primal *p)
         move[i].stiffness = move[i].mass;
     }
     for (int32_t block = 0; block < p->world->grid.node_blocks && p->rubs; block++)
-        holds_pull(p->contacts, p->best, move_of(p, block)->way, p->slip_min, block, move_of(p, block)->pull, &move_of(p, block)->stiffness);
+        constraints_pull(p->contacts, p->best, move_of(p, block)->way, p->slip_min, block, move_of(p, block)->pull, &move_of(p, block)->stiffness);
     for (int32_t i = 0; i < p->world->primal.bodies.count; i++) {
         for (int k = 0; k < move[i].blocked; k++) take_out(move[i].normal[k], move[i].pull);
         for (int a = 0; a < 3 && move[i].blocked < 3 && move[i].stiffness > 0.0; a++) move[i].way[a] += move[i].pull[a] / move[i].stiffness;
@@ -99,7 +99,7 @@ static void sum_pull(Primal *p, int32_t block, size_t begin, size_t end, double 
 {
     if (!is_pulled(primal_body_of(p, block))) return;
     memcpy(p->right + begin, p->gradient + begin, (end - begin) * sizeof *p->right);
-    holds_remove(p->contacts, p->right, block, block + 1);
+    constraints_remove(p->contacts, p->right, block, block + 1);
     for (size_t i = begin; i < end; i += W) {
         sum[0] += (double)p->base[i + 3];
         for (size_t c = 0; c < 3; c++) sum[1 + c] += (double)p->right[i + c];
@@ -111,7 +111,7 @@ static void lead_translation(Primal *p, int32_t block, size_t begin, size_t end,
     const double *body = primal_rigid_of(p, block)->sum; /* mass and pull */
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < W; c++) p->direction[i + c] = c < 3 && p->base[i + 3] > 0.0f && body[0] > 0.0 ? (float)(body[1 + c] / body[0]) : 0.0f;
-    holds_remove(p->contacts, p->direction, block, block + 1);
+    constraints_remove(p->contacts, p->direction, block, block + 1);
     for (size_t i = begin; i < end; i++) sum[0] += (double)p->gradient[i] * (double)p->direction[i];
 }
 

@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
 enum { BLOCK = K_BLOCK_AXIS };
@@ -181,8 +181,8 @@ static void add_contact(Primal *p, int32_t block, RigidBody *body, const Contact
     primal_corner(p, block, body, corner);
     primal_arm(corner, contact->node, arm);
     const double jump = fmax(0.0, 1.0 / inverse - 2.0 * mass); /* K - M */
-    const double rubs = holds_rub_stiffness(contact, p->best + node, p->slip_min);
-    const bool held = holds_whole(contact);
+    const double rubs = constraints_friction_stiffness(contact, p->best + node, p->slip_min);
+    const bool held = constraints_stick(contact);
     for (int a = 0; a < 3 && (held || rubs > 0.0); a++) primal_add_along(body, arm, axis[a], held ? jump : rubs);
     if (!held) primal_add_along(body, arm, contact->normal, fmax(jump - rubs, 0.0));
 }
@@ -297,10 +297,10 @@ void primal_deflate(Primal *p, int32_t block, size_t begin, size_t end)
     const RigidBody *body = primal_rigid_of(p, block);
     if (!body->used) return;
     write_motion(p, block, body, p->direction + begin);
-    holds_remove(p->contacts, p->direction, block, block + 1);
+    constraints_remove(p->contacts, p->direction, block, block + 1);
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3; c++) p->right[i + c] -= p->base[i + 3] * p->direction[i + c];
-    holds_stiffen(p->contacts, p->best, p->direction, p->right, -1.0f, p->slip_min, block);
+    constraints_apply_friction_stiffness(p->contacts, p->best, p->direction, p->right, -1.0f, p->slip_min, block);
 }
 
 /* Sums of Z'Hz of a block, of z = p->direction; uses p->force. */
@@ -309,8 +309,8 @@ void primal_sum_inertia(Primal *p, int32_t block, size_t begin, size_t end, doub
     if (!primal_rigid_of(p, block)->used) return;
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3; c++) p->force[i + c] = p->base[i + 3] * p->direction[i + c];
-    holds_stiffen(p->contacts, p->best, p->direction, p->force, 1.0f, p->slip_min, block);
-    holds_remove(p->contacts, p->force, block, block + 1);
+    constraints_apply_friction_stiffness(p->contacts, p->best, p->direction, p->force, 1.0f, p->slip_min, block);
+    constraints_remove(p->contacts, p->force, block, block + 1);
     primal_sum_rigid(p, block, p->force + begin, sum);
 }
 
@@ -332,6 +332,6 @@ void primal_add_rigid(Primal *p, int32_t block, size_t begin, size_t end)
     const RigidBody *body = primal_rigid_of(p, block);
     if (!body->used) return;
     write_motion(p, block, body, p->force + begin);
-    holds_remove(p->contacts, p->force, block, block + 1);
+    constraints_remove(p->contacts, p->force, block, block + 1);
     for (size_t i = begin; i < end; i++) p->direction[i] += p->force[i];
 }

@@ -73,7 +73,7 @@ typedef struct Primal {
     double product[PRIMAL_MEMORY][PRIMAL_MEMORY];       /* change i . step j, for j >= i */
     int pairs;
     bool rubs;      /* there is friction */
-    float slip_min; /* see holds_slip_min() */
+    float slip_min; /* see constraints_slip_min() */
     bool bounces; /* a body does */
     bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
     bool rigid; /* a body's rigid motions are solved for */
@@ -194,7 +194,7 @@ void primal_turn(World *world);
 
 /* ---- primal_bounce.c ---- */
 
-/* Finds what bodies get back of the energy that being pushed took. After holds_book(). */
+/* Finds what bodies get back of the energy that being pushed took. After constraints_book_impulses(). */
 void primal_find_bounces(Primal *p);
 
 /* After particles have moved: they get it, and contacts' impulses with them. */

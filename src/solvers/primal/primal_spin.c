@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
 
@@ -22,7 +22,7 @@ static void sum_torque(Primal *p, int32_t block, size_t begin, size_t end, doubl
     float *inner = p->right;
     if (!body->turns || body->multistep) return;
     memcpy(inner + begin, p->gradient + begin, (end - begin) * sizeof *inner);
-    if (p->rubs) holds_rub(p->contacts, p->best, inner, -1.0f, p->slip_min, block);
+    if (p->rubs) constraints_friction(p->contacts, p->best, inner, -1.0f, p->slip_min, block);
     primal_corner(p, block, body, corner);
     for (size_t i = begin; i < end; i += W) {
         double motion[3], force[3];
@@ -129,7 +129,7 @@ void primal_find_spin(Primal *p)
 static void turned(const World *world, const RigidBody *body, uint32_t row, double kept[3], double turn[3])
 {
     const Particles *p = &world->particles;
-    const double dt = world->step.substep_dt, dx = (double)world->def.cell_size;
+    const double dt = world->substep.dt, dx = (double)world->def.cell_size;
     double r[3] = {0};
     for (int a = 0; a < p->dimension; a++) r[a] = (double)(p->cell[a][row] - world->grid.anchor[a]) + (double)p->fraction[a][row] - body->arrives[a];
     for (int a = 0; a < 3; a++) {
@@ -188,7 +188,7 @@ static void turn_block(World *world, const RigidBody *body, int32_t block)
     const uint32_t *begin = world->grid.block_begin.data;
     Particles *p = &world->particles;
     const int dimension = p->dimension;
-    const double dt = world->step.substep_dt;
+    const double dt = world->substep.dt;
     for (uint32_t row = begin[block]; row < begin[block + 1]; row++) {
         double kept[3], turn[3];
         turned(world, body, row, kept, turn);

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/holds.h"
+#include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
 enum { ROUNDS = 6 };
@@ -68,13 +68,13 @@ static void add_push(Primal *p, int32_t block, RigidBody *body, const Contact *c
     double depth = -(double)contact->gap, along = 0.0, slip2 = 0.0;
     for (int a = 0; a < 3; a++) along += (u[a] - surface[a]) * (double)contact->normal[a];
     depth -= along;
-    const bool held = holds_whole(contact);
+    const bool held = constraints_stick(contact);
     if (depth <= 0.0 && !held) return;
     for (int a = 0; a < 3; a++) {
         const double slip = u[a] - surface[a] - along * (double)contact->normal[a];
         slip2 += slip * slip;
     }
-    const double rubs = held ? stiffness : (double)holds_coefficient(contact) * stiffness * depth / fmax(sqrt(slip2), (double)p->slip_min);
+    const double rubs = held ? stiffness : (double)constraints_friction_coefficient(contact) * stiffness * depth / fmax(sqrt(slip2), (double)p->slip_min);
     double to = (stiffness - rubs) * -(double)contact->gap; /* along the normal, beside what friction takes along */
     for (int a = 0; a < 3; a++) to += (stiffness - rubs) * surface[a] * (double)contact->normal[a];
     if (held) to = 0.0;
@@ -176,7 +176,7 @@ static void start_rigidly(Primal *p, int32_t block, size_t begin, size_t end, do
     memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
     if (!body->turns || !(body->sum[0] > 0.0)) return;
     primal_write_rigid(p, block, begin, end, p->node);
-    holds_project(p->contacts, p->node, block, block + 1);
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
 /* What the start stretches beside what was stretched, and the rigid motion at contacts. Only bodies without liquid ask, which have no couples. */

@@ -43,6 +43,7 @@ from .settings import Integrator, Pressure, Solver, Stop
 from .shapes import Baked, Box, Capsule, Plane, Shape, Sphere
 from .solids import BakedSolid, Impulse, LoadedSolid, SolidInfo, bake_heights, bake_hull, bake_mesh
 from .stats import Event, EventKind, Stats, StepStats
+from .surface import Mesh
 from .views import RECORD, Field, View
 from .world import World
 
@@ -102,6 +103,7 @@ __all__ = [
     "Liquid",
     "LoadedSolid",
     "Mass",
+    "Mesh",
     "Material",
     "OutOfMemoryError",
     "PbmpmError",

@@ -30,6 +30,7 @@ from .shapes import Shape
 from .snapshots import WorldSnapshots
 from .solids import WorldSolids
 from .stats import Event, Stats, StepStats, event_from_c, stats_from_c
+from .surface import WorldSurface
 from .views import INTEGERS, MATRICES, RECORD, Field, View
 
 Found = TypeVar("Found", bound=Member)
@@ -49,6 +50,7 @@ class World(
     WorldSolids,
     WorldDomain,
     WorldDebug,
+    WorldSurface,
     WorldAdvice,
 ):
     """A world of liquid and elastic matter.

@@ -26,6 +26,8 @@ class Frame:
     """(n, 2) uint32: index and generation; stable over the life of a particle"""
     body_poses: dict[int, tuple[list[float], list[float]]] = field(default_factory=dict)
     """Position (3 components) and quaternion of the scene's colliders, by index, that matter moves"""
+    radii: np.ndarray | None = None
+    """(n,) float32 [m]: of a ball (2D: a disc) of the particle's volume"""
 
     @property
     def dimension(self) -> int:

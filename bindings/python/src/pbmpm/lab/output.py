@@ -12,14 +12,19 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+import pbmpm
+
 from .files import replace_when_complete, write_json
 from .frame import Frame
+from .meshes import write_mesh
 
 UNITS = {
     "position": "m",
     "velocity": "m/s",
     "volume_ratio": "1 (volume over rest volume, J)",
     "material": "row in the list of materials",
+    "radius": "m, of a ball (2D: a disc) of the particle's volume",
+    "red, green, blue, alpha": "0 to 255, of the material",
     "id, generation": "identity of a particle, the same in all files",
 }
 
@@ -27,24 +32,27 @@ UNITS = {
 class Sequence:
     """Writes the frames of one run into a folder and keeps the index and the sidecar up to date."""
 
-    def __init__(self, folder: Path, name: str, facts: dict[str, Any], ply: bool, vtk: bool) -> None:
-        """``facts`` is the part of the sidecar that does not change: scene, settings, versions, machine."""
+    def __init__(self, folder: Path, name: str, facts: dict[str, Any], ply: bool, vtk: bool, colours: np.ndarray | None = None) -> None:
+        """``facts`` is the part of the sidecar that does not change: scene, settings, versions, machine. ``colours`` has one per material, from 0 to 255."""
         self.folder, self.name = folder, name
-        self.ply, self.vtk = ply, vtk
+        self.ply, self.vtk, self._colours = ply, vtk, colours
         self._sidecar = {"status": "running", "units": UNITS, **facts, "frames": [], "pictures": []}
         folder.mkdir(parents=True, exist_ok=True)
         self.write_sidecar()
 
-    def add_frame(self, frame: Frame) -> None:
-        """Writes the particle files that were asked for."""
+    def add_frame(self, frame: Frame, meshes: list[pbmpm.Mesh] | None = None) -> None:
+        """Writes the particle files that were asked for, and a file of the surfaces of all materials, if they are given."""
         stem = f"{self.name}_{len(self._sidecar['frames']):05d}"
         entry: dict[str, Any] = {"time": frame.time, "step": frame.step, "particles": len(frame.positions)}
         if self.ply:
             entry["ply"] = f"{stem}.ply"
-            write_ply(frame, self.folder / entry["ply"])
+            write_ply(frame, self.folder / entry["ply"], self._colours)
         if self.vtk:
             entry["vtk"] = f"{stem}.vtu"
             write_vtu(frame, self.folder / entry["vtk"])
+        if meshes is not None:
+            entry["mesh"] = f"{stem}_mesh.ply"
+            write_mesh(meshes, self._colours, frame.time, self.folder / entry["mesh"])
         self._sidecar["frames"].append(entry)
         if self.vtk:
             frames = [(item["time"], item["vtk"]) for item in self._sidecar["frames"]]
@@ -74,8 +82,8 @@ def points_3d(values: np.ndarray) -> np.ndarray:
     return result
 
 
-def write_ply(frame: Frame, path: Path) -> None:
-    """A binary little-endian PLY with one vertex per particle."""
+def write_ply(frame: Frame, path: Path, colours: np.ndarray | None = None) -> None:
+    """A binary little-endian PLY with one vertex per particle; with the colour of its material, if ``colours`` has them."""
     from plyfile import PlyData, PlyElement
 
     position, velocity = points_3d(frame.positions), points_3d(frame.velocities)
@@ -91,6 +99,11 @@ def write_ply(frame: Frame, path: Path) -> None:
         "id": frame.ids[:, 0].astype(np.uint32),
         "generation": frame.ids[:, 1].astype(np.uint32),
     }
+    if frame.radii is not None:
+        columns["radius"] = frame.radii
+    if colours is not None:
+        shade = np.column_stack([colours[frame.materials], np.full(len(position), 255)]).astype(np.uint8)
+        columns |= {name: shade[:, i] for i, name in enumerate(("red", "green", "blue", "alpha"))}
     table = np.empty(len(position), dtype=[(name, column.dtype) for name, column in columns.items()])
     for name, column in columns.items():
         table[name] = column

@@ -19,7 +19,7 @@ from .machine import machine_facts
 from .meter import Meter
 from .output import Sequence
 from .pictures.drawing import draw_picture
-from .pictures.look import Look, look_of, save_png
+from .pictures.look import Look, look_of, material_colours, save_png
 from .pictures.video import Video
 from .progress import progress_bar
 from .scenes.scene import Scene
@@ -36,8 +36,9 @@ class OutputOptions:
     folder: Path | None = None
     ply: bool = False
     vtk: bool = False
+    mesh: bool = False
     every: int = 1
-    """Steps between particle files."""
+    """Steps between files of particles and surfaces."""
     picture_times: list[float] = field(default_factory=list)
     video: Path | None = None
     """File for an animation."""
@@ -143,7 +144,7 @@ class _Recorder:
         self._sequence: Sequence | None = None
         if output.folder is not None:
             facts = _sidecar_facts(scene, settings, simulation)
-            self._sequence = Sequence(output.folder, scene.name, facts, output.ply, output.vtk)
+            self._sequence = Sequence(output.folder, scene.name, facts, output.ply, output.vtk, material_colours(scene))
 
     def after_step(self, simulation: Simulation) -> None:
         """To be called before the first step and after each."""
@@ -153,9 +154,9 @@ class _Recorder:
             self._video.add(draw_picture(frame, self._look))
         if self._sequence is None:
             return
-        if (self._output.ply or self._output.vtk) and simulation.steps % self._output.every == 0:
+        if (self._output.ply or self._output.vtk or self._output.mesh) and simulation.steps % self._output.every == 0:
             frame = frame or simulation.frame()
-            self._sequence.add_frame(frame)
+            self._sequence.add_frame(frame, simulation.surfaces() if self._output.mesh else None)
         while self._pictures and self._pictures[0] <= simulation.time + _TIME_TOLERANCE:
             frame = frame or simulation.frame()
             self._take_picture(frame, self._pictures.pop(0))

@@ -270,7 +270,12 @@ class Simulation:
             self._rows[world.material_indices.copy()],
             world.ids.copy(),
             {index: body.pose for index, body in self._bodies.items()},
+            world.surface_points()["radius"],
         )
+
+    def surfaces(self) -> list[pbmpm.Mesh]:
+        """The surface of each material of the scene, in 3D."""
+        return [self.world.surface([material], velocities=True) for material in self.materials.values()]
 
     def finite(self) -> bool:
         """Whether all positions, velocities and volume ratios are finite."""

@@ -231,6 +231,14 @@ pbmpm_result pbmpm_world_get_step_stats(pbmpm_world_id world, pbmpm_stats *stats
 typedef enum pbmpm_event_kind { PBMPM_EVENT_DELETED_NOT_FINITE = 1, PBMPM_EVENT_DELETED_OUT_OF_RANGE = 2, PBMPM_EVENT_DELETED_CONDITION = 3, PBMPM_EVENT_SPEED_CLAMPED = 4, PBMPM_EVENT_CAPACITY = 5, PBMPM_EVENT_EMISSION_REFUSED = 6, PBMPM_EVENT_KILLED = 7, PBMPM_EVENT_KIND_FORCE32 = 2147483647 } pbmpm_event_kind;
 typedef struct pbmpm_event { uint32_t size; pbmpm_event_kind kind; uint32_t count; pbmpm_particle_id particle; float position[3]; uint32_t substep; uint64_t step; } pbmpm_event;
 pbmpm_result pbmpm_world_events(pbmpm_world_id world, pbmpm_event *events, uint32_t capacity, uint32_t *count, uint32_t *missed);
+typedef struct pbmpm_surface_def { uint32_t size; uint32_t subdivision; const pbmpm_material_id *materials; uint32_t material_count; float level; int32_t keeps_thin; uint32_t index_bytes; } pbmpm_surface_def;
+typedef struct pbmpm_surface_mesh { uint32_t size; uint32_t stride; float *positions; float *normals; float *velocities; float *weights; void *indices; uint32_t vertex_capacity; uint32_t index_capacity; uint32_t vertex_count; uint32_t index_count; } pbmpm_surface_mesh;
+pbmpm_result pbmpm_surface_def_init(pbmpm_surface_def *def, size_t size);
+pbmpm_result pbmpm_surface_extract(pbmpm_world_id world, const pbmpm_surface_def *def, pbmpm_surface_mesh *mesh);
+typedef struct pbmpm_point { float position[3]; float radius; float velocity[3]; uint32_t colour; } pbmpm_point;
+typedef struct pbmpm_points_def { uint32_t size; uint32_t material_count; const pbmpm_material_id *materials; const uint32_t *palette; int32_t colour_from_user; float radius_scale; int32_t spray_only; uint32_t reserved; } pbmpm_points_def;
+pbmpm_result pbmpm_points_def_init(pbmpm_points_def *def, size_t size);
+pbmpm_result pbmpm_surface_points(pbmpm_world_id world, const pbmpm_points_def *def, pbmpm_point *points, uint32_t capacity, uint32_t *count);
 
 #ifdef __cplusplus
 }

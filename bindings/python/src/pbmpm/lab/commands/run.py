@@ -33,6 +33,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 )
 @click.option("--ply", is_flag=True, help="Write a PLY file per frame.")
 @click.option("--vtk", is_flag=True, help="Write a VTU file per frame and a PVD index for ParaView.")
+@click.option("--mesh", is_flag=True, help="Write a PLY file per frame with the surfaces of all materials: triangles, normals, colours. Only in 3D.")
 @click.option("--every", type=click.IntRange(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
 @click.option(
     "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
@@ -49,7 +50,7 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 def run(scene_file: Path, json_target: str | None, warmup_steps: int, **options: Any) -> None:
     """Simulate a scene file, ours or one of the EA demo.
 
-    Files are written only with --output, --ply, --vtk, --pictures or --video. Ctrl-C ends the run after the current step and
+    Files are written only with --output, --ply, --vtk, --mesh, --pictures or --video. Ctrl-C ends the run after the current step and
     leaves complete files.
     """
     from ..effects.catalogue import remarks
@@ -91,7 +92,9 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
     from ..runner import OutputOptions
 
     wanted = options["pictures"]
-    if options["output"] is None and not (options["ply"] or options["vtk"] or wanted):
+    if options["mesh"] and scene.dimension != 3:
+        raise InputError("--mesh: surfaces are made in 3D; this scene is in 2D")
+    if options["output"] is None and not (options["ply"] or options["vtk"] or options["mesh"] or wanted):
         return OutputOptions(video=options["video"])
     folder = options["output"] or Path(f"{scene.name}-output")
     ready_folder(folder)
@@ -100,7 +103,7 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
     if late:
         raise InputError(f"--pictures: {late[0]:g} s is after the end of the run at {seconds:g} s")
     every = options["every"] or max(1, round(settings.rate_hz / 30))
-    return OutputOptions(folder, options["ply"], options["vtk"], every, times, options["video"])
+    return OutputOptions(folder, options["ply"], options["vtk"], options["mesh"], every, times, options["video"])
 
 
 def _summary(report: dict[str, Any]) -> str:

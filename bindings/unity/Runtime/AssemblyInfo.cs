@@ -1,0 +1,4 @@
+using System.Runtime.CompilerServices;
+
+[assembly: InternalsVisibleTo("Pbmpm.Editor")]
+[assembly: InternalsVisibleTo("Pbmpm.Tests")]

@@ -1,0 +1,120 @@
+/* Contacts as the constraints of a minimisation over displacements: a node may approach a surface by the gap and slide along it; nodes
+ * inside an obstacle that sticks are held. All work on the node blocks [begin, end). */
+#ifndef PBMPM_SRC_CONTACT_CONTACT_CONSTRAINTS_H
+#define PBMPM_SRC_CONTACT_CONTACT_CONSTRAINTS_H
+
+#include "contact/contacts.h"
+
+/* Moves displacements (K_NODE_WIDTH floats per node) to what the contacts allow; without friction. */
+void constraints_project(const ContactFrame *frame, float *displacement, int32_t begin, int32_t end);
+
+/* Finds the active contacts: those that hold, or that touch and are pushed against the surface by -gradient. What the active ones hold is taken out
+ * of the gradient. */
+void constraints_find_active(const ContactFrame *frame, const float *displacement, float *gradient, int32_t begin, int32_t end);
+
+/* Takes out of a vector what the active contacts hold. */
+void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end);
+
+/* ---- Friction ----
+ *
+ * In the energy that is minimised, sum_i f_i huber(|v_i|), v the slip of an active contact's node along the surface, f its limit: coefficient times what
+ * the contact pushes in the iteration before. The gradient is f v / max(|v|, least), and f / max(|v|, least) the stiffness.
+ *
+ * What nodes push swings in an unfinished solution; their sum does not: inner forces add up to nothing, so a body's change of momentum is what its
+ * contacts push. Limits are scaled to it, per body and direction of the normals. */
+enum { FRICTION_GROUPS = 6 };
+
+typedef struct FrictionGroup {
+    float normal[3]; /* of its first contact */
+    double push[3];
+    double scale;
+} FrictionGroup;
+
+/* A body's contacts. */
+typedef struct BodyFriction {
+    int groups;
+    bool held;        /* by nodes that stick for good: then what contacts push is not known */
+    double gained[3]; /* momentum, without that of friction */
+    FrictionGroup group[FRICTION_GROUPS];
+} BodyFriction;
+
+/* The least slip of a substep [cells]. */
+float constraints_slip_min(const Substep *substep);
+
+bool constraints_have_friction(const ContactFrame *frame);
+
+/* Sorts contacts into groups; `body`: one per body, without groups. */
+void constraints_group(const ContactFrame *frame, const int32_t *body_of_block, BodyFriction *body);
+
+/* gradient += sign times friction, at the displacements u. Returns its energy. */
+double constraints_friction(const ContactFrame *frame, const float *u, float *gradient, float sign, float least, int32_t block);
+
+/* 0: it slips, or is held. */
+float constraints_friction_coefficient(const Contact *contact);
+
+/* Friction's stiffness along the surface. */
+float constraints_friction_stiffness(const Contact *contact, const float *u, float least);
+
+/* to += sign times friction's stiffness times vector. */
+void constraints_apply_friction_stiffness(const ContactFrame *frame, const float *u, const float *vector, float *to, float sign, float least, int32_t block);
+
+/* Adds friction's stiffness to the first three floats of `weight`, which are stiffnesses along the axes. */
+void constraints_friction_diagonal(const ContactFrame *frame, const float *u, float *weight, float least, int32_t block);
+
+/* Along surfaces that rub: vector / (1 + friction's stiffness times inverse). `inverse`: one float per node. */
+void constraints_soften(const ContactFrame *frame, const float *u, const float *inverse, float *vector, float least, int32_t block);
+
+/* What friction of the contacts of a block pulls back if all nodes go by `way` from u, taken from `pull`, and its stiffness, added. */
+void constraints_pull(const ContactFrame *frame, const float *u, const double way[3], float least, int32_t block, double pull[3], double *stiffness);
+
+/* Sums what the active contacts of a block push, from a gradient without friction, and friction as it was; then scales, then new limits. */
+void constraints_sum_push(const ContactFrame *frame, const float *u, const float *gradient, float least, int32_t block, BodyFriction *body);
+void constraints_scale(BodyFriction *body, int32_t count);
+void constraints_set_limits(const ContactFrame *frame, int32_t block, const BodyFriction *body);
+
+/* Whether a contact holds its node in all directions. */
+bool constraints_stick(const Contact *contact);
+
+/* ---- What contacts give ---- */
+
+/* Books what the contacts gave to matter at u: what the active ones hold of the gradient, and friction.
+ * Nodes that a truncated solution leaves out of balance change momentum too. Matter has it from the obstacles in the end, so contacts share it in
+ * proportion to what they gave; without any it stays unaccounted. `after`: the displacements that make the velocities. Uses up `gradient`. */
+void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least);
+
+/* What was booked of a block's contacts becomes `factor` times as much. */
+void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double factor);
+
+/* The energy that friction of a block takes. */
+double constraints_friction_loss(const ContactFrame *frame, const float *u, float least, int32_t block);
+
+/* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are
+ * their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
+double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
+
+/* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
+void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3]);
+
+/* The share of that displacement that no contact of the block ends. */
+double constraints_free_share(const ContactFrame *frame, int32_t block, const double displacement[3]);
+
+/* How many contacts of a block are active and not held for good. */
+uint32_t constraints_active(const ContactFrame *frame, int32_t block);
+
+/* The share of each direction that held nodes are held in, for the diagonals of a preconditioner: 3 numbers in [0, 1] per node, written
+ * to the first three floats of `share`, which are 0 elsewhere. */
+void constraints_held_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end);
+
+/* Whether a node of the block is held in all directions. */
+bool constraints_any_stick(const ContactFrame *frame, int32_t block);
+
+/* How many contacts a block has. */
+uint32_t constraints_count(const ContactFrame *frame, int32_t block);
+
+/* Whether a node of the block may approach an obstacle by this at most. */
+bool constraints_any_within(const ContactFrame *frame, float most, int32_t block);
+
+/* How far a displaced node may go on towards the surface. */
+float constraints_room(const Contact *contact, const float *u);
+
+#endif

@@ -1,0 +1,219 @@
+#include "services/advice_rules.h"
+
+#include <math.h>
+
+#include "world/depth.h"
+
+/* ---- Gravity, and what falls ---- */
+
+void advise_no_gravity(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    bool forced = false;
+    for (uint32_t i = 0; i < world->forces.used; i++)
+        forced = forced || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.kind == PBMPM_FORCE_UNIFORM);
+    if (gravity_strength(world) > 0.0 || forced) return;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_NO_GRAVITY, .text = "nothing falls: settings.gravity is 0, which is its default"};
+    adviser_by_value(PBMPM_CHANGE_GRAVITY, 9.81, 0.0, &advice);
+    adviser_give(adviser, advice);
+}
+
+void advise_falls_forever(Adviser *adviser)
+{
+    enum { SAMPLES = 64 };
+    static const double FEW = 0.05;
+    const World *world = adviser->world;
+    const Particles *p = &world->particles;
+    if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
+    const bool hangs = adviser_any_sticks(world);
+    const uint32_t step = p->count / SAMPLES + 1;
+    double looked = 0.0, falls = 0.0;
+    for (uint32_t row = 0; row < p->count; row += step) {
+        if (hangs && material_is_solid(&world->materials, p->material[row])) continue;
+        double at[3] = {0};
+        for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
+        looked += 1.0;
+        falls += !adviser_lands(world, p->material[row], at);
+    }
+    for (uint32_t e = 0; e < world->emitters.used; e++) {
+        const Emitter *emitter = &world->emitters.slot[e];
+        if (emitter->generation == 0) continue;
+        const double at[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
+        looked += 1.0;
+        falls += !adviser_lands(world, emitter->def.material.index, at);
+    }
+    if (looked == 0.0 || falls <= FEW * looked) return;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_FALLS_FOREVER, .figure = (float)(falls / looked), .bound = (float)FEW,
+                           .text = "matter has nothing to fall on, and no kill bounds take it out: it falls for ever at full cost"};
+    adviser_by_value(PBMPM_CHANGE_KILL_BOUNDS, 0.0, 0.0, &advice);
+    adviser_give(adviser, advice);
+}
+
+/* ---- Obstacles ---- */
+
+/* The farthest that a turn about its position carries a point of a shape; of planes and baked solids it is not known. */
+static double reach_of(const Collider *collider)
+{
+    const pbmpm_shape *shape = &collider->shape;
+    double sum = 0.0;
+    switch (shape->kind) {
+    case PBMPM_BOX:
+        for (int a = 0; a < 3; a++) sum += (double)shape->half_extents[a] * (double)shape->half_extents[a];
+        return sqrt(sum);
+    case PBMPM_CAPSULE: return (double)shape->half_extents[0] + (double)shape->radius;
+    case PBMPM_SPHERE: /* turns in its own place */
+    case PBMPM_BAKED:
+    case PBMPM_PLANE:
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return 0.0;
+}
+
+static double way_of(const Collider *collider, int dimension)
+{
+    double way2 = 0.0, dot = 0.0;
+    for (int a = 0; a < dimension; a++) {
+        const double step = (double)collider->target_position[a] - (double)collider->shape.position[a];
+        way2 += step * step;
+    }
+    for (int a = 0; a < 4; a++) dot += (double)collider->target_rotation[a] * (double)collider->shape.rotation[a];
+    const double angle = 2.0 * acos(fmin(1.0, fabs(dot)));
+    return sqrt(way2) + angle * reach_of(collider);
+}
+
+void advise_collider_too_fast(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        if (!world_feels(world, collider) || !collider_moves(collider)) continue;
+        const double cells = way_of(collider, world->def.dimension) / ((double)world->def.cell_size * world->settings.substeps);
+        if (cells <= 1.0) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_FAST, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
+                               .text = "an obstacle moves by more than a cell per substep: it passes matter by, or throws it"};
+        adviser_by_substeps(adviser, cells, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+static double thickness_of(const Collider *collider, int dimension)
+{
+    const pbmpm_shape *shape = &collider->shape;
+    double least = INFINITY;
+    switch (shape->kind) {
+    case PBMPM_BOX:
+        for (int a = 0; a < dimension; a++) least = fmin(least, 2.0 * (double)shape->half_extents[a]);
+        break;
+    case PBMPM_SPHERE:
+    case PBMPM_CAPSULE: least = 2.0 * (double)shape->radius; break;
+    case PBMPM_PLANE:
+    case PBMPM_BAKED: /* is not looked for in its grid */
+    case PBMPM_SHAPE_KIND_FORCE32: break;
+    }
+    return least;
+}
+
+void advise_collider_too_thin(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    const double cell = (double)world->def.cell_size;
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        if (!world_feels(world, collider)) continue;
+        const double cells = thickness_of(collider, world->def.dimension) / cell;
+        if (cells >= 1.0 - 1e-5) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
+                               .text = "an obstacle is thinner than a cell: matter on one side feels what is on the other"};
+        adviser_by_value(PBMPM_CHANGE_COLLIDER, cell, 0.0, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+/* ---- Speed ---- */
+
+void advise_step_too_long(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    const double bound = (double)world->settings.max_displacement;
+    double speed = 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) speed = fmax(speed, adviser->survey.heap[slot].speed);
+    for (uint32_t e = 0; e < world->emitters.used; e++)
+        if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
+    const double cells = speed * adviser->substep.dt / (double)world->def.cell_size;
+    if (cells < 0.99 * bound) return; /* who was slowed to it is at it */
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)fmax(cells, bound), .bound = (float)bound,
+                           .text = "matter is faster than max_displacement allows: it is slowed"};
+    adviser_by_substeps(adviser, fmax(2.0, cells / bound), &advice);
+    adviser_give(adviser, advice);
+}
+
+/* ---- What came true ---- */
+
+/* What a solid's own modulus lets its weight take of its volume. */
+static double lost_to_weight(const Adviser *adviser, uint32_t slot)
+{
+    const World *world = adviser->world;
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    if (adviser_flows(def)) return 0.0;
+    const double depth = adviser->survey.heap[slot].depth * (double)world->def.cell_size, poisson = (double)def->poisson_ratio;
+    const double bulk = (double)def->young_modulus / (3.0 * (1.0 - 2.0 * poisson));
+    return 0.5 * (double)def->density * gravity_strength(world) * depth / bulk;
+}
+
+void advise_volume_lost(Adviser *adviser)
+{
+    static const double UNSEEN = 0.05, SURE = 2.0; /* standard errors: of forty means one is off by more, to one side */
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const double filling = adviser->survey.heap[slot].filling;
+        if (filling == 0.0 || world->step_count == 0) continue;
+        const double sure = filling - SURE * adviser->survey.heap[slot].filling_error;
+        if (sure <= 1.0) continue;
+        const double lost = 1.0 - 1.0 / sure - lost_to_weight(adviser, slot);
+        if (lost <= UNSEEN) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = adviser_id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
+                               .text = "matter takes less room than it should: its level is too low"};
+        adviser_by_substeps(adviser, 2.0, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+void advise_strain_clamped(Adviser *adviser)
+{
+    static const double FEW = 0.005;
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const double share = adviser->survey.heap[slot].clamped;
+        if (share <= FEW) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_STRAIN_CLAMPED, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)FEW, .came_true = 1,
+                               .text = "particles are strained to a bound of their material: they are crushed or torn"};
+        adviser_by_substeps(adviser, 2.0, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+/* The error of N iterations falls about as 1 / N^2. */
+void advise_not_solved(Adviser *adviser)
+{
+    static const double SEEN = 0.05; /* cells per substep */
+    const double error = adviser->world->record.predicted_error;
+    if (error <= SEEN) return;
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_NOT_SOLVED, .figure = (float)error, .bound = (float)SEEN, .came_true = 1,
+                           .text = adviser_any_present(adviser->world, PBMPM_LIQUID) ? "the last substep is far from solved: liquid leaves through holes too fast, and bodies are too soft"
+                                                                             : "the last substep is far from solved: stiffness and contact are not what they should be"};
+    adviser_by_iterations(adviser, sqrt(error / SEEN), &advice);
+    adviser_give(adviser, advice);
+}
+
+/* Before the first step: later nobody can tell it from what was crushed. */
+void advise_overlaps(Adviser *adviser)
+{
+    static const double FEW = 0.01;
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count == 0; slot++) {
+        const double share = adviser->survey.heap[slot].overlapping;
+        if (share <= FEW) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_OVERLAPS, .material = adviser_id_of(world, slot), .figure = (float)share, .bound = (float)FEW,
+                                             .text = "matter was put where there is other matter: it is crushed, and bursts or loses volume"});
+    }
+}

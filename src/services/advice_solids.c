@@ -1,0 +1,157 @@
+/* Contact of balls: H. Hertz, 1881, as in L. Landau, E. Lifshitz, Theory of Elasticity, 1986, section 9. */
+#include "services/advice_rules.h"
+
+#include <math.h>
+
+#include "solvers/passes.h"
+#include "world/depth.h"
+
+/* N iterations hold a stiffness that grows with N^2 and with 1/dt^2. A softer body looks the same at any rate and costs nothing. */
+void advise_modulus_not_held(Adviser *adviser)
+{
+    static const double ENOUGH = 0.8, MOST_ITERATIONS = 100.0;
+    const World *world = adviser->world;
+    if (world->settings.solver == PBMPM_SOLVER_PAPER) return; /* it has none, which ignored_of_solid() tells */
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        if (!adviser_present(world, slot) || adviser_flows(def) || def->kind == PBMPM_SAND) continue;
+        const double held = (double)adviser_held_of(adviser, slot).young_modulus, own = (double)def->young_modulus;
+        if (held >= ENOUGH * own) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_MODULUS_NOT_HELD, .material = adviser_id_of(world, slot), .figure = (float)held, .bound = (float)own,
+                               .text = "the iterations do not hold the modulus: the body is softer than its material"};
+        const double factor = sqrt(own / held);
+        if (factor * world->settings.iterations <= MOST_ITERATIONS)
+            adviser_by_iterations(adviser, factor, &advice);
+        else
+            adviser_by_value(PBMPM_CHANGE_YOUNG_MODULUS, held, 0.0, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+/* A spline reaches 1.5 cells: a body of fewer than three has no inside. Beside liquid about half a cell on each side is neither's. */
+void advise_body_too_thin(Adviser *adviser)
+{
+    static const double INSIDE = 3.0, AFLOAT = 6.5;
+    const World *world = adviser->world;
+    const double bound = adviser_any_present(world, PBMPM_LIQUID) ? AFLOAT : INSIDE;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        const double thickness = adviser->survey.heap[slot].thickness;
+        if (thickness == 0.0 || def->kind == PBMPM_SAND || adviser_flows(def) || thickness >= bound) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_BODY_TOO_THIN, .material = adviser_id_of(world, slot), .figure = (float)thickness, .bound = (float)bound,
+                               .text = bound == AFLOAT ? "a body is thin for the grid: it floats too high or too deep, by up to a cell"
+                                                       : "a body is thin for the grid: it bends and bears less truly"};
+        adviser_by_cells(adviser, bound / thickness, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+static const double PI = 3.14159265358979;
+
+static double radius_of(const Adviser *adviser, uint32_t slot)
+{
+    return 0.5 * adviser->survey.heap[slot].thickness * (double)adviser->world->def.cell_size;
+}
+
+/* E / (1 - nu^2) */
+static double contact_modulus(const pbmpm_material_def *def)
+{
+    return (double)def->young_modulus / (1.0 - (double)def->poisson_ratio * (double)def->poisson_ratio);
+}
+
+/* A ball of radius R that meets a wall at the speed v rests on it for 2.94 (15 m / (16 sqrt(R) E'))^(2/5) v^(-1/5) [s]. */
+static double contact_of(const Adviser *adviser, uint32_t slot, double speed)
+{
+    const pbmpm_material_def *def = &adviser->world->materials.def[slot];
+    const double radius = radius_of(adviser, slot), mass = 4.0 / 3.0 * PI * (double)def->density * radius * radius * radius;
+    return 2.94 * pow(15.0 * mass / (16.0 * sqrt(radius) * contact_modulus(def)), 0.4) * pow(fmax(speed, 1e-6), -0.2);
+}
+
+/* Backward Euler takes from half a swing of n
+ * substeps all but the share exp(-pi^2 / (2 n)). The primal gives bodies back what a substep took from their bounce. */
+void advise_bounce_damped(Adviser *adviser)
+{
+    static const double KEPT = 0.6;
+    const World *world = adviser->world;
+    const double bound = PI * PI / (2.0 * log(1.0 / KEPT));
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        const double radius = radius_of(adviser, slot);
+        if (radius == 0.0 || def->kind != PBMPM_ELASTIC || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
+        const double speed = fmax(adviser->survey.heap[slot].speed, sqrt(2.0 * gravity_strength(world) * 2.0 * radius)); /* or a fall by its own height */
+        const double steps = contact_of(adviser, slot, speed) / adviser->substep.dt;
+        if (steps >= bound) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = adviser_id_of(world, slot), .figure = (float)steps, .bound = (float)bound,
+                               .text = "a contact lasts too few substeps for the dual solver: the body bounces less than its material would"};
+        adviser_by_value(PBMPM_CHANGE_SOLVER, PBMPM_SOLVER_CONVERGENT, (double)UNKNOWN_PRICE, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+static bool solid_among_others(const World *world, uint32_t slot)
+{
+    for (uint32_t other = 0; other < PBMPM_MAX_MATERIALS; other++)
+        if (other != slot && adviser_present(world, other) && world->materials.def[other].kind == PBMPM_ELASTIC) return true;
+    return false;
+}
+
+/* Bodies that hit each other share nodes, and leave each other only after enough substeps: discs of 16 cells keep nothing of their speed in contacts of less than 10,
+ * 0.35 in 14, 0.54 in 19, 0.62 in 23 (two discs as in tests/field/run.py collision, of 3e4 to 3e5 Pa, at 60 to 240 Hz). */
+void advise_hit_damped(Adviser *adviser)
+{
+    static const double BOUND = 23.0, FAST = 0.1;
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const Heap *heap = &adviser->survey.heap[slot];
+        const bool fast = heap->speed * adviser->substep.dt > FAST * (double)world->def.cell_size;
+        if (!fast || radius_of(adviser, slot) == 0.0 || world->materials.def[slot].kind != PBMPM_ELASTIC || adviser_solver_of(world, slot) != PBMPM_SOLVER_PRIMAL) continue;
+        const double steps = contact_of(adviser, slot, heap->speed) / adviser->substep.dt;
+        if (steps >= BOUND || !solid_among_others(world, slot)) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_BOUNCE_DAMPED, .material = adviser_id_of(world, slot), .figure = (float)steps, .bound = (float)BOUND,
+                               .text = "bodies that hit each other stay together: their contact lasts too few substeps"};
+        adviser_by_substeps(adviser, BOUND / steps, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+/* Half the width that a round body rests on: of a ball (3 F R / (4 E'))^(1/3), of a disc sqrt(4 F R / (pi E')). */
+static double patch_of(const Adviser *adviser, uint32_t slot)
+{
+    const World *world = adviser->world;
+    const pbmpm_material_def *def = &world->materials.def[slot];
+    const double radius = radius_of(adviser, slot), pull = (double)def->density * gravity_strength(world), modulus = contact_modulus(def);
+    if (world->def.dimension == 2) return sqrt(4.0 * PI * radius * radius * pull * radius / (PI * modulus));
+    return pow(3.0 * 4.0 / 3.0 * PI * radius * radius * radius * pull * radius / (4.0 * modulus), 1.0 / 3.0);
+}
+
+static bool any_rubs(const World *world)
+{
+    bool rubs = false;
+    for (int place = 0; place < 2 * world->def.dimension; place++) {
+        const pbmpm_domain_wall *wall = &world->domain.wall[place];
+        rubs = rubs || (!wall->open && wall->friction != PBMPM_FRICTION_SLIP && wall->friction_coefficient > 0.0f);
+    }
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        rubs = rubs || (world_feels(world, collider) && collider->def.friction != PBMPM_FRICTION_SLIP && collider->def.friction_coefficient > 0.0f);
+    }
+    return rubs;
+}
+
+/* The spline spreads a contact over more than a cell, and what turns over a wider patch than its own is braked. */
+void advise_rolling_braked(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    if (gravity_strength(world) == 0.0 || !any_rubs(world) || solver_holds_liquid(world)) return; /* bodies among liquid may float */
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const Heap *heap = &adviser->survey.heap[slot];
+        if (heap->thickness == 0.0 || !heap->round || world->materials.def[slot].kind != PBMPM_ELASTIC) continue;
+        const double cells = patch_of(adviser, slot) / (double)world->def.cell_size;
+        if (cells >= 1.0) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_ROLLING_BRAKED, .material = adviser_id_of(world, slot), .figure = (float)cells, .bound = 1.0f,
+                               .text = "a round body rests on less than the grid resolves: it rolls too slowly"};
+        adviser_by_cells(adviser, 1.0 / cells, &advice);
+        if (advice.change == PBMPM_CHANGE_NONE) advice.text = "a round body rests on far less than the grid resolves: it rolls too slowly, and no setting helps";
+        adviser_give(adviser, advice);
+    }
+}

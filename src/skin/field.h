@@ -1,0 +1,46 @@
+/* Sums over particles at the points of the lattice, smooth on the scale of a cell:
+ *
+ *     F(x) = S sum_p a_p W((x - x_p) / dx),    W: the quadratic B-spline per axis, as in the solver's transfers.
+ *
+ * With a_p the volume of p in cells the sum is the filling of pbmpm_query_points(): 1 inside, 1/2 at a flat surface. But it is the matter's extent, blurred by W, whose
+ * variance is dx^2/4 per axis. A blurred ball of radius R is smaller by dx^2/(4 R), to first order: a sixth of its volume if R is two cells. So S takes the blur's second
+ * moment away: S f = f - dx^2/8 f'' along each axis, which is (10 f(x) - f(x - dx) - f(x + dx)) / 8. What is finer than a cell stays smooth.
+ *
+ * With subdivision 2 points lie h = dx/2 apart, and the wide spline would touch 216 of them. But it is a sum of four narrow ones (C. de Boor, "A Practical Guide to
+ * Splines", 1978; G. Chaikin, 1974):
+ *     W(y) = (w(y - 3h/2) + 3 w(y - h/2) + 3 w(y + h/2) + w(y + 3h/2)) / 4 per axis,    w: the spline of width h.
+ * So particles give to 27 points with w, and a filter of (1, 3, 3, 1) / 8 along each axis makes the sum of it, without error, half a point beside those. Point k of
+ * the lattice is at (k - 1/2) h, then. */
+#ifndef PBMPM_SRC_SKIN_FIELD_H
+#define PBMPM_SRC_SKIN_FIELD_H
+
+#include "skin/blocks.h"
+#include "skin/matter.h"
+
+/* What a particle counts. */
+typedef float FieldAmount(const SkinMatter *matter, uint32_t row, int channel);
+
+/* Its volume. */
+float field_volume(const SkinMatter *matter, uint32_t row, int channel);
+
+typedef struct FieldWork {
+    SkinBlocks *blocks;
+    const SkinMatter *matter;
+    Pool *pool;
+    float *boxes;        /* BOX_POINTS per block with particles: scratch */
+    float *sums, *lines; /* BLOCK_POINTS per block: scratch */
+} FieldWork;
+
+/* From a place in points, as blocks_locate() has it, to one on the lattice. */
+static inline float field_shift(const SkinBlocks *blocks) { return blocks->subdivision == 2 ? 0.5f : 0.0f; }
+
+/* Writes F to `values`, BLOCK_POINTS per block; with `at_surface` only where the surface needs it. Notes the least and the most of each block. */
+void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values);
+
+/* Adds what keeps thin matter in sight, see field.c. */
+void field_thicken(const FieldWork *work, float level, float *values);
+
+/* Notes for each row of a block whether F is below the level there; other rows stay as they are. */
+void field_find_outside(const FieldWork *work, float level, const float *values, uint8_t *outside);
+
+#endif

@@ -1,0 +1,5 @@
+#pragma once
+#include "CoreMinimal.h"
+class UDataAsset : public UObject
+{
+};
