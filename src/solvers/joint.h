@@ -9,7 +9,7 @@
  *     primal  solves again under the pressures found, from where they lead.
  *
  * In the primal's parts a liquid particle has the energy phi = y^2 / (2 k) with y = max(0, p - k (tr D - tr D0)). D0 is its D where the part begins, and k what it
- * resists with where solids shove it aside. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
+ * resists with where solids shove it aside. Where it bears nothing, tr D0 counts as no more than what it lacks of its volume: else it would press while it grows. Liquid that no solid disturbs is in balance where it is. Where all rests, all parts agree: a bar that hangs into water
  * stretches at 60 Hz x 5 as the converged solution does.
  *
  * A body that falls into water pushes it away before they meet. They share nodes, so a gap of half a cell would stay: in 3D a cube of six cells displaced a quarter
