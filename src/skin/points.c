@@ -54,7 +54,7 @@ static void count_points(void *context, int32_t begin, int32_t end)
 }
 
 /* Of a ball, or of a disc. */
-static double radius_of(double volume, int dimension) { return dimension == 3 ? cbrt(0.75 / M_PI * volume) : sqrt(volume / M_PI); }
+static double radius_of(double volume, int dimension) { return dimension == 3 ? pow(0.75 / M_PI * volume, 1.0 / 3.0) : sqrt(volume / M_PI); }
 
 static pbmpm_point point_of(const PointsJob *job, uint32_t row)
 {
