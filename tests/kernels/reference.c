@@ -281,14 +281,13 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
 }
 
-/* Feedback is for matter that moves, or that gravity presses and whose J is wrong; the noise of a pool at rest is left alone. */
+/* Feedback is for matter that moves or whose J is wrong; the noise of a pool at rest is left alone. */
 static double feedback_share(const RefStep *step, const double d[3], double missing)
 {
     double way2 = 0.0;
     if (step->feedback_way == 0.0) return 1.0;
     for (int a = 0; a < step->dimension; a++) way2 += d[a] * d[a];
-    const bool pressed = step->gravity[0] != 0.0 || step->gravity[1] != 0.0 || step->gravity[2] != 0.0;
-    const double wrong = pressed ? (fabs(missing) - REF_WRONG_MIN) / (REF_WRONG_MAX - REF_WRONG_MIN) : 0.0;
+    const double wrong = (fabs(missing) - REF_WRONG_MIN) / (REF_WRONG_MAX - REF_WRONG_MIN);
     return fmin(fmax(fmax(sqrt(way2) / step->feedback_way, wrong), 0.0), 1.0);
 }
 
