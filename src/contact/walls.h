@@ -12,7 +12,7 @@
  * What nodes behind a wall do along it by themselves, as a mirror's do off the grid, is a motion that few iterations do not see: it drove fountains.
  *
  * At outer edges, blunt inner ones and curved walls a node has one normal: the slope of the distances at the nodes around it. It turns as slowly as the spline sees
- * the wall turn. The nearest face's own leaps there, and an even pressure then drives water round the edge: a pool with a box in it stirred at 0.2 m/s.
+ * the wall turn. What an even pressure would still do there those that follow take off: u = E u~ holds that, see balance_node() in walls_find.c.
  *
  * The density is found on folded nodes: mass and open share of nodes within a cell are reflected in the wall.
  *
@@ -64,6 +64,12 @@ void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool
 
 /* The same as loops that are added to others. */
 void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark);
+
+/* The spline sees a sharp edge rounded, phi~ in place of phi. Where a pressure grows with depth, matter behind the rounded wall would bear it: to first order the
+ * volume sum w(phi) (phi~ - phi), a quarter of a cell along the edge of a box. It is missing, so water rose along the edges for ever, and bodies were lifted as if they
+ * were rounded. So the wall gives its weight to the nodes that are followed, as of matter that is as dense as there. To be called before walls are obeyed. `gravity`: of
+ * the substep [cells]; `base`: 4 floats per node, changed as the nodes are. */
+void walls_weigh(const Walls *walls, const ContactFrame *frame, const float gravity[3], float *base);
 
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
 void walls_book(const Walls *walls, const ContactFrame *frame);

@@ -186,6 +186,7 @@ void solver_solve(World *world, const ContactFrame *contacts)
     record->iterations_used = record->energy_checks_failed = 0;
     record->residual = record->predicted_error = 0.0;
     contacts->colliders->impulses.adds_up = record->solver == PBMPM_SOLVER_PAPER;
+    if (contacts->walls) walls_weigh(contacts->walls, contacts, world->args.gravity, world->grid.node_base.data);
     solver_obey(world, contacts); /* the predictor obeys them too */
     if (record->solver != PBMPM_SOLVER_PAPER) viscosity_apply(world, contacts);
     kinds[record->solver].solve(world, contacts);

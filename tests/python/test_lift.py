@@ -1,0 +1,80 @@
+"""What water does to a box in it: the lift of Archimedes, wherever the box stands on the grid, and no stir."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from pbmpm import Box, Friction, Liquid, RigidBody, World
+
+CELL = 0.025
+RATE_HZ = 60
+GRAVITY = 9.81
+
+
+def tank(dimension: int, width: int, depth: int) -> World:
+    """A tank between walls of the domain, 20 cells higher than its water will be."""
+    low, high, gravity = [0.0] * dimension, [width * CELL] * dimension, [0.0] * dimension
+    high[1], gravity[1] = (depth + 20) * CELL, -GRAVITY
+    return World(dimension, CELL, gravity=gravity, domain=(low, high), iterations=5, threads=2)
+
+
+def pour(world: World, width: int, depth: int) -> None:
+    half = [0.5 * width * CELL] * world.dimension
+    half[1] = 0.5 * depth * CELL
+    world.fill(Box(half, half), world.add_material(Liquid()))
+
+
+@pytest.mark.parametrize("off", [0.0, 0.3, 0.5])
+@pytest.mark.parametrize("under", [0.5, 0.75, 2.0])
+def test_lift_of_a_held_box(off: float, under: float) -> None:
+    """A box of 4 x 4 cells, held with `under` of its height below the level. The edges' volume is known to first order: each is a quarter of a cell, of 8 to 16."""
+    width, depth, side = 16, 12, 4 * CELL
+    with tank(2, width, depth) as world:
+        centre = [0.5 * width * CELL + off * CELL, depth * CELL + side * (0.5 - under)]
+        box = world.add_collider(Box(centre, [0.5 * side] * 2), kinematic=True, measures_impulse=True, friction=Friction.SLIP)
+        pour(world, width, depth)
+        water = world.stats.mass / 1000
+        bottom = centre[1] - 0.5 * side
+        level = (water - width * CELL * bottom) / (width * CELL - side) + bottom  # if it ends beside the box
+        wet = side * min(level - bottom, side)
+        lifts = []
+        for step in range(4 * RATE_HZ):
+            world.step(1 / RATE_HZ)
+            if step >= 3 * RATE_HZ:
+                lifts.append(box.impulse.linear[1] * RATE_HZ)
+        assert np.mean(lifts) == pytest.approx(1000 * GRAVITY * wet, rel=0.06)
+
+
+def test_water_rests_around_a_held_box() -> None:
+    """It rose along the edges of a box for ever, at half a cell per second, as long as an even pressure worked there."""
+    width, depth, side = 16, 8, 4 * CELL
+    with tank(2, width, depth) as world:
+        world.add_collider(Box([0.5 * width * CELL, depth * CELL], [0.5 * side] * 2), friction=Friction.SLIP)
+        pour(world, width, depth)
+        squares = []
+        for step in range(5 * RATE_HZ):
+            world.step(1 / RATE_HZ)
+            if step >= 3 * RATE_HZ:
+                squares.append(np.mean(np.sum(np.square(world.velocities.array()), axis=1)))
+        assert np.sqrt(np.mean(squares)) < 0.005  # as a pool of 12 cells between walls of the domain may
+
+
+@pytest.mark.parametrize("density", [600, 800])
+def test_small_cubes_float(density: float) -> None:
+    """Rigid cubes of four cells float as deep as their density says: those of 800 kg/m^3 sank. Half a cell is what a grid knows of a level."""
+    width, depth, side = 16, 12, 4 * CELL
+    with tank(3, width, depth) as world:
+        centre = [0.5 * width * CELL + 0.3 * CELL, depth * CELL, 0.5 * width * CELL + 0.3 * CELL]
+        cube = world.add_collider(Box(centre, [0.5 * side] * 3), kinematic=True, measures_impulse=True, friction=Friction.SLIP)
+        body = RigidBody(cube, density=density)
+        pour(world, width, depth)
+        level = (world.stats.mass / 1000 + side**3 * density / 1000) / (width * CELL) ** 2
+        heights = []
+        for step in range(5 * RATE_HZ):
+            body.advance(1 / RATE_HZ)
+            world.step(1 / RATE_HZ)
+            if step >= 3 * RATE_HZ:
+                heights.append(body.position[1])
+        under = level - (np.mean(heights) - 0.5 * side)
+        assert under == pytest.approx(side * density / 1000, abs=0.5 * CELL)
