@@ -281,13 +281,20 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
     p->volume_ratio = fmin(fmax(ratio, RATIO_MIN), RATIO_MAX);
 }
 
+/* Of volume, that is left alone: without gravity, where J would fall, what fillings have. */
+double reference_noise(const RefStep *step, double missing)
+{
+    const bool pressed = step->gravity[0] != 0.0 || step->gravity[1] != 0.0 || step->gravity[2] != 0.0;
+    return pressed || missing >= 0.0 ? REF_WRONG_MIN : 1.0 - 1.0 / REF_CRUSHED;
+}
+
 /* Feedback is for matter that moves or whose J is wrong; the noise of a pool at rest is left alone. */
 static double feedback_share(const RefStep *step, const double d[3], double missing)
 {
     double way2 = 0.0;
     if (step->feedback_way == 0.0) return 1.0;
     for (int a = 0; a < step->dimension; a++) way2 += d[a] * d[a];
-    const double wrong = (fabs(missing) - REF_WRONG_MIN) / (REF_WRONG_MAX - REF_WRONG_MIN);
+    const double wrong = (fabs(missing) - reference_noise(step, missing)) / (REF_WRONG_MAX - REF_WRONG_MIN);
     return fmin(fmax(fmax(sqrt(way2) / step->feedback_way, wrong), 0.0), 1.0);
 }
 

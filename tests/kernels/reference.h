@@ -88,6 +88,9 @@ void reference_slopes(int dimension, const RefParticle *p, double slope[27][3]);
 /* The gradient of the motion x += sum w_i(x) u_i at the particle: sum u_i (grad w_i)^T. Returns the largest sum of the sizes of an entry's terms. */
 double reference_gradient(const RefGrid *grid, const RefParticle *p, double gradient[9]);
 
+/* What of J - J_grid, in size, the feedback leaves alone at rest. missing: J_grid - J. */
+double reference_noise(const RefStep *step, double missing);
+
 /* The least that a node which the particle feels holds. */
 double reference_sparsest(const RefGrid *grid, const RefParticle *p);
 

@@ -238,7 +238,7 @@ static double share_error(const Scene *scene, const RefParticle *before, double 
 {
     if (scene->step.quiet_way > 0.0) return quiet_error(scene, before, missing, error, J_error);
     if (scene->step.feedback_way == 0.0) return 0.0;
-    const double slope = fmin(fabs(missing), REF_WRONG_MAX) / (REF_WRONG_MAX - REF_WRONG_MIN) * J_error;
+    const double range = REF_WRONG_MAX - REF_WRONG_MIN, slope = fmin(fabs(missing), reference_noise(&scene->step, -missing) + range) / range * J_error;
     const double way = fabs(missing) * (sqrt(3.0) * error.d / scene->step.feedback_way + 8.0 * UNIT_ROUNDOFF);
     return (double)before->material.volume_feedback * (slope + way);
 }

@@ -102,6 +102,16 @@ static void check_calm_liquid(const char *name, double ratio_min, CheckDual *che
 
 static void test_calm_liquid(void) { check_calm_liquid("dual: calm liquid", 0.9, check_rounds); }
 
+/* Without gravity what a filling may have of noise is left alone where J would fall. */
+static void check_weightless(DualStage *stage)
+{
+    memset(stage->scene.world->args.gravity, 0, sizeof stage->scene.world->args.gravity);
+    memset(stage->scene.step.gravity, 0, sizeof stage->scene.step.gravity);
+    check_rounds(stage);
+}
+
+static void test_calm_liquid_without_gravity(void) { check_calm_liquid("dual: calm liquid without gravity", 0.6, check_weightless); }
+
 /* That of liquids that store energy: the same kernel with the primal solver's way, down to where J is wrong at rest. */
 static void check_quiet_feedback(DualStage *stage)
 {
@@ -467,6 +477,7 @@ int main(void)
     RUN_TEST(test_crowded_cells);
     RUN_TEST(test_all_densities);
     RUN_TEST(test_calm_liquid);
+    RUN_TEST(test_calm_liquid_without_gravity);
     RUN_TEST(test_quiet_liquid);
     RUN_TEST(test_sand_that_begins_to_fall_bears_nothing);
     RUN_TEST(test_fine_motion);
