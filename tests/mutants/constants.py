@@ -44,13 +44,11 @@ def gathered(found: list[Constant], campaign: Path) -> dict[str, dict[str, str]]
     known = {key: verdict for key, verdict in known_verdicts().items() if key in map(key_of, found)}
     judged = [json.loads(line) for line in campaign.read_text(encoding="utf-8").splitlines()]
     for constant in found:
-        text = (ROOT / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
-        for factor in (0.5, 2.0):
-            fault = constant.fault(text, factor)
-            for verdict in judged:
-                if verdict["name"] == fault.name:
-                    found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
-                    known.setdefault(key_of(constant), {})[fault.kind] = str(found_by)
+        as_it_is = re.compile(rf"\b{constant.name} (?:= )?{re.escape(constant.value)}(?![\w.]| \*)")
+        for verdict in judged:
+            if verdict["file"] == constant.file and as_it_is.search(verdict["before"]) and not as_it_is.search(verdict["after"]):
+                found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
+                known.setdefault(key_of(constant), {})[verdict["kind"]] = str(found_by)
     return dict(sorted(known.items()))
 
 

@@ -234,11 +234,12 @@ class Campaign:
             todo = [_fault(it) for it in self.verdicts.values() if it["verdict"] == "survived"]
             planned, count = iter([it for it in todo if _is_there(it)]), len(todo)
         elif options.constants:
-            todo = list(constant_faults(ROOT))
+            todo = list(constant_faults(places[0].tree))
             planned, count = iter(todo), len(todo)
         else:
-            files = [str(path.relative_to(ROOT)) for pattern in options.files for path in ROOT.glob(pattern)]
-            planned, count = choose(ROOT, files, options.seed), options.count
+            copy = places[0].tree  # whatever becomes of the sources meanwhile
+            files = [str(path.relative_to(copy)) for pattern in options.files for path in copy.glob(pattern)]
+            planned, count = choose(copy, files, options.seed), options.count
         planned = (it for it in planned if it.key not in self.equivalent)
         chosen: list[str] = []
         asked: queue.Queue[None] = queue.Queue()
