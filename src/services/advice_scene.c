@@ -147,6 +147,31 @@ void advise_step_too_long(Adviser *adviser)
     adviser_give(adviser, advice);
 }
 
+/* ---- Emitters ---- */
+
+/* How far beyond a wall of the domain the whole of an emitter stands [m]; 0 or less if any of it may be inside. */
+static double way_outside(const World *world, const Emitter *emitter)
+{
+    const pbmpm_shape shape = emitter_enclosing_shape(&emitter->def, &emitter->shape);
+    const Solid solid = solid_of(&shape, world->def.dimension);
+    double low[3], high[3], most = 0.0;
+    solid_bounds(&solid, low, high);
+    for (int a = 0; a < world->def.dimension; a++) most = fmax(most, fmax(world->domain.low[a] - high[a], low[a] - world->domain.high[a]));
+    return most;
+}
+
+void advise_emitter_outside(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    for (uint32_t e = 0; e < world->emitters.used; e++) {
+        const Emitter *emitter = &world->emitters.slot[e];
+        const double way = emitter->generation != 0 ? way_outside(world, emitter) : 0.0;
+        if (way <= 0.0) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_EMITTER_OUTSIDE, .material = emitter->def.material, .figure = (float)(way / (double)world->def.cell_size),
+                                             .text = "an emitter stands outside of the domain: it emits nothing"});
+    }
+}
+
 /* ---- What came true ---- */
 
 /* What a solid's own modulus lets its weight take of its volume. */

@@ -97,7 +97,7 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_NO_FRICTION; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_EMITTER_OUTSIDE; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
@@ -529,6 +529,29 @@ static void test_sand_on_a_floor_without_friction(void)
 }
 
 /* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
+static void test_an_emitter_outside_of_the_domain(void)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.domain_enabled = 1; /* from 0 to 1 m */
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_shape inside = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f), partly = box_shape(1.05f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    const pbmpm_shape outside = box_shape(1.2f, 0.5f, 0, 0.1f, 0.1f, 0.1f); /* 0.1 m, two cells */
+    pbmpm_emitter_def jet = {0};
+    pbmpm_emitter_id emitter;
+    OK(pbmpm_emitter_def_init(&jet, sizeof jet));
+    set_gravity(world, 0, -9.81f, 0);
+    jet.material = create_material(world, PBMPM_LIQUID);
+    jet.rate = 1.0f;
+    OK(pbmpm_emitter_create(world, &jet, &inside, &emitter));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
+    OK(pbmpm_emitter_set(world, emitter, NULL, &partly));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
+    OK(pbmpm_emitter_set(world, emitter, NULL, &outside));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 2.0f, expect(world, PBMPM_ADVICE_EMITTER_OUTSIDE)->figure);
+    OK(pbmpm_emitter_destroy(world, emitter));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
+}
+
 static void test_matter_in_other_matter(void)
 {
     static const float beside[] = {2.013f, 0.513f}, inside[] = {0.513f, 0.413f};
@@ -668,6 +691,7 @@ int main(void)
     RUN_TEST(test_known_limits);
     RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
+    RUN_TEST(test_an_emitter_outside_of_the_domain);
     RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);
     RUN_TEST(test_obstacles);
