@@ -21,7 +21,7 @@ void advise_no_gravity(Adviser *adviser)
 void advise_falls_forever(Adviser *adviser)
 {
     enum { SAMPLES = 64 };
-    static const double FEW = 0.05;
+    static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
     const World *world = adviser->world;
     const Particles *p = &world->particles;
     if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
@@ -205,7 +205,7 @@ void advise_volume_lost(Adviser *adviser)
 
 void advise_strain_clamped(Adviser *adviser)
 {
-    static const double FEW = 0.005;
+    static const double FEW = 0.005; /* share of particles: single ones are strained to a bound in any splash */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double share = adviser->survey.heap[slot].clamped;
@@ -233,7 +233,7 @@ void advise_not_solved(Adviser *adviser)
 /* Before the first step: later nobody can tell it from what was crushed. */
 void advise_overlaps(Adviser *adviser)
 {
-    static const double FEW = 0.01;
+    static const double FEW = 0.01; /* share of the matter: fills that are flush overlap by the jitter of their places */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count == 0; slot++) {
         const double share = adviser->survey.heap[slot].overlapping;

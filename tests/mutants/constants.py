@@ -24,6 +24,7 @@ HEAD = """# Constants
 Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
 when the number is halved, and when it is doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
 A dash means that nobody has tried yet. The full reason stands above each constant in its file.
+The last list has those that no theory gives: their comment says "by trial", and what was tried.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
@@ -65,13 +66,15 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
         rooms.setdefault(str(Path(constant.file).parent), []).append(constant)
     tried = sum(len(verdicts.get(key_of(constant), {})) for constant in found)
     quiet = [constant for constant in found if "none" in verdicts.get(key_of(constant), {}).values()]
-    lines = [HEAD, f"{len(found)} constants; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
+    by_trial = [constant for constant in found if "by trial" in constant.about.lower()]
+    lines = [HEAD, f"{len(found)} constants, {len(by_trial)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:
             verdict = verdicts.get(key_of(constant), {})
             cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
             lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
+    lines += ["", "## By trial", "", *(f"- `{constant.name}` ({Path(constant.file).name}, `{constant.value}`)" for constant in by_trial)]
     return "\n".join(lines) + "\n"
 
 
