@@ -252,7 +252,7 @@ def constants(root: Path) -> list[Constant]:
 
 
 def constant_faults(root: Path) -> Iterator[Fault]:
-    """Half and twice of each constant; kernels last, which take longest to build."""
-    for constant in sorted(constants(root), key=lambda it: it.file.startswith("ispc")):
+    """Half and twice of each constant; headers and kernels last, which take longest to build."""
+    for constant in sorted(constants(root), key=lambda it: (it.file.startswith("ispc"), it.file.endswith(".h"))):
         text = (root / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
         yield from (constant.fault(text, factor) for factor in (0.5, 2.0))
