@@ -94,7 +94,7 @@ class Emitter(Switchable):
 
     __slots__ = ()
     _name = "emitter"
-    material = Value(_set_material, lambda definition, world: Material(world, _own(definition.material)), "Of its particles.")
+    material: Value[Material, Material] = Value(_set_material, lambda definition, world: Material(world, _own(definition.material)), "Of its particles.")
     rate = real("rate", "Rest volume per second [m^d/s].")
     region = one_of("region", Region, "Where its particles are born.")
     speed = real("speed", "Of its particles [m/s].")
@@ -126,7 +126,7 @@ class Drain(Switchable):
 
     __slots__ = ()
     _name = "drain"
-    material = Value(_set_material_or_all, _material_or_all, "What it takes; None: everything.")
+    material: Value[Material | None, Material | None] = Value(_set_material_or_all, _material_or_all, "What it takes; None: everything.")
 
     @property
     def status(self) -> DrainStatus:
