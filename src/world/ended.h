@@ -4,8 +4,8 @@
 
 #include <stdint.h>
 
-/* As many as a host destroys between losing sight of a thing and asking for it. */
-enum { ENDED_KEPT = 256 };
+/* A few, as a world is small: a host that asks for a dead thing has most often just destroyed it. */
+enum { ENDED_KEPT = 32 };
 
 typedef struct Ended {
     uint32_t generation[ENDED_KEPT]; /* of the last ones; 0: none */
