@@ -22,8 +22,8 @@ VERDICTS = Path(__file__).with_name("constants.json")
 HEAD = """# Constants
 
 Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
-when the number is halved, and when it is doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
-A dash means that nobody has tried yet. The full reason stands above each constant in its file.
+when the number is halved, and when it is doubled. "none" means that no test noticed that was asked. Asked were C tests of less than two seconds, for eight seconds
+(`mutate.py --constants --slowest 2 --patience 8`): the slower ones and those of Python may notice. A dash means that nobody has tried yet. The full reason stands above each constant in its file.
 The last list has those that no theory gives: their comment says "by trial", and what was tried.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
