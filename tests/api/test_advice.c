@@ -494,6 +494,31 @@ static void test_known_limits(void)
     }
 }
 
+/* From how high [cells] above other matter a body falls onto it: a cell of each is at the surface, and neither's. */
+static void test_what_is_near_does_not_fall(void)
+{
+    static const struct {
+        pbmpm_material_kind below;
+        float high;
+        const char *words;
+        bool told;
+    } cases[] = {{PBMPM_SAND, 3.0f, "falls on sand", false},
+                 {PBMPM_SAND, 4.0f, "falls on sand", true},
+                 {PBMPM_LIQUID, 1.25f, "fell into a liquid", false},
+                 {PBMPM_LIQUID, 1.75f, "fell into a liquid", true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        pbmpm_material_def sand = default_material(cases[i].below), body = default_material(PBMPM_ELASTIC);
+        body.young_modulus = sand.young_modulus = 1e5f;
+        body.density = 900;
+        create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+        fill_shape(world, add_material(world, &sand), box_shape(0.5f, 0.3f, 0, 0.5f, 0.3f, 1), at_rest);
+        fill_shape(world, add_material(world, &body), box_shape(0.5f, 0.9f + 0.05f * cases[i].high, 0, 0.5f, 0.3f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(cases[i].told, tells(cases[i].words));
+    }
+}
+
 /* A body that falls along the face of an obstacle falls all the same. */
 static void test_a_body_that_falls_along_a_wall(void)
 {
@@ -689,6 +714,7 @@ int main(void)
     RUN_TEST(test_a_body_that_hangs_over);
     RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_known_limits);
+    RUN_TEST(test_what_is_near_does_not_fall);
     RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
     RUN_TEST(test_an_emitter_outside_of_the_domain);
