@@ -415,13 +415,13 @@ static void test_sand_is_of_two_solvers(void)
     check_ignored(world, "relaxation");
 }
 
-/* A block on 20 degrees whose weight lies 1.3 cells beyond its edge, or well within; leaning on a wall, or beside a ball. */
+/* A block on 20 degrees whose weight lies 1.3 cells beyond its edge, well within, or 3.2 and 2.4 cells beyond; leaning on a wall, or beside a ball. */
 static void test_what_tips(void)
 {
     static const struct {
         float wide;
         bool wall, told;
-    } cases[] = {{0.075f, false, true}, {0.075f, true, false}, {0.18f, false, false}, {0.03f, false, false}};
+    } cases[] = {{0.075f, false, true}, {0.075f, true, false}, {0.18f, false, false}, {0.03f, false, false}, {0.05f, false, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_def def = default_world(2, 0.025f, 8192);
         const pbmpm_world_id world = create_world(&def);
@@ -491,6 +491,24 @@ static void test_known_limits(void)
             limits += told[n].code == PBMPM_ADVICE_KNOWN_LIMIT && strncmp(told[n].text, "sand s", 6) != 0 &&
                       strncmp(told[n].text, "sand t", 6) != 0; /* its sides are free */
         TEST_ASSERT_EQUAL_INT(cases[i].limits, limits);
+    }
+}
+
+/* Steps in which matter falls by less than 0.02 cells hold a rigid body on sand: at 60 Hz with cells of 0.2 m, not with those of 0.1. */
+static void test_a_rigid_body_on_sand(void)
+{
+    for (int fine = 0; fine < 2; fine++) {
+        const pbmpm_world_id world = falling_world(2, fine ? 0.1f : 0.2f);
+        const pbmpm_shape crate = box_shape(2, 2, 0, 0.5f, 0.5f, 1);
+        pbmpm_collider_def def;
+        pbmpm_collider_id collider;
+        OK(pbmpm_collider_def_init(&def, sizeof def));
+        def.kinematic = def.measures_impulse = 1;
+        OK(pbmpm_collider_create(world, &def, &crate, &collider));
+        create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+        fill_shape(world, create_material(world, PBMPM_SAND), box_shape(2, 0.7f, 0, 2, 0.7f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(fine, tells("a rigid body on sand rocks"));
     }
 }
 
@@ -714,6 +732,7 @@ int main(void)
     RUN_TEST(test_a_body_that_hangs_over);
     RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_known_limits);
+    RUN_TEST(test_a_rigid_body_on_sand);
     RUN_TEST(test_what_is_near_does_not_fall);
     RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
