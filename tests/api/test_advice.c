@@ -246,6 +246,53 @@ static void test_a_pool_too_deep_for_the_rate(void)
     expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
 }
 
+/* With the paper's solver: the strain at the bottom, rho g depth over the modulus that acts, may be a tenth. */
+static void test_a_pool_too_deep_for_the_papers_solver(void)
+{
+    for (int deep = 0; deep < 2; deep++) {
+        pbmpm_world_def def = default_world(2, 0.1f, 8192);
+        def.domain_enabled = 1;
+        for (int a = 0; a < 2; a++) def.domain_max[a] = 4;
+        const pbmpm_world_id world = create_world(&def);
+        const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+        const float depth = deep ? 1.8f : 1.0f;
+        pbmpm_effective effective = {.size = sizeof effective};
+        set_gravity(world, 0, -9.81f, 0);
+        set_solver(world, PBMPM_SOLVER_PAPER);
+        set_rate(world, 1, 20);
+        fill_shape(world, water, box_shape(2, 0.5f * depth, 0, 2, 0.5f * depth, 1), at_rest);
+        OK(pbmpm_material_effective(world, water, DT, &effective));
+        const float strain = 1000 * 9.81f * depth / effective.bulk_modulus;
+        if (deep) TEST_ASSERT_FLOAT_WITHIN(0.1f * strain, strain, expect(world, PBMPM_ADVICE_POOL_TOO_DEEP)->figure);
+        else expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
+    }
+}
+
+/* Speeds by the law of docs/choosing.md: share f^2 cells per substep, f = g dt^2 depth / dx^2, more in proportion where there are fewer than five iterations. */
+static void test_how_fast_a_pool_stirs(void)
+{
+    static const struct {
+        int32_t dimension, iterations, cells;
+        float bulk_modulus, share; /* 0: not told */
+    } cases[] = {{2, 5, 24, 0, 0}, {2, 5, 36, 0, 0.0015f}, {2, 2, 24, 0, 2.5f * 0.0015f}, {3, 5, 48, 0, 0.0007f}, {2, 5, 12, 1e6f, 0.012f}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float cell = 0.05f, depth = cell * (float)cases[i].cells, f = 9.81f * DT * DT * depth / (cell * cell);
+        pbmpm_world_def def = default_world(cases[i].dimension, cell, 32768);
+        pbmpm_material_def water = default_material(PBMPM_LIQUID);
+        def.domain_enabled = 1;
+        def.domain_max[0] = def.domain_max[2] = 8 * cell;
+        def.domain_max[1] = 4;
+        water.bulk_modulus = cases[i].bulk_modulus;
+        const pbmpm_world_id world = create_world(&def);
+        set_gravity(world, 0, -9.81f, 0);
+        set_rate(world, 1, cases[i].iterations);
+        fill_shape(world, add_material(world, &water), box_shape(4 * cell, 0.5f * depth, 4 * cell, 4 * cell, 0.5f * depth, 4 * cell), at_rest);
+        const float speed = cases[i].share * f * f * cell / DT;
+        if (speed > 0.0f) TEST_ASSERT_FLOAT_WITHIN(0.15f * speed, speed, expect(world, PBMPM_ADVICE_POOL_STIRS)->figure);
+        else expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+    }
+}
+
 /* Told of pools around a sphere and around a box, and of deep ones, and of none without gravity; not of 12 cells between level, upright or leaning walls off the grid. */
 static void test_a_pool_that_stirs(void)
 {
@@ -556,7 +603,7 @@ static void test_sand_on_a_floor_without_friction(void)
         pbmpm_material_kind kind;
         float friction;
         bool told;
-    } cases[] = {{PBMPM_SAND, 0.0f, true}, {PBMPM_SAND, 0.5f, false}, {PBMPM_LIQUID, 0.0f, false}};
+    } cases[] = {{PBMPM_SAND, 0.0f, true}, {PBMPM_SAND, 0.04f, true}, {PBMPM_SAND, 0.06f, false}, {PBMPM_LIQUID, 0.0f, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         pbmpm_world_def def = default_world(2, 0.05f, 8192);
         def.domain_enabled = 1;
@@ -564,7 +611,7 @@ static void test_sand_on_a_floor_without_friction(void)
         const pbmpm_world_id world = create_world(&def);
         set_gravity(world, 0, -9.81f, 0);
         fill_shape(world, create_material(world, cases[i].kind), box_shape(0.5f, 0.15f, 0, 0.2f, 0.15f, 0.5f), at_rest);
-        if (cases[i].told) TEST_ASSERT_EQUAL_FLOAT(0.0f, expect(world, PBMPM_ADVICE_NO_FRICTION)->figure);
+        if (cases[i].told) TEST_ASSERT_EQUAL_FLOAT(cases[i].friction, expect(world, PBMPM_ADVICE_NO_FRICTION)->figure);
         else expect_none(world, PBMPM_ADVICE_NO_FRICTION);
         create_collider(world, box_shape(0.5f, -0.1f, 0, 1, 0.11f, 1), false);
         expect_none(world, PBMPM_ADVICE_NO_FRICTION); /* it stands on that */
@@ -722,6 +769,8 @@ int main(void)
     RUN_TEST(test_matter_that_falls_for_ever);
     RUN_TEST(test_parameters_that_do_nothing);
     RUN_TEST(test_a_pool_too_deep_for_the_rate);
+    RUN_TEST(test_a_pool_too_deep_for_the_papers_solver);
+    RUN_TEST(test_how_fast_a_pool_stirs);
     RUN_TEST(test_a_pool_that_stirs);
     RUN_TEST(test_a_calm_pool_and_a_raft);
     RUN_TEST(test_what_is_round_rolls);
