@@ -618,7 +618,7 @@ static void test_sand_on_a_floor_without_friction(void)
     }
 }
 
-/* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
+/* Beyond a wall with all of it; a part inside is enough. */
 static void test_an_emitter_outside_of_the_domain(void)
 {
     pbmpm_world_def def = default_world(2, 0.05f, 8192);
@@ -642,6 +642,7 @@ static void test_an_emitter_outside_of_the_domain(void)
     expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
 }
 
+/* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
 static void test_matter_in_other_matter(void)
 {
     static const float beside[] = {2.013f, 0.513f}, inside[] = {0.513f, 0.413f};
