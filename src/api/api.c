@@ -50,6 +50,11 @@ pbmpm_result api_let_go(const Hold *held, pbmpm_result result)
     return result;
 }
 
+pbmpm_result api_gone(const World *world, const char *what, uint32_t generation)
+{
+    return fail(PBMPM_ERROR_INVALID_ID, "%s %s", what, ended_tell(&world->ended, generation));
+}
+
 pbmpm_result api_invalid(const char *problem) { return fail(PBMPM_ERROR_INVALID_ARGUMENT, "%s", problem); }
 
 /* ---- base.h ---- */
@@ -256,13 +261,11 @@ pbmpm_result pbmpm_material_create(pbmpm_world_id world, const pbmpm_material_de
     LET_GO(result);
 }
 
-pbmpm_result api_no_material(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such material in this world"); }
-
 pbmpm_result pbmpm_material_get(pbmpm_world_id world, pbmpm_material_id material, pbmpm_material_def *def)
 {
     REQUIRE_SIZE(pbmpm_material_def, def);
     HOLD_READING(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_gone(w, "this material", material.generation));
     WRITE(pbmpm_material_def, def, &w->materials.def[material.index]);
     LET_GO(PBMPM_OK);
 }
@@ -272,7 +275,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
     REQUIRE_SIZE(pbmpm_effective, effective);
     HOLD(world);
     if (!(dt > 0.0f && dt <= 10.0f)) LET_GO(api_invalid("dt must be in (0, 10] seconds"));
-    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_gone(w, "this material", material.generation));
     const Substep substep = world_substep(w, (double)dt / w->settings.substeps);
     const pbmpm_effective found = effective_modulus(w, material.index, &substep);
     WRITE(pbmpm_effective, effective, &found);
@@ -282,7 +285,7 @@ pbmpm_result pbmpm_material_effective(pbmpm_world_id world, pbmpm_material_id ma
 pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material, const pbmpm_material_def *def)
 {
     HOLD(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_gone(w, "this material", material.generation));
     const pbmpm_material_def *old = &w->materials.def[material.index];
     READ_HELD(pbmpm_material_def, own, def, *old);
     const char *problem = material_problem(&own);
@@ -298,10 +301,11 @@ pbmpm_result pbmpm_material_set(pbmpm_world_id world, pbmpm_material_id material
 pbmpm_result pbmpm_material_destroy(pbmpm_world_id world, pbmpm_material_id material)
 {
     HOLD(world);
-    if (!material_is_live(&w->materials, material)) LET_GO(api_no_material());
+    if (!material_is_live(&w->materials, material)) LET_GO(api_gone(w, "this material", material.generation));
     if (w->particles.of_material[material.index] > 0) LET_GO(fail(PBMPM_ERROR_IN_USE, "particles still use this material"));
     if (emitters_use(&w->emitters, material)) LET_GO(fail(PBMPM_ERROR_IN_USE, "an emitter still uses this material"));
     w->materials.generation[material.index] = 0;
+    ended_add(&w->ended, material.generation);
     LET_GO(PBMPM_OK);
 }
 
@@ -352,15 +356,14 @@ pbmpm_result pbmpm_collider_create(pbmpm_world_id world, const pbmpm_collider_de
     LET_GO(result);
 }
 
-pbmpm_result api_no_collider(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such collider in this world"); }
-
 pbmpm_result pbmpm_collider_destroy(pbmpm_world_id world, pbmpm_collider_id collider)
 {
     HOLD(world);
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(api_no_collider());
+    if (!found) LET_GO(api_gone(w, "this collider", collider.generation));
     wake_near_collider(w, found);
     found->generation = 0;
+    ended_add(&w->ended, collider.generation);
     LET_GO(PBMPM_OK);
 }
 
@@ -370,7 +373,7 @@ pbmpm_result pbmpm_collider_get(pbmpm_world_id world, pbmpm_collider_id collider
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(api_no_collider());
+    if (!found) LET_GO(api_gone(w, "this collider", collider.generation));
     if (def) WRITE(pbmpm_collider_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
@@ -380,7 +383,7 @@ pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider
 {
     HOLD(world);
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(api_no_collider());
+    if (!found) LET_GO(api_gone(w, "this collider", collider.generation));
     READ_OR_KEEP(pbmpm_collider_def, own, def, found->def);
     READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
     const char *problem = wrong_collider(w, &own, &form, (int32_t)collider.index);
@@ -396,7 +399,7 @@ pbmpm_result pbmpm_collider_set(pbmpm_world_id world, pbmpm_collider_id collider
 static pbmpm_result place_collider(World *w, pbmpm_collider_id collider, const float *position, const float *rotation, bool at_once)
 {
     Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) return api_no_collider();
+    if (!found) return api_gone(w, "this collider", collider.generation);
     if (!at_once && !found->def.kinematic) return api_invalid("only kinematic colliders move");
     pbmpm_shape shape = found->shape;
     memcpy(shape.position, position, sizeof shape.position);
@@ -437,7 +440,7 @@ pbmpm_result pbmpm_query_collider(pbmpm_world_id world, pbmpm_collider_id collid
     if (capacity) REQUIRE(ids);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(api_no_collider());
+    if (!found) LET_GO(api_gone(w, "this collider", collider.generation));
     const Solid solid = solid_among(&found->shape, w->def.dimension, &w->baked);
     LET_GO(query_inside(w, &solid, -0.01 * (double)w->def.cell_size, ids, capacity, count));
 }
@@ -545,7 +548,7 @@ pbmpm_result pbmpm_particles_find(pbmpm_world_id world, const pbmpm_particle_id 
     readers_find_rows(w);
     for (uint32_t i = 0; i < count; i++)
         if (!particles_row(&w->particles, ids[i], &row))
-            LET_GO(fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i));
+            LET_GO(edit_no_particle(ids[i], i));
     for (uint32_t i = 0; i < count; i++) particles_row(&w->particles, ids[i], &rows[i]);
     LET_GO(PBMPM_OK);
 }

@@ -89,7 +89,7 @@ pbmpm_result api_let_go(const Hold *held, pbmpm_result result);
 const char *api_step_problem(const World *world, float dt);
 
 pbmpm_result api_invalid(const char *problem);
-pbmpm_result api_no_material(void);
-pbmpm_result api_no_collider(void);
+/* Refuses the identifier of something that is not there. `what`: "this collider". */
+pbmpm_result api_gone(const World *world, const char *what, uint32_t generation);
 
 #endif

@@ -25,7 +25,7 @@ static pbmpm_result check_emitter(const World *w, const pbmpm_emitter_def *def, 
     if (!problem) problem = keyed_problem(w, KEYED_EMITTERS, def->key, slot);
     if (problem) return api_invalid(problem);
     if (material_is_live(&w->materials, def->material)) return PBMPM_OK;
-    return fail(PBMPM_ERROR_INVALID_ID, "emitter.material is not of this world");
+    return api_gone(w, "emitter.material", def->material.generation);
 }
 
 pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def *def, const pbmpm_shape *shape, pbmpm_emitter_id *emitter)
@@ -40,14 +40,13 @@ pbmpm_result pbmpm_emitter_create(pbmpm_world_id world, const pbmpm_emitter_def 
     LET_GO(emitters_add(&w->emitters, &w->memory, &own, &form, generation_next(), emitter));
 }
 
-static pbmpm_result no_emitter(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such emitter in this world"); }
-
 pbmpm_result pbmpm_emitter_destroy(pbmpm_world_id world, pbmpm_emitter_id emitter)
 {
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
-    if (!found) LET_GO(no_emitter());
+    if (!found) LET_GO(api_gone(w, "this emitter", emitter.generation));
     found->generation = 0;
+    ended_add(&w->ended, emitter.generation);
     LET_GO(PBMPM_OK);
 }
 
@@ -57,7 +56,7 @@ pbmpm_result pbmpm_emitter_get(pbmpm_world_id world, pbmpm_emitter_id emitter, p
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD_READING(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
-    if (!found) LET_GO(no_emitter());
+    if (!found) LET_GO(api_gone(w, "this emitter", emitter.generation));
     if (def) WRITE(pbmpm_emitter_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
@@ -67,7 +66,7 @@ pbmpm_result pbmpm_emitter_set(pbmpm_world_id world, pbmpm_emitter_id emitter, c
 {
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
-    if (!found) LET_GO(no_emitter());
+    if (!found) LET_GO(api_gone(w, "this emitter", emitter.generation));
     READ_OR_KEEP(pbmpm_emitter_def, own, def, found->def);
     READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
     const pbmpm_result checked = check_emitter(w, &own, &form, (int32_t)emitter.index);
@@ -80,7 +79,7 @@ pbmpm_result pbmpm_emitter_move(pbmpm_world_id world, pbmpm_emitter_id emitter, 
     REQUIRE(position);
     HOLD(world);
     Emitter *found = emitters_find(&w->emitters, emitter);
-    if (!found) LET_GO(no_emitter());
+    if (!found) LET_GO(api_gone(w, "this emitter", emitter.generation));
     pbmpm_shape moved = found->shape;
     memcpy(moved.position, position, sizeof moved.position);
     if (rotation) memcpy(moved.rotation, rotation, sizeof moved.rotation);
@@ -94,7 +93,7 @@ pbmpm_result pbmpm_emitter_status_get(pbmpm_world_id world, pbmpm_emitter_id emi
     REQUIRE_SIZE(pbmpm_emitter_status, status);
     HOLD_READING(world);
     const Emitter *found = emitters_find(&w->emitters, emitter);
-    if (!found) LET_GO(no_emitter());
+    if (!found) LET_GO(api_gone(w, "this emitter", emitter.generation));
     pbmpm_emitter_status own;
     emitter_report(found, &own);
     WRITE(pbmpm_emitter_status, status, &own);
@@ -115,7 +114,7 @@ static pbmpm_result check_drain(const World *w, const pbmpm_drain_def *def, cons
     const bool everything = def->material.index == 0 && def->material.generation == 0;
     if (problem) return api_invalid(problem);
     if (everything || material_is_live(&w->materials, def->material)) return PBMPM_OK;
-    return fail(PBMPM_ERROR_INVALID_ID, "drain.material is not of this world");
+    return api_gone(w, "drain.material", def->material.generation);
 }
 
 static void wake_near_drain(World *w, const Drain *drain)
@@ -138,14 +137,13 @@ pbmpm_result pbmpm_drain_create(pbmpm_world_id world, const pbmpm_drain_def *def
     LET_GO(result);
 }
 
-static pbmpm_result no_drain(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such drain in this world"); }
-
 pbmpm_result pbmpm_drain_destroy(pbmpm_world_id world, pbmpm_drain_id drain)
 {
     HOLD(world);
     Drain *found = sinks_find(&w->sinks, drain);
-    if (!found) LET_GO(no_drain());
+    if (!found) LET_GO(api_gone(w, "this drain", drain.generation));
     found->generation = 0;
+    ended_add(&w->ended, drain.generation);
     LET_GO(PBMPM_OK);
 }
 
@@ -155,7 +153,7 @@ pbmpm_result pbmpm_drain_get(pbmpm_world_id world, pbmpm_drain_id drain, pbmpm_d
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD_READING(world);
     const Drain *found = sinks_find(&w->sinks, drain);
-    if (!found) LET_GO(no_drain());
+    if (!found) LET_GO(api_gone(w, "this drain", drain.generation));
     if (def) WRITE(pbmpm_drain_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
@@ -165,7 +163,7 @@ pbmpm_result pbmpm_drain_set(pbmpm_world_id world, pbmpm_drain_id drain, const p
 {
     HOLD(world);
     Drain *found = sinks_find(&w->sinks, drain);
-    if (!found) LET_GO(no_drain());
+    if (!found) LET_GO(api_gone(w, "this drain", drain.generation));
     READ_OR_KEEP(pbmpm_drain_def, own, def, found->def);
     READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
     const pbmpm_result checked = check_drain(w, &own, &form, (int32_t)drain.index);
@@ -181,7 +179,7 @@ pbmpm_result pbmpm_drain_status_get(pbmpm_world_id world, pbmpm_drain_id drain, 
     REQUIRE_SIZE(pbmpm_drain_status, status);
     HOLD_READING(world);
     const Drain *found = sinks_find(&w->sinks, drain);
-    if (!found) LET_GO(no_drain());
+    if (!found) LET_GO(api_gone(w, "this drain", drain.generation));
     const pbmpm_drain_status own = {.size = sizeof own, .drained = found->drained, .drained_mass = found->drained_mass};
     WRITE(pbmpm_drain_status, status, &own);
     LET_GO(PBMPM_OK);
@@ -252,15 +250,14 @@ pbmpm_result pbmpm_force_create(pbmpm_world_id world, const pbmpm_force_def *def
     LET_GO(result);
 }
 
-static pbmpm_result no_force(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such force in this world"); }
-
 pbmpm_result pbmpm_force_destroy(pbmpm_world_id world, pbmpm_force_id force)
 {
     HOLD(world);
     Force *found = forces_find(&w->forces, force);
-    if (!found) LET_GO(no_force());
+    if (!found) LET_GO(api_gone(w, "this force", force.generation));
     wake_in_reach(w, found);
     found->generation = 0;
+    ended_add(&w->ended, force.generation);
     LET_GO(PBMPM_OK);
 }
 
@@ -270,7 +267,7 @@ pbmpm_result pbmpm_force_get(pbmpm_world_id world, pbmpm_force_id force, pbmpm_f
     if (shape) REQUIRE_SIZE(pbmpm_shape, shape);
     HOLD_READING(world);
     const Force *found = forces_find(&w->forces, force);
-    if (!found) LET_GO(no_force());
+    if (!found) LET_GO(api_gone(w, "this force", force.generation));
     if (def) WRITE(pbmpm_force_def, def, &found->def);
     if (shape) WRITE(pbmpm_shape, shape, &found->shape);
     LET_GO(PBMPM_OK);
@@ -280,7 +277,7 @@ pbmpm_result pbmpm_force_set(pbmpm_world_id world, pbmpm_force_id force, const p
 {
     HOLD(world);
     Force *found = forces_find(&w->forces, force);
-    if (!found) LET_GO(no_force());
+    if (!found) LET_GO(api_gone(w, "this force", force.generation));
     READ_OR_KEEP(pbmpm_force_def, own, def, found->def);
     READ_OR_KEEP(pbmpm_shape, form, shape, found->shape);
     const char *problem = force_problem(&own, &form, w->def.dimension);
@@ -299,7 +296,7 @@ pbmpm_result pbmpm_force_status_get(pbmpm_world_id world, pbmpm_force_id force, 
     REQUIRE_SIZE(pbmpm_force_status, status);
     HOLD_READING(world);
     const Force *found = forces_find(&w->forces, force);
-    if (!found) LET_GO(no_force());
+    if (!found) LET_GO(api_gone(w, "this force", force.generation));
     pbmpm_force_status own = {.size = sizeof own, .nodes = found->nodes};
     memcpy(own.impulse, found->impulse, sizeof own.impulse);
     WRITE(pbmpm_force_status, status, &own);

@@ -29,7 +29,7 @@ pbmpm_result pbmpm_shape_mass(pbmpm_world_id world, const pbmpm_shape *shape, fl
 static pbmpm_result find_bounded(const World *world, pbmpm_collider_id id, Collider **collider)
 {
     *collider = colliders_find(&world->colliders, id);
-    if (!*collider) return api_no_collider();
+    if (!*collider) return api_gone(world, "this collider", id.generation);
     return (*collider)->shape.kind == PBMPM_PLANE ? no_volume() : PBMPM_OK;
 }
 
@@ -42,7 +42,7 @@ pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_collider_id co
     pbmpm_submersion own;
     pbmpm_result result = find_bounded(w, collider, &found);
     if (result == PBMPM_OK && material && !material_is_live(&w->materials, *material))
-        result = api_no_material();
+        result = api_gone(w, "this material", material->generation);
     if (result != PBMPM_OK) LET_GO(result);
     result = submerged_measure(w, found, material ? (int)material->index : ANY_MATERIAL, &own);
     if (result == PBMPM_OK) WRITE(pbmpm_submersion, submersion, &own);

@@ -77,14 +77,12 @@ pbmpm_result pbmpm_baked_create(pbmpm_world_id world, const void *data, uint64_t
     LET_GO(baked_add(&w->baked, &w->memory, w->def.dimension, data, size, generation_next(), baked));
 }
 
-static pbmpm_result no_solid(void) { return fail(PBMPM_ERROR_INVALID_ID, "no such baked solid in this world"); }
-
 pbmpm_result pbmpm_baked_get(pbmpm_world_id world, pbmpm_baked_id baked, pbmpm_baked_info *info)
 {
     REQUIRE_SIZE(pbmpm_baked_info, info);
     HOLD_READING(world);
     const DistanceGrid *grid = baked_find(&w->baked, baked);
-    if (!grid) LET_GO(no_solid());
+    if (!grid) LET_GO(api_gone(w, "this baked solid", baked.generation));
     const pbmpm_baked_info own = baked_describe(grid);
     WRITE(pbmpm_baked_info, info, &own);
     LET_GO(PBMPM_OK);
@@ -94,9 +92,10 @@ pbmpm_result pbmpm_baked_destroy(pbmpm_world_id world, pbmpm_baked_id baked)
 {
     HOLD(world);
     const DistanceGrid *grid = baked_find(&w->baked, baked);
-    if (!grid) LET_GO(no_solid());
+    if (!grid) LET_GO(api_gone(w, "this baked solid", baked.generation));
     if (colliders_use(&w->colliders, grid)) LET_GO(fail(PBMPM_ERROR_IN_USE, "a collider still has this shape"));
     baked_remove(&w->baked, &w->memory, baked.index);
+    ended_add(&w->ended, baked.generation);
     for (int kinds = 0; kinds <= ISLAND_GROUPS; kinds++) obstacle_cache_forget(&w->obstacle_cache[kinds]); /* another may come to stand where it was in memory */
     LET_GO(PBMPM_OK);
 }
@@ -116,7 +115,7 @@ pbmpm_result pbmpm_collider_impulse(pbmpm_world_id world, pbmpm_collider_id coll
     REQUIRE_SIZE(pbmpm_impulse, impulse);
     HOLD_READING(world);
     const Collider *found = colliders_find(&w->colliders, collider);
-    if (!found) LET_GO(api_no_collider());
+    if (!found) LET_GO(api_gone(w, "this collider", collider.generation));
     if (!found->def.measures_impulse) LET_GO(api_invalid("this collider measures no impulse: set collider.measures_impulse"));
     read_impulse(w, collider.index, found->shape.position, impulse);
     LET_GO(PBMPM_OK);

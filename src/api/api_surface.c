@@ -4,11 +4,11 @@
 
 static pbmpm_result only_in_3d(void) { return fail(PBMPM_ERROR_UNSUPPORTED, "surfaces are made in 3D; this world is in 2D"); }
 
-static bool all_live(const World *world, const pbmpm_material_id *materials, uint32_t count)
+static pbmpm_result check_materials(const World *world, const pbmpm_material_id *materials, uint32_t count)
 {
     for (uint32_t i = 0; i < count; i++)
-        if (!material_is_live(&world->materials, materials[i])) return false;
-    return true;
+        if (!material_is_live(&world->materials, materials[i])) return api_gone(world, "a material of the list", materials[i].generation);
+    return PBMPM_OK;
 }
 
 pbmpm_result pbmpm_surface_def_init(pbmpm_surface_def *def, size_t size)
@@ -24,8 +24,8 @@ pbmpm_result pbmpm_surface_extract(pbmpm_world_id world, const pbmpm_surface_def
     if (w->def.dimension != 3) LET_GO(only_in_3d());
     const char *problem = skin_problem(&own, &made);
     if (problem) LET_GO(api_invalid(problem));
-    if (!all_live(w, own.materials, own.material_count)) LET_GO(api_no_material());
-    const pbmpm_result result = skin_extract(w, &own, &made);
+    pbmpm_result result = check_materials(w, own.materials, own.material_count);
+    if (result == PBMPM_OK) result = skin_extract(w, &own, &made);
     if (result == PBMPM_OK || result == PBMPM_ERROR_CAPACITY) WRITE(pbmpm_surface_mesh, mesh, &made);
     LET_GO(result);
 }
@@ -44,6 +44,6 @@ pbmpm_result pbmpm_surface_points(pbmpm_world_id world, const pbmpm_points_def *
     if (own.spray_only && w->def.dimension != 3) LET_GO(only_in_3d());
     const char *problem = skin_points_problem(&own);
     if (problem) LET_GO(api_invalid(problem));
-    if (!all_live(w, own.materials, own.material_count)) LET_GO(api_no_material());
-    LET_GO(skin_points(w, &own, points, capacity, count));
+    const pbmpm_result checked = check_materials(w, own.materials, own.material_count);
+    LET_GO(checked == PBMPM_OK ? skin_points(w, &own, points, capacity, count) : checked);
 }

@@ -14,6 +14,10 @@ uint32_t generation_next(void) { return next_of(&last_generation); }
 
 uint32_t generation_next_of_particles(void) { return next_of(&last_particle_generation); }
 
+bool generation_was_given(uint32_t generation) { return generation != 0 && generation <= atomic_load(&last_generation); }
+
+bool generation_was_given_to_particles(uint32_t generation) { return generation != 0 && generation <= atomic_load(&last_particle_generation); }
+
 void generation_skip_of_particles(uint32_t last)
 {
     unsigned seen = atomic_load(&last_particle_generation);

@@ -265,7 +265,7 @@ void constraints_sum_push(const ContactFrame *frame, const float *u, const float
  * |sum s_k R_k - gained|^2 + NEAR sum |R_k|^2 (s_k - before_k)^2. Twice, so that what NEAR keeps back is its square. */
 static void find_scales(BodyFriction *body)
 {
-    static const double NEAR = 1e-3;
+    static const double NEAR = 1e-3; /* weight of keeping the scales: less is singular where groups push alike, and each round leaves the square of it */
     const int n = body->groups;
     for (int k = 0; k < n; k++) body->group[k].scale = 1.0;
     for (int round = 0; round < 2 && !body->held; round++) {

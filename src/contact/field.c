@@ -437,7 +437,7 @@ int field_outer_faces(const Near *near, const double point[3], double reach, Fac
 
 bool field_opposite(const Near *near, const double point[3], const Face *face, Face *other)
 {
-    static const double OPPOSITE = -0.9; /* cosine */
+    static const double OPPOSITE = -0.9; /* cosine: within 26 degrees of back to back */
     Face all[CANDIDATES];
     const int candidates = faces_around(near, point, NODE_REACH, all);
     bool found = false;
@@ -491,7 +491,7 @@ typedef struct Slab {
 
 static void find_slabs(const Near *near, const Solid *s, const double point[3], const Face *before, Slab slab[3])
 {
-    static const double ALONG = 0.9; /* cosine */
+    static const double ALONG = 0.9; /* cosine: within 26 degrees of an axis of the box */
     double local[3];
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) {

@@ -211,7 +211,7 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
 
 /* ---- Particles that passed an obstacle ---- */
 
-static const double AT_SURFACE = 1e-3; /* [cells] */
+static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way that is followed ends, and rounding does not reach back */
 
 /* A node behind a thin wall moves as if nothing were before it, and carries along what lies before the wall: particles may arrive on the other
  * side without ever having been inside. Their way is followed through the distances of the obstacle, at the end of the substep (sphere

@@ -179,7 +179,7 @@ static Turn turn_of(const Builder *b, const Bound *bound)
  * an axis, that is little. */
 static bool pressure_leans(const Bound *bound)
 {
-    static const double STRAIGHT = 0.999;
+    static const double STRAIGHT = 0.999; /* cosine, of 2.6 degrees: nearer to an axis the push leans by less than particles' places do */
     const double *n = bound->face[0].normal;
     for (int k = 1; k < bound->faces; k++)
         if (!field_same_way(&bound->face[k], &bound->face[0]) && bound->face[k].distance < 1.5) return false; /* that one bears a part */

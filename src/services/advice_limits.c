@@ -32,7 +32,7 @@ static bool any_rigid(const World *world)
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
 static bool slides_far(const Heap *heap)
 {
-    static const double RUN_OUT = 1.2, FAR = 1.0;
+    static const double RUN_OUT = 1.2, FAR = 1.0; /* widths: the law of Lube et al.; where volume was lost in trays, see above */
     return RUN_OUT * fmin(heap->slide, heap->depth) > FAR * heap->width * (heap->falls_both_ways ? 0.5 : 1.0);
 }
 
@@ -51,7 +51,7 @@ static void limits_of_sand(Adviser *adviser, uint32_t slot)
 /* What holds a body up acts on the nodes that its splines reach, up to 1.5 cells beyond it: a weight that lies beyond its edge by less is borne, or tips it slowly. */
 static void limits_of_edges(Adviser *adviser, uint32_t slot)
 {
-    static const double REACH = 1.5;
+    static const double REACH = 1.5; /* [cells] of a spline, see above */
     const World *world = adviser->world;
     const double lever = adviser->survey.heap[slot].lever;
     if (lever <= 0.0 || lever >= REACH || adviser_any_sticks(world) || adviser_any_present(world, PBMPM_LIQUID)) return; /* in liquid it may float */
@@ -61,7 +61,8 @@ static void limits_of_edges(Adviser *adviser, uint32_t slot)
 /* Motion is one per node: what lies between two of them moves with both. */
 static void limits_of_bodies(Adviser *adviser, uint32_t slot)
 {
-    static const double FALLS = 2.0, FALLS_IN = 0.5;
+    static const double FALLS = 2.0;    /* [cells] less is within the reach of splines before it lands */
+    static const double FALLS_IN = 0.5; /* [cells] a body that is put afloat stands by less above its place */
     const World *world = adviser->world;
     const pbmpm_material_def *def = &world->materials.def[slot];
     const Heap *heap = &adviser->survey.heap[slot];

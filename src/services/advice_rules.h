@@ -11,12 +11,13 @@ static const double DEEPEST = 5.0;
 /* Of the surface of sand: fewer places may be a corner. */
 static const double STEEP = 0.1;
 
-/* advice_scene.c: gravity, obstacles, speed, what came true */
+/* advice_scene.c: gravity, obstacles, speed, emitters, what came true */
 void advise_no_gravity(Adviser *adviser);
 void advise_falls_forever(Adviser *adviser);
 void advise_collider_too_fast(Adviser *adviser);
 void advise_collider_too_thin(Adviser *adviser);
 void advise_step_too_long(Adviser *adviser);
+void advise_emitter_outside(Adviser *adviser);
 void advise_volume_lost(Adviser *adviser);
 void advise_strain_clamped(Adviser *adviser);
 void advise_not_solved(Adviser *adviser);

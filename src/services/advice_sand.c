@@ -9,7 +9,7 @@
  * rho g H / (2 M) on average. */
 static double sand_figure(const Adviser *adviser, uint32_t slot, double *bound)
 {
-    static const double UNSEEN = 0.05;
+    static const double UNSEEN = 0.05; /* mean strain: a heap that is lower by a twentieth looks as it should */
     const World *world = adviser->world;
     const pbmpm_material_def *def = &world->materials.def[slot];
     const double cells = adviser->survey.heap[slot].depth, d = world->def.dimension;
@@ -123,7 +123,7 @@ static bool reaches_domain(const World *world, uint32_t slot)
 /* The friction that holds a heap together acts on its base, too. */
 void advise_no_friction(Adviser *adviser)
 {
-    static const double LITTLE = 0.05;
+    static const double LITTLE = 0.05; /* coefficient: a slope of three degrees, which nobody takes for a heap */
     const World *world = adviser->world;
     const pbmpm_domain_wall *floor = adviser_wall_below(world);
     for (uint32_t slot = 0; floor && slot < PBMPM_MAX_MATERIALS; slot++) {

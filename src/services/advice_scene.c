@@ -21,7 +21,7 @@ void advise_no_gravity(Adviser *adviser)
 void advise_falls_forever(Adviser *adviser)
 {
     enum { SAMPLES = 64 };
-    static const double FEW = 0.05;
+    static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
     const World *world = adviser->world;
     const Particles *p = &world->particles;
     if (world->sinks.bounds.enabled || gravity_strength(world) == 0.0 || adviser_wall_below(world)) return;
@@ -147,6 +147,31 @@ void advise_step_too_long(Adviser *adviser)
     adviser_give(adviser, advice);
 }
 
+/* ---- Emitters ---- */
+
+/* How far beyond a wall of the domain the whole of an emitter stands [m]; 0 or less if any of it may be inside. */
+static double way_outside(const World *world, const Emitter *emitter)
+{
+    const pbmpm_shape shape = emitter_enclosing_shape(&emitter->def, &emitter->shape);
+    const Solid solid = solid_of(&shape, world->def.dimension);
+    double low[3], high[3], most = 0.0;
+    solid_bounds(&solid, low, high);
+    for (int a = 0; a < world->def.dimension; a++) most = fmax(most, fmax(world->domain.low[a] - high[a], low[a] - world->domain.high[a]));
+    return most;
+}
+
+void advise_emitter_outside(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    for (uint32_t e = 0; e < world->emitters.used; e++) {
+        const Emitter *emitter = &world->emitters.slot[e];
+        const double way = emitter->generation != 0 ? way_outside(world, emitter) : 0.0;
+        if (way <= 0.0) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_EMITTER_OUTSIDE, .material = emitter->def.material, .figure = (float)(way / (double)world->def.cell_size),
+                                             .text = "an emitter stands outside of the domain: it emits nothing"});
+    }
+}
+
 /* ---- What came true ---- */
 
 /* What a solid's own modulus lets its weight take of its volume. */
@@ -180,7 +205,7 @@ void advise_volume_lost(Adviser *adviser)
 
 void advise_strain_clamped(Adviser *adviser)
 {
-    static const double FEW = 0.005;
+    static const double FEW = 0.005; /* share of particles: single ones are strained to a bound in any splash */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const double share = adviser->survey.heap[slot].clamped;
@@ -208,7 +233,7 @@ void advise_not_solved(Adviser *adviser)
 /* Before the first step: later nobody can tell it from what was crushed. */
 void advise_overlaps(Adviser *adviser)
 {
-    static const double FEW = 0.01;
+    static const double FEW = 0.01; /* share of the matter: fills that are flush overlap by the jitter of their places */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count == 0; slot++) {
         const double share = adviser->survey.heap[slot].overlapping;

@@ -9,7 +9,8 @@
 /* N iterations hold a stiffness that grows with N^2 and with 1/dt^2. A softer body looks the same at any rate and costs nothing. */
 void advise_modulus_not_held(Adviser *adviser)
 {
-    static const double ENOUGH = 0.8, MOST_ITERATIONS = 100.0;
+    static const double ENOUGH = 0.8;            /* share of a modulus: a body that is softer by a fifth looks as it should */
+    static const double MOST_ITERATIONS = 100.0; /* what takes more is dearer than smaller cells */
     const World *world = adviser->world;
     if (world->settings.solver == PBMPM_SOLVER_PAPER) return; /* it has none, which ignored_of_solid() tells */
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -31,7 +32,7 @@ void advise_modulus_not_held(Adviser *adviser)
 /* A spline reaches 1.5 cells: a body of fewer than three has no inside. Beside liquid about half a cell on each side is neither's. */
 void advise_body_too_thin(Adviser *adviser)
 {
-    static const double INSIDE = 3.0, AFLOAT = 6.5;
+    static const double INSIDE = 3.0, AFLOAT = 6.5; /* [cells] twice a reach; and half a cell on each side besides, as far as liquid blurs it */
     const World *world = adviser->world;
     const double bound = adviser_any_present(world, PBMPM_LIQUID) ? AFLOAT : INSIDE;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -71,7 +72,7 @@ static double contact_of(const Adviser *adviser, uint32_t slot, double speed)
  * substeps all but the share exp(-pi^2 / (2 n)). The primal gives bodies back what a substep took from their bounce. */
 void advise_bounce_damped(Adviser *adviser)
 {
-    static const double KEPT = 0.6;
+    static const double KEPT = 0.6; /* share of a bounce's speed: less is seen */
     const World *world = adviser->world;
     const double bound = PI * PI / (2.0 * log(1.0 / KEPT));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
@@ -99,7 +100,8 @@ static bool solid_among_others(const World *world, uint32_t slot)
  * 0.35 in 14, 0.54 in 19, 0.62 in 23 (two discs as in tests/field/run.py collision, of 3e4 to 3e5 Pa, at 60 to 240 Hz). */
 void advise_hit_damped(Adviser *adviser)
 {
-    static const double BOUND = 23.0, FAST = 0.1;
+    static const double BOUND = 23.0; /* substeps of a contact: with them discs kept 0.62, see above */
+    static const double FAST = 0.1;   /* [cells per substep] slower bodies do not hit, they settle */
     const World *world = adviser->world;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const Heap *heap = &adviser->survey.heap[slot];

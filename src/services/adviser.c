@@ -45,7 +45,7 @@ void adviser_by_iterations(const Adviser *adviser, double factor, pbmpm_advice *
 /* As many particles per cell as before. What needs less than half the cell size costs more than eight times as much: then no setting helps. */
 void adviser_by_cells(const Adviser *adviser, double factor, pbmpm_advice *advice)
 {
-    static const double MOST = 2.0;
+    static const double MOST = 2.0; /* factor: see above */
     if (factor > MOST) return;
     advice->change = PBMPM_CHANGE_CELL_SIZE;
     advice->value = (float)((double)adviser->world->def.cell_size / factor);

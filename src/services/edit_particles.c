@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/generations.h"
 #include "base/numbers.h"
 #include "base/random.h"
 #include "base/result.h"
@@ -48,7 +49,7 @@ static pbmpm_result no_room(World *world, uint64_t wanted)
 
 static pbmpm_result check_particles(const World *world, const pbmpm_particles_def *def)
 {
-    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "particles.material is not of this world");
+    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "particles.material %s", ended_tell(&world->ended, def->material.generation));
     if (def->count && !def->positions) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.positions is null");
     if (!def->volumes && !in_range(def->volume, 0.0, 1e27)) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "particles.volume must be in [0, 1e27]");
     if (!def->volumes && def->volume > 0.0f && !in_range(def->volume / world_cell_volume(world), 1e-6, 1e6))
@@ -270,7 +271,7 @@ static void append_points(World *world, const Lattice *lattice, const pbmpm_fill
 
 static pbmpm_result check_fill(const World *world, const pbmpm_fill_def *def, const pbmpm_shape *shape)
 {
-    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "fill.material is not of this world");
+    if (!material_is_live(&world->materials, def->material)) return fail(PBMPM_ERROR_INVALID_ID, "fill.material %s", ended_tell(&world->ended, def->material.generation));
     const char *problem = shape_problem_among(shape, world->def.dimension, &world->baked);
     if (problem) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill: %s", problem);
     if (shape->kind == PBMPM_PLANE) return fail(PBMPM_ERROR_INVALID_ARGUMENT, "fill.shape: a plane has no end");
@@ -303,6 +304,12 @@ pbmpm_result edit_fill(World *world, const pbmpm_fill_def *def, const pbmpm_shap
     return PBMPM_OK;
 }
 
+pbmpm_result edit_no_particle(pbmpm_particle_id id, uint32_t place)
+{
+    return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list %s", place,
+                generation_was_given_to_particles(id.generation) ? "is gone, or of another world" : "never existed");
+}
+
 /* ---- Removing ---- */
 
 pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t count)
@@ -310,7 +317,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     Particles *p = &world->particles;
     uint32_t row;
     for (uint32_t i = 0; i < count; i++)
-        if (!particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
+        if (!particles_row(p, ids[i], &row)) return edit_no_particle(ids[i], i);
     for (uint32_t i = 0; i < count && world->sleep.on; i++) {
         particles_row(p, ids[i], &row);
         sleep_wake_row(world, row);
@@ -450,7 +457,7 @@ pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *
     uint32_t row;
     for (uint32_t i = 0; i < count; i++) {
         row = i;
-        if (ids && !particles_row(p, ids[i], &row)) return fail(PBMPM_ERROR_INVALID_ID, "particle %u of the list does not exist", i);
+        if (ids && !particles_row(p, ids[i], &row)) return edit_no_particle(ids[i], i);
         const pbmpm_result checked = check_value(world, field, row, values + (size_t)i * components, components);
         if (checked != PBMPM_OK) return checked;
     }

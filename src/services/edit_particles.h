@@ -14,4 +14,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
 pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *removed);
 pbmpm_result edit_set(World *world, pbmpm_field field, const pbmpm_particle_id *ids, uint32_t count, const void *given);
 
+/* Refuses the identifier of a particle that is not there, at a place of the caller's list. */
+pbmpm_result edit_no_particle(pbmpm_particle_id id, uint32_t place);
+
 #endif

@@ -163,7 +163,7 @@ pbmpm_result query_points(World *world, const float *points, uint32_t count, flo
 /* ---- Lines ---- */
 
 enum { PATCH_CAPACITY = 1024 };
-static const double PATCH_LENGTH = 2.0;
+static const double PATCH_LENGTH = 2.0; /* [cells] that one look for particles covers: what comes out is the same with any */
 
 /* A particle near a stretch of a line. */
 typedef struct Candidate {

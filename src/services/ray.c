@@ -8,7 +8,7 @@ static const double ARRIVED = 0.01; /* cells */
 /* Metres that one can go on from a point, at least. What one goes along, or away from, within a cell of it, is looked at again a cell on. */
 static double room_ahead(const World *world, uint32_t slot, const double point[3], const double along[3])
 {
-    static const double PARALLEL = 1e-3; /* sine */
+    static const double PARALLEL = 1e-3; /* sine: what nears a surface by less meets it a thousand cells on */
     const double cell = (double)world->def.cell_size;
     double nearest = INFINITY, ahead[3];
     for (int a = 0; a < 3; a++) ahead[a] = point[a] + ARRIVED * cell * along[a];

@@ -88,16 +88,22 @@ static void let_go(Slot *slot)
     } while (!atomic_compare_exchange_weak(&slot->holders, &before, after));
 }
 
+static pbmpm_result no_world(pbmpm_world_id id)
+{
+    const char *const problem = id.generation == 0 ? "is null" : generation_was_given(id.generation) ? "was destroyed" : "never existed: its identifier is made up";
+    return fail(PBMPM_ERROR_INVALID_ID, "this world %s", problem);
+}
+
 static pbmpm_result enter(pbmpm_world_id id, bool shared, World **world)
 {
     bool orphaned;
-    if (!registry_has(id)) return fail(PBMPM_ERROR_INVALID_ID, "no such world: the identifier is null, stale or made up");
+    if (!registry_has(id)) return no_world(id);
     Slot *slot = &slots[id.index];
     if (!hold(slot, shared, &orphaned))
         return fail(PBMPM_ERROR_BUSY, shared ? "another thread is changing this world" : "another thread is using this world");
     if (atomic_load(&slot->generation) != id.generation) { /* destroyed in the meantime */
         let_go(slot);
-        return fail(PBMPM_ERROR_INVALID_ID, "no such world: it has just been destroyed");
+        return no_world(id);
     }
     *world = slot->world;
     if (orphaned) (*world)->frozen = true;

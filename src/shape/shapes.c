@@ -20,6 +20,9 @@ static double quaternion_length(const float q[4])
     return sqrt((double)q[0] * q[0] + (double)q[1] * q[1] + (double)q[2] * q[2] + (double)q[3] * q[3]);
 }
 
+static const char *const half_extent_problem[3] = {"shape.half_extents[0] must be in [1e-9, 1e9]", "shape.half_extents[1] must be in [1e-9, 1e9]",
+                                                   "shape.half_extents[2] must be in [1e-9, 1e9]"};
+
 static const char *geometry_problem(const pbmpm_shape *shape, int dimension, const BakedTable *table)
 {
     if (!in_enum(shape->kind, PBMPM_PLANE, PBMPM_BAKED)) return "shape.kind is unknown";
@@ -31,7 +34,7 @@ static const char *geometry_problem(const pbmpm_shape *shape, int dimension, con
     }
     case PBMPM_BOX:
         for (int a = 0; a < dimension; a++)
-            if (!in_range(shape->half_extents[a], 1e-9, 1e9)) return "shape.half_extents must be in [1e-9, 1e9]";
+            if (!in_range(shape->half_extents[a], 1e-9, 1e9)) return half_extent_problem[a];
         return NULL;
     case PBMPM_CAPSULE:
         if (!in_range(shape->half_extents[0], 0.0, 1e9)) return "shape.half_extents[0] must be in [0, 1e9]";

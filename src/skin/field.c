@@ -256,7 +256,8 @@ void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at
  * A thread of particles asks for s = 2.7, and a particle alone for 6: a ball that the lattice would catch by chance. s is at most 4, so that one is no part of the
  * surface but spray; see points.c. */
 
-static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
+static const float THIN_SHARE = 116.0f / 105.0f; /* c */
+static const float THICKEN_MOST = 4.0f;          /* between the 2.7 of a thread and the 6 of a lone particle */
 
 /* F at a place, between the 8 points around it. */
 static float between(const float box[BOX_POINTS], const float local[3], float shift)

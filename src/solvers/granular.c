@@ -12,11 +12,13 @@
 
 enum { BLOCK_GRAIN = 8 };
 
-static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07; /* of v */
-static const double SLOW = 0.3;                                  /* [s] */
-static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells */
-static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests */
-static const double FEW = 0.25;                                  /* of the grains of the fullest block */
+/* Shares of v. FALLS is a fall by a quarter of a cell. Between the others sand may do either: it creeps by a cell in seconds, or trembles as iterations leave it. By trial, on
+ * the sand of tests/field. */
+static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07;
+static const double SLOW = 0.3;                                  /* [s] longer than what settles or strikes lasts */
+static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells: as long as a bin takes to begin */
+static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests: as much as random places make the grid miss */
+static const double FEW = 0.25;                                  /* of the grains of the fullest block: what has fewer is its rim, or spray */
 
 /* The grains of a block. */
 typedef struct GranularBlock {

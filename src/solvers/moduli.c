@@ -26,7 +26,7 @@ static void set_liquid(World *world, uint32_t slot, float stiffest)
 
 double moduli_sand_share(const pbmpm_material_def *def, const Substep *substep)
 {
-    static const double STIFFEST_SHEAR = 1e4;
+    static const double STIFFEST_SHEAR = 1e4; /* c mu: with more, floats hold the deviator too coarsely, see moduli.h */
     return fmin(1.0, STIFFEST_SHEAR / (moduli_unit(def, substep) * lame_of((double)def->young_modulus, (double)def->poisson_ratio).mu));
 }
 

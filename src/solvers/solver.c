@@ -35,7 +35,7 @@ static const SolverKind kinds[] = {
 
 /* ---- Parameters of the substep ---- */
 
-/* Of the feedback's share, that by which the mean of J over a block follows the grid. Pools of 4 to 48 cells kept their height with it; it takes 0.8 s. Without gravity
+/* Of the feedback's share, that by which the mean of J over a block follows the grid. Pools of 4 to 48 cells kept their height with it, by trial; it takes 0.8 s. Without gravity
  * nothing presses gaps shut, and a drop that only goes along would come to breathe: what the control corrects is strain, for which it corrects more. */
 static const double CONTROL_SHARE = 0.2;
 
@@ -61,7 +61,7 @@ static const double CALM_SPEED = 2.4;
  * substep, so a block of 8 cells takes 26 substeps for N = 1; for the dual see dual_stiffened(). Fewer iterations soften at once. */
 static void follow_iterations(World *world)
 {
-    static const double GROWTH = 1.04; /* per substep */
+    static const double GROWTH = 1.04; /* per substep: the factor e in 26 of them, see above */
     const double now = (double)world->settings.iterations, before = world->slow_iterations;
     const double risen = solver_uses_dual(world) ? dual_stiffened(world, &world->substep, before) : GROWTH * before;
     world->slow_iterations = before > 0.0 ? fmin(now, risen) : now;

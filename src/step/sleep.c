@@ -364,7 +364,7 @@ pbmpm_result sleep_prepare(World *world)
 /* What a drowsy block would get in a time t, without moving, is t times the acceleration that it bears. What solvers that stop early leave of
  * a pool's balance was below 1.2 m/s^2 in 99 of 100 drowsy blocks (paper's solver, 240 Hz x 10), most of it the same in every substep;
  * with the default sleep_speed a block bears 1.7 m/s^2. */
-static const double MEMORY = 0.03; /* [s] */
+static const double MEMORY = 0.03; /* [s] in which what 99 of 100 blocks lack of balance makes less than sleep_speed */
 
 static bool would_move(const World *world, SleepBlock *block, const float *drift)
 {

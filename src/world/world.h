@@ -21,6 +21,7 @@
 #include "pbmpm/pbmpm.h"
 #include "world/colliders.h"
 #include "world/emitters.h"
+#include "world/ended.h"
 #include "world/events.h"
 #include "world/forces.h"
 #include "world/sinks.h"
@@ -172,6 +173,7 @@ typedef struct World {
     Emitters emitters;
     Sinks sinks;
     Forces forces;
+    Ended ended;
     pbmpm_flow flow; /* what emitters and sinks did */
     Grid grid;
     Islands islands;

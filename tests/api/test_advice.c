@@ -97,7 +97,7 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_NO_FRICTION; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_EMITTER_OUTSIDE; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
@@ -244,6 +244,53 @@ static void test_a_pool_too_deep_for_the_rate(void)
     TEST_ASSERT_FLOAT_WITHIN(1e-3f, 100.0f * (advice->value - 1.0f), advice->price);
     set_rate(world, (int32_t)advice->value, 5);
     expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
+}
+
+/* With the paper's solver: the strain at the bottom, rho g depth over the modulus that acts, may be a tenth. */
+static void test_a_pool_too_deep_for_the_papers_solver(void)
+{
+    for (int deep = 0; deep < 2; deep++) {
+        pbmpm_world_def def = default_world(2, 0.1f, 8192);
+        def.domain_enabled = 1;
+        for (int a = 0; a < 2; a++) def.domain_max[a] = 4;
+        const pbmpm_world_id world = create_world(&def);
+        const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+        const float depth = deep ? 1.8f : 1.0f;
+        pbmpm_effective effective = {.size = sizeof effective};
+        set_gravity(world, 0, -9.81f, 0);
+        set_solver(world, PBMPM_SOLVER_PAPER);
+        set_rate(world, 1, 20);
+        fill_shape(world, water, box_shape(2, 0.5f * depth, 0, 2, 0.5f * depth, 1), at_rest);
+        OK(pbmpm_material_effective(world, water, DT, &effective));
+        const float strain = 1000 * 9.81f * depth / effective.bulk_modulus;
+        if (deep) TEST_ASSERT_FLOAT_WITHIN(0.1f * strain, strain, expect(world, PBMPM_ADVICE_POOL_TOO_DEEP)->figure);
+        else expect_none(world, PBMPM_ADVICE_POOL_TOO_DEEP);
+    }
+}
+
+/* Speeds by the law of docs/choosing.md: share f^2 cells per substep, f = g dt^2 depth / dx^2, more in proportion where there are fewer than five iterations. */
+static void test_how_fast_a_pool_stirs(void)
+{
+    static const struct {
+        int32_t dimension, iterations, cells;
+        float bulk_modulus, share; /* 0: not told */
+    } cases[] = {{2, 5, 24, 0, 0}, {2, 5, 36, 0, 0.0015f}, {2, 2, 24, 0, 2.5f * 0.0015f}, {3, 5, 48, 0, 0.0007f}, {2, 5, 12, 1e6f, 0.012f}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float cell = 0.05f, depth = cell * (float)cases[i].cells, f = 9.81f * DT * DT * depth / (cell * cell);
+        pbmpm_world_def def = default_world(cases[i].dimension, cell, 32768);
+        pbmpm_material_def water = default_material(PBMPM_LIQUID);
+        def.domain_enabled = 1;
+        def.domain_max[0] = def.domain_max[2] = 8 * cell;
+        def.domain_max[1] = 4;
+        water.bulk_modulus = cases[i].bulk_modulus;
+        const pbmpm_world_id world = create_world(&def);
+        set_gravity(world, 0, -9.81f, 0);
+        set_rate(world, 1, cases[i].iterations);
+        fill_shape(world, add_material(world, &water), box_shape(4 * cell, 0.5f * depth, 4 * cell, 4 * cell, 0.5f * depth, 4 * cell), at_rest);
+        const float speed = cases[i].share * f * f * cell / DT;
+        if (speed > 0.0f) TEST_ASSERT_FLOAT_WITHIN(0.15f * speed, speed, expect(world, PBMPM_ADVICE_POOL_STIRS)->figure);
+        else expect_none(world, PBMPM_ADVICE_POOL_STIRS);
+    }
 }
 
 /* Told of pools around a sphere and around a box, and of deep ones, and of none without gravity; not of 12 cells between level, upright or leaning walls off the grid. */
@@ -415,13 +462,13 @@ static void test_sand_is_of_two_solvers(void)
     check_ignored(world, "relaxation");
 }
 
-/* A block on 20 degrees whose weight lies 1.3 cells beyond its edge, or well within; leaning on a wall, or beside a ball. */
+/* A block on 20 degrees whose weight lies 1.3 cells beyond its edge, well within, or 3.2 and 2.4 cells beyond; leaning on a wall, or beside a ball. */
 static void test_what_tips(void)
 {
     static const struct {
         float wide;
         bool wall, told;
-    } cases[] = {{0.075f, false, true}, {0.075f, true, false}, {0.18f, false, false}, {0.03f, false, false}};
+    } cases[] = {{0.075f, false, true}, {0.075f, true, false}, {0.18f, false, false}, {0.03f, false, false}, {0.05f, false, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_def def = default_world(2, 0.025f, 8192);
         const pbmpm_world_id world = create_world(&def);
@@ -494,6 +541,49 @@ static void test_known_limits(void)
     }
 }
 
+/* Steps in which matter falls by less than 0.02 cells hold a rigid body on sand: at 60 Hz with cells of 0.2 m, not with those of 0.1. */
+static void test_a_rigid_body_on_sand(void)
+{
+    for (int fine = 0; fine < 2; fine++) {
+        const pbmpm_world_id world = falling_world(2, fine ? 0.1f : 0.2f);
+        const pbmpm_shape crate = box_shape(2, 2, 0, 0.5f, 0.5f, 1);
+        pbmpm_collider_def def;
+        pbmpm_collider_id collider;
+        OK(pbmpm_collider_def_init(&def, sizeof def));
+        def.kinematic = def.measures_impulse = 1;
+        OK(pbmpm_collider_create(world, &def, &crate, &collider));
+        create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+        fill_shape(world, create_material(world, PBMPM_SAND), box_shape(2, 0.7f, 0, 2, 0.7f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(fine, tells("a rigid body on sand rocks"));
+    }
+}
+
+/* From how high [cells] above other matter a body falls onto it: a cell of each is at the surface, and neither's. */
+static void test_what_is_near_does_not_fall(void)
+{
+    static const struct {
+        pbmpm_material_kind below;
+        float high;
+        const char *words;
+        bool told;
+    } cases[] = {{PBMPM_SAND, 3.0f, "falls on sand", false},
+                 {PBMPM_SAND, 4.0f, "falls on sand", true},
+                 {PBMPM_LIQUID, 1.25f, "fell into a liquid", false},
+                 {PBMPM_LIQUID, 1.75f, "fell into a liquid", true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const pbmpm_world_id world = falling_world(2, 0.05f);
+        pbmpm_material_def sand = default_material(cases[i].below), body = default_material(PBMPM_ELASTIC);
+        body.young_modulus = sand.young_modulus = 1e5f;
+        body.density = 900;
+        create_collider(world, plane_shape(0, 0, 0, 0, 1, 0), false);
+        fill_shape(world, add_material(world, &sand), box_shape(0.5f, 0.3f, 0, 0.5f, 0.3f, 1), at_rest);
+        fill_shape(world, add_material(world, &body), box_shape(0.5f, 0.9f + 0.05f * cases[i].high, 0, 0.5f, 0.3f, 1), at_rest);
+        ask(world);
+        TEST_ASSERT_EQUAL_INT(cases[i].told, tells(cases[i].words));
+    }
+}
+
 /* A body that falls along the face of an obstacle falls all the same. */
 static void test_a_body_that_falls_along_a_wall(void)
 {
@@ -513,7 +603,7 @@ static void test_sand_on_a_floor_without_friction(void)
         pbmpm_material_kind kind;
         float friction;
         bool told;
-    } cases[] = {{PBMPM_SAND, 0.0f, true}, {PBMPM_SAND, 0.5f, false}, {PBMPM_LIQUID, 0.0f, false}};
+    } cases[] = {{PBMPM_SAND, 0.0f, true}, {PBMPM_SAND, 0.04f, true}, {PBMPM_SAND, 0.06f, false}, {PBMPM_LIQUID, 0.0f, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         pbmpm_world_def def = default_world(2, 0.05f, 8192);
         def.domain_enabled = 1;
@@ -521,11 +611,35 @@ static void test_sand_on_a_floor_without_friction(void)
         const pbmpm_world_id world = create_world(&def);
         set_gravity(world, 0, -9.81f, 0);
         fill_shape(world, create_material(world, cases[i].kind), box_shape(0.5f, 0.15f, 0, 0.2f, 0.15f, 0.5f), at_rest);
-        if (cases[i].told) TEST_ASSERT_EQUAL_FLOAT(0.0f, expect(world, PBMPM_ADVICE_NO_FRICTION)->figure);
+        if (cases[i].told) TEST_ASSERT_EQUAL_FLOAT(cases[i].friction, expect(world, PBMPM_ADVICE_NO_FRICTION)->figure);
         else expect_none(world, PBMPM_ADVICE_NO_FRICTION);
         create_collider(world, box_shape(0.5f, -0.1f, 0, 1, 0.11f, 1), false);
         expect_none(world, PBMPM_ADVICE_NO_FRICTION); /* it stands on that */
     }
+}
+
+/* Beyond a wall with all of it; a part inside is enough. */
+static void test_an_emitter_outside_of_the_domain(void)
+{
+    pbmpm_world_def def = default_world(2, 0.05f, 8192);
+    def.domain_enabled = 1; /* from 0 to 1 m */
+    const pbmpm_world_id world = create_world(&def);
+    const pbmpm_shape inside = box_shape(0.5f, 0.5f, 0, 0.1f, 0.1f, 0.1f), partly = box_shape(1.05f, 0.5f, 0, 0.1f, 0.1f, 0.1f);
+    const pbmpm_shape outside = box_shape(1.2f, 0.5f, 0, 0.1f, 0.1f, 0.1f); /* 0.1 m, two cells */
+    pbmpm_emitter_def jet = {0};
+    pbmpm_emitter_id emitter;
+    OK(pbmpm_emitter_def_init(&jet, sizeof jet));
+    set_gravity(world, 0, -9.81f, 0);
+    jet.material = create_material(world, PBMPM_LIQUID);
+    jet.rate = 1.0f;
+    OK(pbmpm_emitter_create(world, &jet, &inside, &emitter));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
+    OK(pbmpm_emitter_set(world, emitter, NULL, &partly));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
+    OK(pbmpm_emitter_set(world, emitter, NULL, &outside));
+    TEST_ASSERT_FLOAT_WITHIN(1e-3f, 2.0f, expect(world, PBMPM_ADVICE_EMITTER_OUTSIDE)->figure);
+    OK(pbmpm_emitter_destroy(world, emitter));
+    expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
 }
 
 /* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
@@ -656,6 +770,8 @@ int main(void)
     RUN_TEST(test_matter_that_falls_for_ever);
     RUN_TEST(test_parameters_that_do_nothing);
     RUN_TEST(test_a_pool_too_deep_for_the_rate);
+    RUN_TEST(test_a_pool_too_deep_for_the_papers_solver);
+    RUN_TEST(test_how_fast_a_pool_stirs);
     RUN_TEST(test_a_pool_that_stirs);
     RUN_TEST(test_a_calm_pool_and_a_raft);
     RUN_TEST(test_what_is_round_rolls);
@@ -666,8 +782,11 @@ int main(void)
     RUN_TEST(test_a_body_that_hangs_over);
     RUN_TEST(test_a_dry_ball);
     RUN_TEST(test_known_limits);
+    RUN_TEST(test_a_rigid_body_on_sand);
+    RUN_TEST(test_what_is_near_does_not_fall);
     RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
+    RUN_TEST(test_an_emitter_outside_of_the_domain);
     RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);
     RUN_TEST(test_obstacles);

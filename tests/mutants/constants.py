@@ -22,8 +22,9 @@ VERDICTS = Path(__file__).with_name("constants.json")
 HEAD = """# Constants
 
 Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
-when the number is halved, and when it is doubled. "none" means that no test noticed: nothing that is measured depends on it, so it lies on a plateau.
-A dash means that nobody has tried yet. The full reason stands above each constant in its file.
+when the number is halved, and when it is doubled. "none" means that no test noticed that was asked. Asked were C tests of less than two seconds, for eight seconds
+(`mutate.py --constants --slowest 2 --patience 8`): the slower ones and those of Python may notice. A dash means that nobody has tried yet. The full reason stands above each constant in its file.
+The last list has those that no theory gives: their comment says "by trial", and what was tried.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
@@ -44,13 +45,11 @@ def gathered(found: list[Constant], campaign: Path) -> dict[str, dict[str, str]]
     known = {key: verdict for key, verdict in known_verdicts().items() if key in map(key_of, found)}
     judged = [json.loads(line) for line in campaign.read_text(encoding="utf-8").splitlines()]
     for constant in found:
-        text = (ROOT / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
-        for factor in (0.5, 2.0):
-            fault = constant.fault(text, factor)
-            for verdict in judged:
-                if verdict["name"] == fault.name:
-                    found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
-                    known.setdefault(key_of(constant), {})[fault.kind] = str(found_by)
+        as_it_is = re.compile(rf"\b{constant.name} (?:= )?{re.escape(constant.value)}(?![\w.]| \*)")
+        for verdict in judged:
+            if verdict["file"] == constant.file and as_it_is.search(verdict["before"]) and not as_it_is.search(verdict["after"]):
+                found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
+                known.setdefault(key_of(constant), {})[verdict["kind"]] = str(found_by)
     return dict(sorted(known.items()))
 
 
@@ -67,13 +66,15 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
         rooms.setdefault(str(Path(constant.file).parent), []).append(constant)
     tried = sum(len(verdicts.get(key_of(constant), {})) for constant in found)
     quiet = [constant for constant in found if "none" in verdicts.get(key_of(constant), {}).values()]
-    lines = [HEAD, f"{len(found)} constants; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
+    by_trial = [constant for constant in found if "by trial" in constant.about.lower()]
+    lines = [HEAD, f"{len(found)} constants, {len(by_trial)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:
             verdict = verdicts.get(key_of(constant), {})
             cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
             lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
+    lines += ["", "## By trial", "", *(f"- `{constant.name}` ({Path(constant.file).name}, `{constant.value}`)" for constant in by_trial)]
     return "\n".join(lines) + "\n"
 
 

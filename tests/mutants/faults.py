@@ -217,10 +217,22 @@ def constants_of(root: Path, file: str) -> Iterator[Constant]:
 
 
 def _about(lines: list[str], place: int) -> str:
-    """The comment behind a line or, without one, the block that ends above it; a blank line ends the search."""
+    """The comment behind a line, the one above it, or the one above its function."""
     beside = re.search(r"/\*\s*(.*?)\s*\*/|//\s*(.*)$", lines[place])
     if beside:
         return beside[1] or beside[2]
+    inside = lines[place].startswith(" ")
+    return _above(lines, place) or (_above(lines, _function(lines, place)) if inside else "")
+
+
+def _function(lines: list[str], place: int) -> int:
+    """The line where the function begins that a line is in."""
+    opened = next((at for at in range(place, 0, -1) if lines[at] == "{"), place)
+    return next((at + 1 for at in range(opened - 1, 0, -1) if not lines[at] or re.match(r"\s*(/\*|\*|//)|.*\*/$", lines[at])), place)
+
+
+def _above(lines: list[str], place: int) -> str:
+    """The comment that ends above a line, or above others that declare constants; a blank line ends the search."""
     above: list[str] = []
     for line in reversed(lines[max(0, place - 12) : place]):
         if not re.match(r"\s*(/\*|\*|//)", line):
@@ -240,7 +252,7 @@ def constants(root: Path) -> list[Constant]:
 
 
 def constant_faults(root: Path) -> Iterator[Fault]:
-    """Half and twice of each constant; kernels last, which take longest to build."""
-    for constant in sorted(constants(root), key=lambda it: it.file.startswith("ispc")):
+    """Half and twice of each constant; headers and kernels last, which take longest to build."""
+    for constant in sorted(constants(root), key=lambda it: (it.file.startswith("ispc"), it.file.endswith(".h"))):
         text = (root / constant.file).read_text(encoding="utf-8").split("\n")[constant.line - 1]
         yield from (constant.fault(text, factor) for factor in (0.5, 2.0))

@@ -234,11 +234,13 @@ class Campaign:
             todo = [_fault(it) for it in self.verdicts.values() if it["verdict"] == "survived"]
             planned, count = iter([it for it in todo if _is_there(it)]), len(todo)
         elif options.constants:
-            todo = list(constant_faults(ROOT))
+            wanted = {path for pattern in options.files for path in places[0].tree.glob(pattern)}
+            todo = [it for it in constant_faults(places[0].tree) if places[0].tree / it.file in wanted]
             planned, count = iter(todo), len(todo)
         else:
-            files = [str(path.relative_to(ROOT)) for pattern in options.files for path in ROOT.glob(pattern)]
-            planned, count = choose(ROOT, files, options.seed), options.count
+            copy = places[0].tree  # whatever becomes of the sources meanwhile
+            files = [str(path.relative_to(copy)) for pattern in options.files for path in copy.glob(pattern)]
+            planned, count = choose(copy, files, options.seed), options.count
         planned = (it for it in planned if it.key not in self.equivalent)
         chosen: list[str] = []
         asked: queue.Queue[None] = queue.Queue()
@@ -298,7 +300,7 @@ def main() -> int:
     arguments.add_argument("--count", type=int, default=100, help="faults, those that do not compile not counted")
     arguments.add_argument("--seed", type=int, default=1, help="which ones")
     arguments.add_argument("--jobs", type=int, default=1, help="copies of the tree that work at once")
-    arguments.add_argument("--files", nargs="+", default=["src/**/*.c", "ispc/*.isph"], help="where to plant them")
+    arguments.add_argument("--files", nargs="+", help="where to plant them; default all but headers, which constants may be in")
     arguments.add_argument("--slowest", type=float, default=60.0, help="tests that take longer [s] are left out")
     arguments.add_argument("--patience", type=float, default=120.0, help="of the tests with one fault [s]")
     arguments.add_argument("--python", action="store_true", help="run the quicker physics tests of Python, too (needs build/venv)")
@@ -307,6 +309,7 @@ def main() -> int:
     arguments.add_argument("--list", action="store_true", help="print the faults and plant none")
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/mutants", help="where to work and keep verdicts")
     options = arguments.parse_args()
+    options.files = options.files or ["src/**/*.c", "ispc/*.isph", *(["src/**/*.h"] if options.constants else [])]
     if options.list:
         files = [str(path.relative_to(ROOT)) for pattern in options.files for path in ROOT.glob(pattern)]
         for _, fault in zip(range(options.count), choose(ROOT, files, options.seed)):

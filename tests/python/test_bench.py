@@ -146,7 +146,7 @@ def test_the_command_says_where_the_figures_come_from() -> None:
 def test_unknown_solvers_are_refused() -> None:
     done = run_bench("--solvers", "newton")
     assert done.returncode == 2
-    assert "'newton' is not one of paper, dual" in done.stderr
+    assert "'newton' is not one of convergent, paper, dual" in done.stderr
 
 
 @pytest.mark.parametrize("name", [*PARTS, BOTH])

@@ -47,6 +47,8 @@ WRONG_WORDS: dict[str, tuple[Callable[[Any], None], str]] = {
     "parameter": (lambda data: data["materials"]["water"].update(denisty=3), "materials.water.denisty: unknown field; did you mean 'density'?"),
     "material": (lambda data: data["fills"][0].update(material="watr"), "no material is called 'watr' (there are: water); did you mean 'water'?"),
     "effect": (lambda data: data.update(effects=["emiters"]), "did you mean 'emitters'?"),
+    "extents": (lambda data: data["fills"][0]["shape"].update(half_extents=0.2), "fills[0].shape.half_extents: needs 2 numbers in brackets, one per axis"),
+    "extent": (lambda data: data["fills"][0]["shape"].update(half_extents=[0.1]), "fills[0].shape.half_extents: needs 2 numbers in brackets, one per axis"),
     "dimension": (lambda data: data.update(dimension=4), "dimension: 4 is not one of 2 or 3"),
 }
 
@@ -62,6 +64,15 @@ def test_a_mesh_that_is_not_there_is_said_in_plain_words(scene: Callable[..., Pa
     mesh = {"kind": "mesh", "position": [0, 0], "file": "boat.obj"}
     heard = said("run", scene(lambda data: data.update(colliders=[{"shape": mesh}])))
     assert f"{tmp_path / 'boat.obj'}: there is no such file" in heard
+
+
+def test_a_file_that_is_not_there_gets_a_suggestion(scene: Callable[..., Path], root: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    beside = scene(lambda data: None)
+    wrong = beside.with_name(f"{beside.stem[:-1]}{beside.suffix}")
+    assert f"{wrong}: there is no such file; did you mean '{beside}'?" in said("run", wrong)
+    monkeypatch.chdir(root)
+    assert "did you mean 'samples/scenes/glass_jelly_3d.json'?" in said("run", "glass_jelly")
+    assert "there is no such file" in said("run", "qqqq") and "did you mean" not in said("run", "qqqq")
 
 
 def test_an_effect_that_is_not_there_gets_a_suggestion(root: Path) -> None:

@@ -56,6 +56,113 @@ def test_a_collider_changes_in_place() -> None:
         gate.change(friction_coefficient=-1.0)
 
 
+def test_what_was_given_at_creation_can_be_assigned_later() -> None:
+    world = tank()
+    ball = pbmpm.Sphere((0.5, 0.5), 0.1)
+    oil = world.add_material(pbmpm.Liquid(density=800, groups=2))
+    force = world.add_force("uniform", 1.0)
+    emitter = world.add_emitter(ball, world.materials[0], 1.0)
+    drain = world.add_drain(ball)
+    gate = world.add_collider(ball)
+    for thing, name, value in [
+        (force, "kind", pbmpm.ForceKind.DRAG),
+        (force, "strength", 2.5),
+        (force, "everywhere", False),
+        (force, "falloff", pbmpm.Falloff.SMOOTH),
+        (force, "range", 0.5),
+        (force, "direction", (1.0, 0.0)),
+        (force, "velocity", (0.5, -0.5)),
+        (force, "spin", 0.25),
+        (force, "enabled", False),
+        (emitter, "rate", 2.0),
+        (emitter, "region", pbmpm.Region.DISC),
+        (emitter, "speed", 3.0),
+        (emitter, "direction", (0.0, 1.0)),
+        (emitter, "spread", 0.5),
+        (emitter, "particles_per_axis", 3.0),
+        (emitter, "fill_limit", 1.25),
+        (emitter, "budget", 7),
+        (emitter, "seed", 9),
+        (emitter, "user_value", 11),
+        (gate, "friction", pbmpm.Friction.SLIP),
+        (gate, "friction_coefficient", 0.5),
+        (gate, "kinematic", True),
+        (gate, "measures_impulse", True),
+        (gate, "measures_impulse", False),
+        (gate, "sensor", True),
+        (gate, "reports_touches", True),
+        (gate, "meets", 2),
+    ]:
+        assert getattr(thing, name) != value
+        setattr(thing, name, value)
+        assert getattr(thing, name) == value, name
+    force.kind, gate.friction = "vortex", "stick"
+    assert (force.kind, gate.friction) == (pbmpm.ForceKind.VORTEX, pbmpm.Friction.STICK)
+    gate.shape = pbmpm.Box((0.5, 0.5), (0.1, 0.1))
+    assert isinstance(gate.shape, pbmpm.Box) and gate.friction is pbmpm.Friction.STICK
+    emitter.material = drain.material = oil
+    assert emitter.material.index == drain.material.index == oil.index
+    drain.material = None
+    assert drain.material is None
+    gate.meets = oil
+    assert gate.meets == 2
+    for thing, name in ((force, "strength"), (force, "enabled"), (emitter, "rate"), (gate, "kinematic")):
+        with pytest.raises(TypeError, match=name):
+            setattr(thing, name, None)
+    with pytest.raises(pbmpm.InvalidArgumentError, match="strength"):
+        force.kind, force.strength = "drag", -1.0
+
+
+@pytest.mark.parametrize("name", ["material", "collider", "emitter", "drain", "force"])
+def test_a_message_tells_what_became_of_a_thing(name: str) -> None:
+    from pbmpm._library import ffi
+
+    world, ball = tank(), pbmpm.Sphere((0.5, 0.5), 0.1)
+    made = {
+        "material": lambda: world.add_material(pbmpm.Liquid()),
+        "collider": lambda: world.add_collider(ball),
+        "emitter": lambda: world.add_emitter(ball, world.materials[0], 1.0),
+        "drain": lambda: world.add_drain(ball),
+        "force": lambda: world.add_force("uniform"),
+    }[name]
+    first = made()
+    first.destroy()
+    made()  # in the same place
+    with pytest.raises(pbmpm.InvalidIdError, match=f"this {name} was destroyed$"):
+        first.key
+    for generation, what in ((0, "is null"), (0xFFFFFFFF, "never existed: its identifier is made up")):
+        first._id = ffi.new(f"pbmpm_{name}_id *", (first._id.index, generation))[0]
+        with pytest.raises(pbmpm.InvalidIdError, match=f"this {name} {what}$"):
+            first.key
+
+
+def test_a_fill_with_a_material_that_is_gone_says_so() -> None:
+    world, other = tank(), tank()
+    ball, oil = pbmpm.Sphere((0.5, 0.5), 0.1), world.add_material(pbmpm.Liquid())
+    with pytest.raises(pbmpm.InvalidIdError, match="fill.material is of another world, or was destroyed long ago"):
+        other.fill(ball, oil)
+    oil.destroy()
+    with pytest.raises(pbmpm.InvalidIdError, match="fill.material was destroyed$"):
+        world.fill(ball, oil)
+    with pytest.raises(pbmpm.InvalidIdError, match="emitter.material was destroyed$"):
+        world.add_emitter(ball, oil, 1.0)
+    with pytest.raises(pbmpm.InvalidIdError, match="drain.material was destroyed$"):
+        world.add_drain(ball, material=oil)
+    with pytest.raises(pbmpm.InvalidIdError, match="particles.material was destroyed$"):
+        world.add_particles(oil, [(0.5, 0.9)])
+
+
+def test_particles_that_are_gone_are_told_from_those_that_never_were() -> None:
+    world = tank()
+    ids = np.asarray(world.ids)[:3].copy()
+    world.remove(ids[:1])
+    with pytest.raises(pbmpm.InvalidIdError, match="particle 0 of the list is gone, or of another world"):
+        world.find(ids)
+    ids[0] = (0, 0xFFFFFFFF)
+    with pytest.raises(pbmpm.InvalidIdError, match="particle 0 of the list never existed"):
+        world.find(ids)
+
+
 def test_walls_open_and_have_friction() -> None:
     world = tank()
     assert world.wall(0, upper=True) == pbmpm.Wall(False, pbmpm.Friction.COULOMB, 0.0)

@@ -356,6 +356,15 @@ def test_an_axis_fits_its_data(costs: list[float], mark: float, span: tuple[floa
     assert (1.25 * low, high / 1.25) == pytest.approx(span)
 
 
+def test_the_legend_of_a_narrow_page_leaves_room_for_the_plot(report: dict[str, Any]) -> None:
+    """A line for each entry, and one entry for all crosses."""
+    report["rows"] += [{**row("good", "dual", 3.0, 0.2, stable), "cells": 10, "cell_m": 0.01 * number} for number in range(1, 20) for stable in (True, False)]
+    figure = accuracy_figure(cases_of(report)[0])
+    shown = [trace for trace in figure.data if trace.visible]
+    assert sum("not stable" in trace.name for trace in shown) == 1
+    assert figure.layout.height - 18.5 * len(shown) - figure.layout.margin.t - figure.layout.margin.b > 250
+
+
 def test_the_axis_of_a_page_fits_its_data(report: dict[str, Any]) -> None:
     case = cases_of(report)[0]
     costs = [item["ms_per_simulated_second"] for item in case.rows if item["ms_per_simulated_second"] is not None]

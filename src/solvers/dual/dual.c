@@ -44,7 +44,7 @@ static int guess_iterations(const World *world)
 }
 
 /* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of
- * iterations that was tried, and worth twice as many. */
+ * iterations that was tried, and worth twice as many: by trial. */
 static const double CARRIED_SHARE = 0.5;
 
 /* With a single iteration the pressure of slow motion is -k sum_j CARRIED^j e_(n+1-j), with e_(n+1) = e_n + v the strain that the predictor leads to. What is
@@ -68,7 +68,7 @@ double dual_carried_share(const World *world)
  * iterations per substep add comes to n / (1 - g) of them. Pools of 12 cells rest best with about 25, at 30, 60 and 240 Hz, 2 to 20 iterations. */
 static float fine_carried(const World *world)
 {
-    static const double ITERATIONS_KEPT = 25.0;
+    static const double ITERATIONS_KEPT = 25.0; /* by trial, on pools: see above */
     return (float)fmax(0.0, 1.0 - world->settings.iterations / ITERATIONS_KEPT);
 }
 
@@ -130,7 +130,7 @@ static float smallest_relaxation(const World *world)
 /* Sand that is compressed beyond what its pressure explains gets this share back per 1/60 s, as the grid's volume feedback is by default. What comes back at
  * once bounces: with 0.2 and 1 heaps below a funnel end at 17 and 10 degrees, not 19, and a bin trembles. With 0.05 a column sinks by 7 %. The price: at 60 Hz x 5
  * a block that falls two thirds of a metre onto cells of 1.25 cm is crushed to 0.65 of its volume, and is back at 0.87 after 1.3 s. The same share of the bound of
- * growth: with all of it the heap below a funnel has 14.5 degrees, not 18. */
+ * growth: with all of it the heap below a funnel has 14.5 degrees, not 18. By trial. */
 static const double SETTLED_SHARE = 0.1;
 
 static void bind_cells(World *world)
@@ -304,7 +304,7 @@ static Change change_of(const World *world)
 
 /* A particle that shares its nodes with no other answers S by D = -S. After an extrapolation by b the error of its stress obeys
  * e'' = (1 - w) (e' + b (e' - e)). Of the roots one is negative; it is -r for w = 1 + r^2 / ((1 + b) r + b). With r = 1 the particle trembles for ever
- * (w = 4/3 after many iterations); with this r it comes to rest though it is not linear. The last iteration has the largest b. */
+ * (w = 4/3 after many iterations); with this r it comes to rest though it is not linear. The last iteration has the largest b. By trial. */
 static const double LONE_DECAY = 0.8;
 
 float dual_longest_relaxation(int iterations)
@@ -317,7 +317,7 @@ float dual_longest_relaxation(int iterations)
  * the matter in 1/60 s, up to as many as solids among liquids get. Half as many let a silo of 96 cells flow 15 % faster when it is half empty. */
 static int sand_rounds(const World *world)
 {
-    static const double CELLS_PER_ITERATION = 4.0;
+    static const double CELLS_PER_ITERATION = 4.0; /* by trial, on silos: see above */
     if (!solver_holds_sand(world)) return 0;
     const double wanted = ceil(matter_depth(world) * world->substep.reference_steps / CELLS_PER_ITERATION) - world->settings.iterations;
     return (int)fmax(0.0, fmin(wanted, ROUNDS_MOST));
@@ -443,7 +443,7 @@ static double weight_stiffness(const World *world, const Substep *substep)
  * eight seedings), asked for 2.5 by 0.6 % at most. */
 static double asked_per_iteration(const World *world, const Substep *substep)
 {
-    static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells */
+    static const double MOST = 5.0, LEAST = 2.5, SHORT_FALL = 0.1; /* cells; by trial, on blocks that fall: see above */
     return fmax(LEAST, MOST * SHORT_FALL / fmax(gravity_fall(world, substep), SHORT_FALL));
 }
 
@@ -461,7 +461,7 @@ static double most_asked(double each, double iterations)
  * much as is taken. The result is the n that asks for as much. From 1 to 50 takes 1813 substeps, from 2 on 238, from 5 on 94. */
 double dual_stiffened(const World *world, const Substep *substep, double iterations)
 {
-    static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0;
+    static const double THREE_SWINGS_CELLS = 3.0 * 4.0 * 8.0; /* three swings, of four ways each, through a block of eight cells */
     const double root = iterations / DUAL_ITERATIONS_PER_ROOT, each = asked_per_iteration(world, substep);
     const double risen = fmax(root * root, most_asked(each, iterations)) * exp(0.5 * root / THREE_SWINGS_CELLS);
     const double for_weight = risen / each; /* n (n - 1) up to n = 2, n from there on */

@@ -4,7 +4,7 @@
 
 #include "base/result.h"
 
-static const float BDF2_SHARE = 4.0f / 9.0f;
+static const float BDF2_SHARE = 4.0f / 9.0f; /* of all forces: follows from the formula in multistep.h */
 
 static bool is_on(const World *world)
 {

@@ -166,7 +166,7 @@ void primal_pull_back_to(Primal *p, float share)
  * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
 static uint32_t let_pay(Primal *p)
 {
-    static const double MOST = 0.5; /* of that kinetic energy */
+    static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead */
     const PrimalState *state = &p->world->primal;
     RigidBody *rigid = state->rigid.data;
     BodySum *body = state->body_sums.data;

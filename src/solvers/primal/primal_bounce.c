@@ -17,7 +17,7 @@
 #include "solvers/primal/primal_solve.h"
 #include "world/sleep_rows.h"
 
-static const double KEPT = 1.0;      /* so that what bounces comes to rest */
+static const double KEPT = 1.0;      /* all of it: with more a ball would bounce higher than it fell */
 static const double IMPACT = 2.0;    /* times its weight: what pushes a body less carries it, or it rolls */
 static const double MOST = 1.0;      /* of the change: the velocity at the end of a step whose mean is that of the solution */
 

@@ -44,6 +44,10 @@ class Member(Bound):
         self._apply("get", out, *([ffi.NULL] if self._has_shape else []))
         return out
 
+    def _redefine(self, definition: Any) -> None:
+        """Gives it another definition; its shape stays."""
+        self._apply("set", definition, *([ffi.NULL] if self._has_shape else []))
+
     def _form(self) -> Any:
         """The C structure of the shape with its current pose."""
         out = sized("pbmpm_shape")

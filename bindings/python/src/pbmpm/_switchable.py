@@ -10,7 +10,7 @@ from ._ffi import ffi
 from ._fixed import nearest
 from ._library import lib
 from ._member import Member
-from ._setters import Setter
+from ._setters import Setter, setters_of, switch
 from .shapes import Shape, from_c, to_c
 
 
@@ -19,7 +19,12 @@ class Switchable(Member):
 
     __slots__ = ()
     _has_shape = True
-    _setters: ClassVar[Mapping[str, Setter]]  #: of what can be changed
+    _setters: ClassVar[Mapping[str, Setter]]  #: of what can be changed: its values
+
+    def __init_subclass__(cls) -> None:
+        cls._setters = setters_of(Switchable, cls)
+
+    enabled = switch("enabled", "Whether it acts. Assigning switches it on and off.")
 
     @classmethod
     def _fill(cls, definition: Any, dimension: int, values: Mapping[str, Any]) -> Any:
@@ -67,12 +72,3 @@ class Switchable(Member):
     @shape.setter
     def shape(self, value: Shape) -> None:
         self.change(shape=value)
-
-    @property
-    def enabled(self) -> bool:
-        """Whether it acts. Assigning switches it on and off."""
-        return bool(self._definition().enabled)
-
-    @enabled.setter
-    def enabled(self, value: bool) -> None:
-        self.change(enabled=value)

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from ._choice import Choice
-from ._convert import Rotation, Vector, plain, shortest, sized
+from ._convert import Rotation, Vector, plain, sized
 from ._ffi import ffi
 from ._library import lib
 from ._member import Member
-from ._setters import choice, flag, number
+from ._setters import number, one_of, real, setters_of, switch
 from .errors import InvalidArgumentError
 from .materials import Material
 from .rigid import Mass, Submersion, mass_from_c, submersion_from_c
@@ -72,23 +72,6 @@ def groups_of(world: World, meets: Meets | None) -> int | None:
     return groups
 
 
-#: How what can be changed goes into the C structure.
-_SETTERS = {
-    "friction": choice("friction", Friction),
-    "friction_coefficient": number("friction_coefficient"),
-    "meets": number("meets"),
-    **{name: flag(name) for name in ("kinematic", "measures_impulse", "sensor", "reports_touches")},
-}
-
-
-def fill(definition: Any, values: Mapping[str, Any]) -> Any:
-    """Writes the values that are not None into the C structure of a collider, and returns it."""
-    for name, value in values.items():
-        if value is not None:
-            _SETTERS[name](definition, value, 0)
-    return definition
-
-
 def touch_from_c(world: World, touch: Any) -> Touch:
     """A C structure as a Touch."""
     collider = Collider(world, ffi.new("pbmpm_collider_id *", touch.collider)[0])
@@ -111,46 +94,32 @@ class Collider(Member):
 
     @property
     def shape(self) -> Shape:
-        """The shape with its current pose; the rotation is a quaternion."""
+        """The shape with its current pose; the rotation is a quaternion. Assigning replaces it."""
         found, dimension = self._form(), self._world.dimension
         if found.kind == ffi.integer_const("PBMPM_BAKED"):
             solid = LoadedSolid(self._world, found.baked)
             return Baked(plain(found.position)[:dimension], solid, plain(found.rotation))
         return from_c(found, dimension)
 
-    @property
-    def friction(self) -> Friction:
-        return Friction(self._definition().friction)
+    @shape.setter
+    def shape(self, value: Shape) -> None:
+        self.change(shape=value)
 
-    @property
-    def friction_coefficient(self) -> float:
-        """Coulomb coefficient."""
-        return shortest(self._definition().friction_coefficient)
-
-    @property
-    def kinematic(self) -> bool:
-        """Whether `move()` may move it."""
-        return bool(self._definition().kinematic)
-
-    @property
-    def measures_impulse(self) -> bool:
-        """Whether `impulse` tells what matter does to it."""
-        return bool(self._definition().measures_impulse)
+    friction = one_of("friction", Friction, "How matter moves along its surface.")
+    friction_coefficient = real("friction_coefficient", "Coulomb coefficient.")
+    kinematic = switch("kinematic", "Whether `move()` may move it.")
+    measures_impulse = switch("measures_impulse", "Whether `impulse` tells what matter does to it.")
+    sensor = switch("sensor", "Whether it acts on nothing.")
+    reports_touches = switch("reports_touches", "Whether `World.touches()` tells what touches it.")
 
     @property
     def meets(self) -> int:
-        """Bit by bit, the groups of materials that it acts on; 0: all."""
+        """Bit by bit, the groups of materials that it acts on; 0: all. Materials may be assigned; None stands for all."""
         return int(self._definition().meets)
 
-    @property
-    def sensor(self) -> bool:
-        """Whether it acts on nothing."""
-        return bool(self._definition().sensor)
-
-    @property
-    def reports_touches(self) -> bool:
-        """Whether `World.touches()` tells what touches it."""
-        return bool(self._definition().reports_touches)
+    @meets.setter
+    def meets(self, value: Meets | None) -> None:
+        self.change(meets=0 if value is None else value)
 
     @property
     def impulse(self) -> Impulse:
@@ -217,3 +186,14 @@ class Collider(Member):
     def query(self) -> npt.NDArray[np.uint32]:
         """Identifiers of the particles inside, deeper than 1/100 cell: shape (n, 2), in storage order."""
         return self._world._query(lib.pbmpm_query_collider, self._id)
+
+
+_SETTERS = {**setters_of(Collider), "meets": number("meets")}
+
+
+def fill(definition: Any, values: Mapping[str, Any]) -> Any:
+    """Writes the values that are not None into the C structure of a collider, and returns it."""
+    for name, value in values.items():
+        if value is not None:
+            _SETTERS[name](definition, value, 0)
+    return definition

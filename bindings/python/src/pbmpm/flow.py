@@ -6,11 +6,11 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from ._choice import Choice
-from ._convert import Rotation, Vector, assign_vector, initialised, plain, shortest, sized
+from ._convert import Rotation, Vector, assign_vector, initialised, plain, sized
 from ._ffi import ffi
 from ._library import lib
 from ._member import WorldPart
-from ._setters import axes, choice, flag, number
+from ._setters import Value, components, one_of, real, whole
 from ._switchable import Switchable
 from .materials import Material
 from .shapes import Shape
@@ -73,26 +73,38 @@ def _set_material(out: Any, value: Material, dimension: int) -> None:
     out.material = value._id
 
 
+def _own(identifier: Any) -> Any:
+    """An identifier that outlives the structure that it is part of."""
+    return ffi.new("pbmpm_material_id *", identifier)[0]
+
+
+def _set_material_or_all(out: Any, value: Material | None, dimension: int) -> None:
+    if value is None:
+        out.material.index = out.material.generation = 0
+    else:
+        _set_material(out, value, dimension)
+
+
+def _material_or_all(definition: Any, world: Any) -> Material | None:
+    return Material(world, _own(definition.material)) if definition.material.generation else None
+
+
 class Emitter(Switchable):
     """A source of particles in a world. Made by `World.add_emitter()`."""
 
     __slots__ = ()
     _name = "emitter"
-    _setters = {
-        "material": _set_material,
-        "region": choice("region", Region),
-        "direction": axes("direction"),
-        "enabled": flag("enabled"),
-        **{
-            name: number(name)
-            for name in ("rate", "speed", "spread", "particles_per_axis", "fill_limit", "budget", "seed", "user_value")
-        },
-    }
-
-    @property
-    def rate(self) -> float:
-        """Rest volume per second [m^d/s]."""
-        return shortest(self._definition().rate)
+    material: Value[Material, Material] = Value(_set_material, lambda definition, world: Material(world, _own(definition.material)), "Of its particles.")
+    rate = real("rate", "Rest volume per second [m^d/s].")
+    region = one_of("region", Region, "Where its particles are born.")
+    speed = real("speed", "Of its particles [m/s].")
+    direction = components("direction", "Of the speed before the shape's rotation, shape (d,).")
+    spread = real("spread", "Largest angle between the velocity of a particle and `direction` [rad].")
+    particles_per_axis = real("particles_per_axis", "Size of its particles: so many per cell and axis.")
+    fill_limit = real("fill_limit", "Rest volume per volume where nothing more is emitted; 1: full.")
+    budget = whole("budget", "Particles that it may emit in its life; 0: no limit.")
+    seed = whole("seed", "Of places and directions.")
+    user_value = whole("user_value", "Of its particles, see `Field.USER_VALUE`.")
 
     @property
     def status(self) -> EmitterStatus:
@@ -114,7 +126,7 @@ class Drain(Switchable):
 
     __slots__ = ()
     _name = "drain"
-    _setters = {"material": _set_material, "enabled": flag("enabled")}
+    material: Value[Material | None, Material | None] = Value(_set_material_or_all, _material_or_all, "What it takes; None: everything.")
 
     @property
     def status(self) -> DrainStatus:

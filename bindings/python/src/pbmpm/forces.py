@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import Any
 
 from ._choice import Choice
-from ._convert import Vector, plain, shortest
+from ._convert import Vector, plain
 from ._ffi import ffi
 from ._member import WorldPart
-from ._setters import axes, choice, flag, number
+from ._setters import components, one_of, real, switch
 from ._switchable import Switchable
 from .shapes import Shape
 
@@ -37,29 +37,18 @@ class Force(Switchable):
 
     __slots__ = ()
     _name = "force"
-    _setters = {
-        "everywhere": flag("everywhere"),
-        "kind": choice("kind", ForceKind),
-        "falloff": choice("falloff", Falloff),
-        "direction": axes("direction"),
-        "velocity": axes("velocity"),
-        "enabled": flag("enabled"),
-        **{name: number(name) for name in ("range", "strength", "spin")},
-    }
+    kind = one_of("kind", ForceKind, "What it does.")
+    strength = real("strength", "Acceleration [m/s^2], or the coefficient of a drag [1/s].")
+    everywhere = switch("everywhere", "Whether the shape only gives the centre.")
+    falloff = one_of("falloff", Falloff, "How it fades outside of the shape.")
+    range = real("range", "Of the falloff [m].")
+    direction = components("direction", "Of a uniform force; in 3D the axis of a vortex, a drag or a grab; shape (d,).")
+    velocity = components("velocity", "What drag and grab lead to, shape (d,) [m/s].")
+    spin = real("spin", "What they lead to about the axis through the position of the shape [rad/s].")
 
     @classmethod
     def _take_shape(cls, definition: Any) -> None:
         definition.everywhere = 0
-
-    @property
-    def kind(self) -> ForceKind:
-        """What it does."""
-        return ForceKind(self._definition().kind)
-
-    @property
-    def strength(self) -> float:
-        """Acceleration [m/s^2], or the coefficient of a drag [1/s]."""
-        return shortest(self._definition().strength)
 
     @property
     def impulse(self) -> tuple[float, ...]:

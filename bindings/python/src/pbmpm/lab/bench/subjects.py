@@ -86,7 +86,7 @@ MATERIALS: dict[str, tuple[dict[str, Any], dict[int, Maker]]] = {
 QUICK_MATERIALS = ("liquid", "elastic")
 """Measured unless others are asked for."""
 
-VARIANTS = ("paper", "dual", "dual-cells", "primal", "explicit")
+VARIANTS = ("convergent", "paper", "dual", "dual-cells", "primal", "explicit")
 """Solvers with their options."""
 
 

@@ -14,12 +14,14 @@ from .views import View, views_of
 from .words import error_text
 
 REAL_TIME_MS = 1000.0
-SOLVER_COLOURS = {"paper": "#c8781e", "dual": "#1f6fb4", "primal": "#1d8a5b", "explicit": "#a0479a"}
+SOLVER_COLOURS = {"convergent": "#4a4a4a", "paper": "#c8781e", "dual": "#1f6fb4", "primal": "#1d8a5b", "explicit": "#a0479a"}
 _OTHER_COLOUR = "#555555"
 _SYMBOLS = ("circle", "square", "diamond", "triangle-up", "pentagon", "hexagon", "star", "triangle-down")
 _LIMIT_COLOUR = "#b03a48"
 _FRONT_COLOURS = ("rgba(40, 40, 40, 0.35)", "rgba(31, 111, 180, 0.3)", "rgba(200, 120, 30, 0.3)")  # of the grids, coarse first
 _BROKEN_HEADROOM = 2.0  # how far above the highest error settings are drawn that have none, as a factor
+_PLOT_HEIGHT, _ENTRY_HEIGHT = 420, 19  # pixels: of the plot with its axis, and of a line of the legend, which has an entry each on a narrow page
+_LABEL_PLACES = ("top right", "bottom right")  # in turns, so that neighbours do not meet
 _AXIS = {
     "type": "log",
     "dtick": "D2",
@@ -41,7 +43,7 @@ def accuracy_figure(case: CaseRows) -> go.Figure:
     figure = go.Figure([trace for group in traces for trace in group])
     figure.update_layout(
         template="plotly_white",
-        height=540,
+        height=_PLOT_HEIGHT + _ENTRY_HEIGHT * max(len(group) for group in traces),
         margin={"l": 70, "r": 20, "t": 60, "b": 60},
         legend={"font": {"size": 11}, "orientation": "h", "y": -0.2, "yanchor": "top"},
         hoverlabel={"align": "left"},
@@ -97,7 +99,7 @@ def _real_time_text() -> dict[str, Any]:
 
 
 def _traces(view: View) -> list[go.Scatter]:
-    """The fronts, and for each solver with its options and cell size the dots and the crosses."""
+    """The fronts, for each solver with its options and cell size the dots, and the crosses."""
     rows = [(row, error) for row, error in zip(view.rows, view.errors, strict=True) if _has_place(row, error)]
     ceiling = _BROKEN_HEADROOM * max((_drawn(error) for _, error in rows if error is not None), default=1.0)
     groups: dict[str, list[tuple[dict[str, Any], float | None]]] = {}
@@ -105,12 +107,11 @@ def _traces(view: View) -> list[go.Scatter]:
         groups.setdefault(f"{row.get('variant', row['solver'])}, cell {row['cell_m']:.3g} m", []).append((row, error))
     traces = [_front(view.front(cells), f"front at {cells} cells", shade) for cells, shade in zip(view.grids, _FRONT_COLOURS)]
     for number, (name, members) in enumerate(groups.items()):
-        symbol = _SYMBOLS[number % len(_SYMBOLS)]
-        for stable in (True, False):
-            own = [(row, error) for row, error in members if row["stable"] is stable]
-            if own:
-                traces.append(_dots(name, own, symbol if stable else None, ceiling, view.unit))
-    return traces
+        own = [(row, error) for row, error in members if row["stable"]]
+        if own:
+            traces.append(_dots(name, own, _SYMBOLS[number % len(_SYMBOLS)], ceiling, view.unit))
+    broken = [(row, error) for row, error in rows if not row["stable"]]
+    return [*traces, _dots("not stable", broken, None, ceiling, view.unit)] if broken else traces
 
 
 def _has_place(row: dict[str, Any], error: float | None) -> bool:
@@ -126,17 +127,17 @@ def _dots(
     name: str, members: Sequence[tuple[dict[str, Any], float | None]], symbol: str | None, ceiling: float, unit: str
 ) -> go.Scatter:
     """Dots with a symbol, or crosses without one."""
-    colour = SOLVER_COLOURS.get(members[0][0]["solver"], _OTHER_COLOUR)
+    colours = [SOLVER_COLOURS.get(row["solver"], _OTHER_COLOUR) for row, _ in members]
     return go.Scatter(
         x=[row["ms_per_simulated_second"] for row, _ in members],
         y=[ceiling if error is None else _drawn(error) for _, error in members],
         mode="markers",
-        name=name if symbol else f"{name}: not stable",
+        name=name,
         marker={
             "symbol": symbol or "x-thin",
             "size": 8 if symbol else 10,
-            "color": colour,
-            "line": {"width": 0.5 if symbol else 2.5, "color": colour},
+            "color": colours,
+            "line": {"width": 0.5 if symbol else 2.5, "color": colours},
         },
         text=[_hover(row, error, unit) for row, error in members],
         hovertemplate="%{text}<extra></extra>",
@@ -157,7 +158,7 @@ def _front(front: Sequence[Point], name: str, colour: str) -> go.Scatter:
         y=[point.error for point in front],
         mode="lines+text",
         text=[point.pace for point in front],
-        textposition="top right",
+        textposition=[_LABEL_PLACES[number % 2] for number in range(len(front))],
         textfont={"size": 10, "color": "#444444"},
         name=name,
         line={"color": colour, "width": 6},

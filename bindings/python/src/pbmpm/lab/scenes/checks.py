@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..hints import did_you_mean
-from .scene import CameraPart, Part, Scene, material_groups
+from .scene import VECTORS, CameraPart, Part, Scene, material_groups
 
 #: Bits of the groups of a material.
 MATERIALS_THAT_CAN_BE_MET = 32
@@ -72,11 +72,8 @@ def _vector_problems(part: Part, dimension: int, path: str):
         elif isinstance(value, list) and value and isinstance(value[0], Part):
             for index, item in enumerate(value):
                 yield from _vector_problems(item, dimension, f"{where}[{index}]")
-        elif name in _VECTOR_FIELDS and value is not None and len(value) != dimension:
+        elif name in VECTORS and value is not None and len(value) != dimension:
             yield f"{where}: needs {dimension} numbers in a scene of dimension {dimension}, has {len(value)}"
-
-
-_VECTOR_FIELDS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity", "direction"}
 
 
 def _rotation_problems(value: float | list[float], dimension: int, where: str):

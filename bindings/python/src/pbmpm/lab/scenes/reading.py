@@ -10,8 +10,8 @@ from typing import Any
 from pydantic import ValidationError
 
 from ..errors import InputError
-from ..hints import did_you_mean
-from .scene import Part
+from ..hints import did_you_mean, file_like
+from .scene import VECTORS, Part
 
 
 def read_json(path: Path) -> Any:
@@ -21,7 +21,7 @@ def read_json(path: Path) -> Any:
     try:
         text = path.read_text(encoding="utf-8")
     except FileNotFoundError:
-        raise InputError(f"{path}: there is no such file") from None
+        raise InputError(f"{path}: there is no such file{file_like(path)}") from None
     except IsADirectoryError:
         raise InputError(f"{path}: is a folder, not a file") from None
     except OSError as error:
@@ -56,6 +56,8 @@ def describe_problems(error: ValidationError, data: Any, source: str) -> str:
             message += did_you_mean(item["ctx"]["tag"], re.findall(r"'(\w+)'", item["ctx"]["expected_tags"]))
         elif item["type"] == "union_tag_not_found":
             message = f"the field {item['ctx']['discriminator']} is missing: it says what this is"
+        elif item["type"] in ("list_type", "too_short", "too_long") and item["loc"][-1] in VECTORS:
+            message = f"needs {data.get('dimension', '2 or 3')} numbers in brackets, one per axis"
         elif item["type"] == "missing":
             message = "this field is required"
         lines.append(f"{source}: {_field_path(item['loc'], data)}: {message}")

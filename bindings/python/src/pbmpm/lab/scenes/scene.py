@@ -31,6 +31,8 @@ Iterations = Annotated[int, Field(ge=1, le=1000)]
 Milliseconds = Annotated[float, Field(ge=0, le=1e6)]
 Vector = Annotated[list[Finite], Field(min_length=2, max_length=3)]
 PositiveVector = Annotated[list[Positive], Field(min_length=2, max_length=3)]
+VECTORS = {"origin", "gravity", "min", "max", "position", "half_extents", "normal", "velocity", "direction"}
+"""Fields with a number per axis."""
 Rotation = Finite | Annotated[list[Finite], Field(min_length=4, max_length=4)]
 
 

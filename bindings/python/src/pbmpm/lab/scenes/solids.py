@@ -12,6 +12,7 @@ import numpy as np
 import pbmpm
 
 from ..errors import InputError
+from ..hints import file_like
 from .scene import HeightsPart, MeshPart
 
 
@@ -63,7 +64,7 @@ def _read_mesh(path: str, dimension: int) -> tuple[np.ndarray, np.ndarray]:
     import meshio
 
     if not Path(path).exists():  # of which meshio's words leave out the folder
-        raise InputError(f"{path}: there is no such file")
+        raise InputError(f"{path}: there is no such file{file_like(Path(path))}")
     try:
         mesh = meshio.read(path)
     except (OSError, meshio.ReadError, ValueError, SystemExit) as problem:
