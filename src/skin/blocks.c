@@ -98,8 +98,9 @@ static const float SPRAY_MOST = 1.0f;
 
 static bool is_spray(const SkinBlocks *blocks, const SkinBlock *block)
 {
-    float volume = 0.0f;
+    float volume = block->volume;
     for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
+        if (n == BLOCK_NEIGHBOURS / 2) continue; /* that is itself */
         int32_t place[3];
         grid_neighbour_offset(n, 3, place);
         for (int a = 0; a < 3; a++) place[a] += block->place[a];

@@ -1,0 +1,220 @@
+#include "skin/boundary.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "contact/field.h"
+
+enum { BOUNDARY_GRAIN = 2, PART_AXIS = 4 };
+
+/* Of a flat surface: the depth outside [cells] from which on F is 0, and its slope per cell; see S and W in field.h. */
+static const double IMAGE_REACH = 0.75;
+static const float FLAT_SLOPE = 29.0f / 32.0f;
+
+bool boundary_find(Boundary *boundary, World *world, bool *changed)
+{
+    const size_t room = world->colliders.room + DOMAIN_WALLS;
+    if (!array_reserve(&world->memory, &boundary->obstacle, room, sizeof(Obstacle)) || !array_reserve(&world->memory, &boundary->stood, room, sizeof(Solid))) return false;
+    boundary->colliders = world->colliders;
+    boundary->colliders.obstacle = boundary->obstacle.data;
+    colliders_begin_substep(&boundary->colliders, &world->domain, world->def.dimension, 0, 1);
+    const int count = boundary->colliders.obstacle_count;
+    *changed = count != boundary->stands;
+    boundary->stands = count;
+    for (int i = 0; i < count; i++) {
+        Solid *stood = (Solid *)boundary->stood.data + i;
+        const Solid *stands = &boundary->colliders.obstacle[i].start;
+        *changed = *changed || memcmp(stood, stands, sizeof *stands) != 0;
+        *stood = *stands;
+    }
+    return true;
+}
+
+void boundary_free(Boundary *boundary, Memory *memory)
+{
+    array_free(memory, &boundary->obstacle);
+    array_free(memory, &boundary->stood);
+}
+
+/* ---- Distances ---- */
+
+typedef struct BoundaryJob {
+    const FieldWork *work;
+    float level, *values;
+} BoundaryJob;
+
+/* A place in points from the first point of a block, in metres. */
+static void place_of(const FieldWork *work, const SkinBlock *block, const double local[3], double place[3])
+{
+    const SkinBlocks *blocks = work->blocks;
+    for (int a = 0; a < 3; a++) {
+        const int64_t first = (int64_t)blocks->anchor[a] * blocks->subdivision + (int64_t)block->place[a] * BLOCK_AXIS;
+        place[a] = ((double)first + local[a] - (double)field_shift(blocks)) * work->cell_size / blocks->subdivision;
+    }
+}
+
+static void near_block(const FieldWork *work, const SkinBlock *block, Near *near)
+{
+    const double middle[3] = {0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1)};
+    const Grid flat = {.dimension = 3};
+    ContactFrame frame = {.colliders = &work->boundary->colliders, .grid = &flat, .cell_size = work->cell_size};
+    double place[3];
+    place_of(work, block, middle, place);
+    field_near(near, &frame, place, sqrt(3.0) * middle[0] / work->blocks->subdivision + IMAGE_REACH, false);
+    field_keep(near, work->groups);
+}
+
+static void point_of(int i, double local[3])
+{
+    local[0] = i % BLOCK_AXIS;
+    local[1] = i / BLOCK_AXIS % BLOCK_AXIS;
+    local[2] = i / (BLOCK_AXIS * BLOCK_AXIS);
+}
+
+/* Whether a part of a block with these first points is near enough to an obstacle. */
+static bool part_is_near(const FieldWork *work, const SkinBlock *block, const Near *near, const int first[3])
+{
+    const double half = 0.5 * (PART_AXIS - 1);
+    double middle[3], place[3];
+    for (int a = 0; a < 3; a++) middle[a] = first[a] + half;
+    place_of(work, block, middle, place);
+    return field_distance(near, place) < sqrt(3.0) * half / work->blocks->subdivision + IMAGE_REACH;
+}
+
+/* What has less than this is outside whatever it is mirrored in: three planes make it 8 times as much. */
+static float least_that_counts(float level) { return 0.125f * level; }
+
+static void measure_part(const BoundaryJob *job, SkinBlock *block, const Near *near, const int first[3])
+{
+    const size_t b = (size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
+    for (int n = 0; n < PART_AXIS * PART_AXIS * PART_AXIS; n++) {
+        const int x = first[0] + n % PART_AXIS, y = first[1] + n / PART_AXIS % PART_AXIS, z = first[2] + n / (PART_AXIS * PART_AXIS);
+        const int i = (z * BLOCK_AXIS + y) * BLOCK_AXIS + x;
+        double local[3], place[3];
+        if (job->values[b + (size_t)i] <= least_that_counts(job->level)) continue;
+        point_of(i, local);
+        place_of(job->work, block, local, place);
+        job->work->gaps[b + (size_t)i] = (float)field_distance(near, place);
+        block->bounded = true;
+    }
+}
+
+static void measure_block(const BoundaryJob *job, SkinBlock *block, const Near *near)
+{
+    float *gaps = job->work->gaps + (size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
+    for (int i = 0; i < BLOCK_POINTS; i++) gaps[i] = INFINITY;
+    for (int n = 0; n < 8; n++) {
+        const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
+        if (part_is_near(job->work, block, near, first)) measure_part(job, block, near, first);
+    }
+}
+
+/* ---- The mirror ---- */
+
+/* F at a place in points from the first point of a block, which is in that block or in one beside it. */
+static float field_at(const SkinBlock *block, const float *values, const double local[3])
+{
+    int first[3];
+    float t[3], sum = 0.0f;
+    for (int a = 0; a < 3; a++) {
+        first[a] = (int)floor(local[a]);
+        t[a] = (float)(local[a] - first[a]);
+    }
+    for (int c = 0; c < 8; c++) {
+        float weight = 1.0f;
+        int neighbour = 0, at = 0;
+        for (int a = 2; a >= 0; a--) {
+            const int up = c >> a & 1, k = first[a] + up + BLOCK_AXIS;
+            if (k < 0 || k >= 3 * BLOCK_AXIS) return 0.0f;
+            weight *= up ? t[a] : 1.0f - t[a];
+            neighbour = 3 * neighbour + k / BLOCK_AXIS;
+            at = BLOCK_AXIS * at + k % BLOCK_AXIS;
+        }
+        const int32_t other = block->neighbour[neighbour];
+        if (other != GRID_NOWHERE) sum += weight * values[(size_t)other * BLOCK_POINTS + (size_t)at];
+    }
+    return sum;
+}
+
+/* F and its images at a point. */
+static float with_images(const BoundaryJob *job, const SkinBlock *block, const Near *near, int i)
+{
+    const float own = job->values[(size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS + (size_t)i];
+    double local[3], place[3];
+    Face face[FIELD_FACES];
+    float sum = own;
+    point_of(i, local);
+    place_of(job->work, block, local, place);
+    const int count = field_faces(near, place, IMAGE_REACH, face);
+    for (int set = 1; set < 1 << count; set++) {
+        double image[3] = {local[0], local[1], local[2]};
+        for (int f = 0; f < count; f++)
+            for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * job->work->blocks->subdivision;
+        const float seen = field_at(block, job->values, image);
+        sum += seen < own ? seen : own;
+    }
+    return sum;
+}
+
+static float cut_at(float level, float gap) { return level + FLAT_SLOPE * gap; }
+
+static void mirror_blocks(void *context, int32_t begin, int32_t end)
+{
+    const BoundaryJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        const size_t first = (size_t)b * BLOCK_POINTS;
+        Near near;
+        block->bounded = false;
+        if (block->most <= least_that_counts(job->level)) continue;
+        near_block(job->work, block, &near);
+        if (near.count == 0) continue;
+        measure_block(job, block, &near);
+        if (!block->bounded) continue;
+        memcpy(job->work->lines + first, job->values + first, BLOCK_POINTS * sizeof(float));
+        for (int i = 0; i < BLOCK_POINTS; i++) {
+            const float gap = job->work->gaps[first + (size_t)i];
+            if (gap > 0.0f && gap < (float)IMAGE_REACH && job->values[first + (size_t)i] < cut_at(job->level, gap)) job->work->lines[first + (size_t)i] = with_images(job, block, &near, i);
+        }
+    }
+}
+
+static void take_mirrored(void *context, int32_t begin, int32_t end)
+{
+    const BoundaryJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        const size_t first = (size_t)b * BLOCK_POINTS;
+        if (!block->bounded) continue;
+        memcpy(job->values + first, job->work->lines + first, BLOCK_POINTS * sizeof(float));
+        field_bound(block, job->values + first);
+    }
+}
+
+void boundary_mirror(const FieldWork *work, float level, float *values)
+{
+    BoundaryJob job = {work, level, values};
+    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, mirror_blocks, &job);
+    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, take_mirrored, &job);
+}
+
+static void cut_blocks(void *context, int32_t begin, int32_t end)
+{
+    const BoundaryJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        const size_t first = (size_t)b * BLOCK_POINTS;
+        if (!block->bounded) continue;
+        for (size_t i = first; i < first + BLOCK_POINTS; i++) {
+            const float most = cut_at(job->level, job->work->gaps[i]);
+            job->values[i] = job->values[i] < most ? job->values[i] : most;
+        }
+        field_bound(block, job->values + first);
+    }
+}
+
+void boundary_cut(const FieldWork *work, float level, float *values)
+{
+    BoundaryJob job = {work, level, values};
+    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, cut_blocks, &job);
+}

@@ -1,0 +1,249 @@
+#include "skin/thin.h"
+
+#include <string.h>
+
+enum { THIN_GRAIN = 4 };
+
+/* F at a particle alone, which fills an eighth of a cell. */
+static const float ALONE = 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
+static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
+
+typedef struct ThinJob {
+    const FieldWork *work;
+    float level, *values, *more; /* F, T */
+} ThinJob;
+
+static size_t first_point(int32_t b) { return (size_t)b * BLOCK_POINTS; }
+
+/* ---- T ---- */
+
+/* F at a place, between the 8 points around it. */
+static float between(const float box[BOX_POINTS], const float local[3], float shift)
+{
+    int first[3];
+    float t[3], along[4];
+    for (int a = 0; a < 3; a++) {
+        const float at = local[a] + shift + (float)BOX_MARGIN;
+        first[a] = (int)at;
+        t[a] = at - (float)first[a];
+    }
+    const float *corner = &box[(first[2] * BOX_AXIS + first[1]) * BOX_AXIS + first[0]];
+    for (int k = 0; k < 4; k++) {
+        const float *pair = corner + (k / 2 * BOX_AXIS + k % 2) * BOX_AXIS;
+        along[k] = pair[0] + t[0] * (pair[1] - pair[0]);
+    }
+    const float near = along[0] + t[1] * (along[1] - along[0]), far = along[2] + t[1] * (along[3] - along[2]);
+    return near + t[2] * (far - near);
+}
+
+/* Whether F is large enough wherever a particle of the block may be. */
+static bool is_thick(const SkinBlocks *blocks, const SkinBlock *block, float enough)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
+        if (block->neighbour[n] == GRID_NOWHERE || blocks_at(blocks, block->neighbour[n])->least < enough) return false;
+    return true;
+}
+
+static void take_least(float *least, const float *other, int count)
+{
+    for (int i = 0; i < count; i++) least[i] = other[i] < least[i] ? other[i] : least[i];
+}
+
+/* The least of the points around each cell of a block, axis by axis: F of a particle in it is no less. */
+static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS], float cell[BLOCK_POINTS])
+{
+    const int cells = blocks_cells(blocks), points = blocks->subdivision + 2, plane = BOX_AXIS * BOX_AXIS;
+    for (int z = 0; z < cells; z++) {
+        float slab[BOX_AXIS * BOX_AXIS];
+        const float *from = near + (z * blocks->subdivision + BOX_MARGIN - 1) * plane;
+        memcpy(slab, from, sizeof slab);
+        for (int k = 1; k < points; k++) take_least(slab, from + k * plane, plane);
+        for (int y = 0; y < cells; y++) {
+            float row[BOX_AXIS];
+            const float *beside = slab + (y * blocks->subdivision + BOX_MARGIN - 1) * BOX_AXIS;
+            memcpy(row, beside, sizeof row);
+            for (int k = 1; k < points; k++) take_least(row, beside + k * BOX_AXIS, BOX_AXIS);
+            for (int x = 0; x < cells; x++) {
+                float *least = &cell[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x];
+                const float *along = row + x * blocks->subdivision + BOX_MARGIN - 1;
+                *least = along[0];
+                for (int k = 1; k < points; k++) take_least(least, along + k, 1);
+            }
+        }
+    }
+}
+
+/* Notes who is spray, and adds what a row gives to T. */
+static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, const float local[3], float filling, float *box)
+{
+    const FieldWork *work = job->work;
+    const float enough = THIN_SHARE * job->level, amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
+    const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
+    int32_t cell[3];
+    work->spray[row] = filling <= ALONE;
+    if (work->spray[row]) block->spray += amount;
+    if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
+    field_splat(box, local, (times - 1.0f) * amount);
+    blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+    cells_add(&block->splatted, cell);
+}
+
+static void thicken_block(const ThinJob *job, SkinBlock *block, float *box)
+{
+    const FieldWork *work = job->work;
+    const float enough = THIN_SHARE * job->level, shift = field_shift(work->blocks);
+    float near[BOX_POINTS], least[BLOCK_POINTS];
+    blocks_gather(block, job->values, near);
+    least_of_cells(work->blocks, near, least);
+    for (uint32_t r = 0; r < block->runs; r++) {
+        const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
+        for (uint32_t row = run->begin; row < run->end; row++) {
+            float local[3];
+            int32_t cell[3];
+            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
+            blocks_locate(work->blocks, block, work->matter->particles, row, local);
+            const float filling = between(near, local, shift);
+            if (filling < enough) thicken_row(job, block, row, local, filling, box);
+        }
+    }
+}
+
+static void thicken_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        block->splatted = cells_none();
+        block->spray = 0.0f;
+        for (uint32_t r = 0; r < block->runs; r++) {
+            const BlockRun *run = blocks_run(job->work->blocks, block->first_run + r);
+            memset(job->work->spray + run->begin, 0, run->end - run->begin);
+        }
+        if (!is_thick(job->work->blocks, block, THIN_SHARE * job->level)) thicken_block(job, block, job->work->boxes + (size_t)b * BOX_POINTS);
+    }
+}
+
+/* ---- k ---- */
+
+/* Values in the middles of the cubes above a block's points. */
+static void find_middles(const SkinBlock *block, const float *values, float middle[BLOCK_POINTS])
+{
+    enum { PLANE = BOX_AXIS * BOX_AXIS };
+    float box[BOX_POINTS], pair[BOX_POINTS], four[PLANE];
+    blocks_gather(block, values, box);
+    for (int i = 0; i < BOX_POINTS - 1; i++) pair[i] = box[i] + box[i + 1];
+    for (int z = 0; z < BLOCK_AXIS; z++) {
+        const float *slab = pair + (z + BOX_MARGIN) * PLANE;
+        for (int i = 0; i < PLANE - 1; i++) four[i] = slab[i] + slab[i + PLANE];
+        for (int y = 0; y < BLOCK_AXIS; y++) {
+            const float *row = four + (y + BOX_MARGIN) * BOX_AXIS + BOX_MARGIN;
+            for (int x = 0; x < BLOCK_AXIS; x++) middle[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.125f * (row[x] + row[x + BOX_AXIS]);
+        }
+    }
+}
+
+/* What there is, and what the surface encloses of it with each share; what lies in obstacles does not count. */
+static void weigh_block(const ThinJob *job, SkinBlock *block)
+{
+    const float *gaps = job->work->gaps + first_point((int32_t)(block - blocks_at(job->work->blocks, 0)));
+    float own[BLOCK_POINTS], more[BLOCK_POINTS];
+    find_middles(block, job->values, own);
+    find_middles(block, job->more, more);
+    for (int i = 0; i < BLOCK_POINTS && block->bounded; i++) more[i] = gaps[i] > 0.0f ? more[i] : 0.0f;
+    for (int i = 0; i < BLOCK_POINTS; i++) block->thin += more[i] != 0.0f ? own[i] : 0.0f;
+    for (int k = 0; k <= THICKENINGS; k++) {
+        const float share = (float)k / THICKENINGS;
+        int32_t inside = 0;
+        for (int i = 0; i < BLOCK_POINTS; i++) inside += (more[i] != 0.0f) & (own[i] + share * more[i] >= job->level);
+        block->enclosed[k] = (float)inside;
+    }
+}
+
+/* Where T reaches no block, it is 0. */
+static void clear_more(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++)
+        if (!blocks_at(job->work->blocks, b)->wanted) memset(job->more + first_point(b), 0, BLOCK_POINTS * sizeof(float));
+}
+
+static void weigh_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        block->thin = b < job->work->blocks->with_rows ? -block->spray : 0.0f;
+        memset(block->enclosed, 0, sizeof block->enclosed);
+        if (block->wanted) weigh_block(job, block);
+    }
+}
+
+static void choose_share(const SkinBlocks *blocks, SkinBlock *block)
+{
+    float thin = 0.0f, enclosed[THICKENINGS + 1] = {0};
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
+        if (block->neighbour[n] == GRID_NOWHERE) continue;
+        const SkinBlock *other = blocks_at(blocks, block->neighbour[n]);
+        thin += other->thin;
+        for (int k = 0; k <= THICKENINGS; k++) enclosed[k] += other->enclosed[k];
+    }
+    int k = 0;
+    while (k < THICKENINGS && enclosed[k + 1] < thin) k++;
+    const float rise = k < THICKENINGS ? enclosed[k + 1] - enclosed[k] : 0.0f;
+    const float way = rise > 0.0f ? (thin - enclosed[k]) / rise : 0.0f;
+    block->thickening = ((float)k + (way < 0.0f ? 0.0f : way)) / THICKENINGS;
+}
+
+static void choose_shares(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) choose_share(job->work->blocks, blocks_at(job->work->blocks, b));
+}
+
+/* ---- F + k T ---- */
+
+/* From three values at the middles of blocks along an axis: that at a point of the block between. */
+static float from_middles(const float *value, int step, int point)
+{
+    const float at = ((float)point + 0.5f) / BLOCK_AXIS - 0.5f;
+    return at < 0.0f ? value[step] + at * (value[step] - value[0]) : value[step] + at * (value[2 * step] - value[step]);
+}
+
+static void add_block(const ThinJob *job, SkinBlock *block, float *values, const float *more)
+{
+    float share[BLOCK_NEIGHBOURS], plane[9], line[3];
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) /* where no block is, there is none of its own */
+        share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(job->work->blocks, block->neighbour[n])->thickening;
+    for (int z = 0; z < BLOCK_AXIS; z++) {
+        for (int i = 0; i < 9; i++) plane[i] = from_middles(share + i, 9, z);
+        for (int y = 0; y < BLOCK_AXIS; y++) {
+            const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
+            for (int i = 0; i < 3; i++) line[i] = from_middles(plane + i, 3, y);
+            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * from_middles(line, 1, x);
+        }
+    }
+    field_close_off(block, values);
+    field_bound(block, values);
+}
+
+static void add_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        if (block->wanted) add_block(job, block, job->values + first_point(b), job->more + first_point(b));
+    }
+}
+
+void thin_add(const FieldWork *work, float level, float *values)
+{
+    const int32_t count = work->blocks->count;
+    ThinJob job = {work, level, values, work->lines};
+    pool_for(work->pool, work->blocks->with_rows, THIN_GRAIN, thicken_blocks, &job);
+    field_collect(work, job.more);
+    pool_for(work->pool, count, THIN_GRAIN, clear_more, &job);
+    pool_for(work->pool, count, THIN_GRAIN, weigh_blocks, &job);
+    pool_for(work->pool, count, THIN_GRAIN, choose_shares, &job);
+    pool_for(work->pool, count, THIN_GRAIN, add_blocks, &job);
+}
