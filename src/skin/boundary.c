@@ -57,7 +57,7 @@ static void near_block(const FieldWork *work, const SkinBlock *block, Near *near
 {
     const double middle[3] = {0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1)};
     const Grid flat = {.dimension = 3};
-    ContactFrame frame = {.colliders = &work->boundary->colliders, .grid = &flat, .cell_size = work->cell_size};
+    ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&work->boundary->colliders, .grid = &flat, .cell_size = work->cell_size};
     double place[3];
     place_of(work, block, middle, place);
     field_near(near, &frame, place, sqrt(3.0) * middle[0] / work->blocks->subdivision + IMAGE_REACH, false);
@@ -101,8 +101,6 @@ static void measure_part(const BoundaryJob *job, SkinBlock *block, const Near *n
 
 static void measure_block(const BoundaryJob *job, SkinBlock *block, const Near *near)
 {
-    float *gaps = job->work->gaps + (size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
-    for (int i = 0; i < BLOCK_POINTS; i++) gaps[i] = INFINITY;
     for (int n = 0; n < 8; n++) {
         const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
         if (part_is_near(job->work, block, near, first)) measure_part(job, block, near, first);
@@ -136,36 +134,69 @@ static float field_at(const SkinBlock *block, const float *values, const double 
     return sum;
 }
 
-/* F and its images at a point. */
+/* The planes around a point: of an obstacle by itself that of its nearest place. A baked one may have hollows. */
+static int planes_at(const Near *near, const double place[3], Face face[FIELD_FACES])
+{
+    const Solid *solid = field_solid(near, near->obstacle[0]);
+    if (near->count > 1 || solid->grid) return field_faces(near, place, IMAGE_REACH, face);
+    face[0].distance = solid_distance(solid, place, face[0].normal) / near->cell_size;
+    return 1;
+}
+
+/* Reflects a place in points in a set of planes. */
+static void reflect(const FieldWork *work, const Face *face, int set, const double local[3], double image[3])
+{
+    memcpy(image, local, 3 * sizeof *image);
+    for (int f = 0; set >> f; f++)
+        for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * work->blocks->subdivision;
+}
+
+/* The share of an image that lies in obstacles: beside the end of a wall is open space, whose matter is no image. */
+static float hidden_share(const FieldWork *work, const SkinBlock *block, const Near *near, const double image[3])
+{
+    double place[3];
+    place_of(work, block, image, place);
+    const double share = 0.5 - field_distance(near, place) * work->blocks->subdivision;
+    return share < 0.0 ? 0.0f : share > 1.0 ? 1.0f : (float)share;
+}
+
+/* F at a point and at all that it is reflected to. Of a point in an obstacle it is that of its reflection before it. */
 static float with_images(const BoundaryJob *job, const SkinBlock *block, const Near *near, int i)
 {
-    const float own = job->values[(size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS + (size_t)i];
-    double local[3], place[3];
+    double local[3], place[3], image[3];
     Face face[FIELD_FACES];
-    float sum = own;
+    int before = 0;
     point_of(i, local);
     place_of(job->work, block, local, place);
-    const int count = field_faces(near, place, IMAGE_REACH, face);
-    for (int set = 1; set < 1 << count; set++) {
-        double image[3] = {local[0], local[1], local[2]};
-        for (int f = 0; f < count; f++)
-            for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * job->work->blocks->subdivision;
-        const float seen = field_at(block, job->values, image);
-        sum += seen < own ? seen : own;
+    const int count = planes_at(near, place, face);
+    for (int f = 0; f < count; f++) before |= (face[f].distance < 0.0) << f;
+    reflect(job->work, face, before, local, image);
+    const float own = field_at(block, job->values, image);
+    float sum = own;
+    for (int set = 0; set < 1 << count; set++) {
+        if (set == before) continue;
+        reflect(job->work, face, set, local, image);
+        const float share = hidden_share(job->work, block, near, image), seen = share > 0.0f ? field_at(block, job->values, image) : 0.0f;
+        sum += share * (seen < own ? seen : own);
     }
     return sum;
 }
+
+/* F at a flat surface, so far before it. */
+static float flat_at(float gap) { return 0.5f + FLAT_SLOPE * gap; }
 
 static float cut_at(float level, float gap) { return level + FLAT_SLOPE * gap; }
 
 static void mirror_blocks(void *context, int32_t begin, int32_t end)
 {
     const BoundaryJob *job = context;
+    const float deepest = 1.0f / (float)job->work->blocks->subdivision; /* the points that cubes at the surface have in obstacles */
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(job->work->blocks, b);
         const size_t first = (size_t)b * BLOCK_POINTS;
         Near near;
         block->bounded = false;
+        for (int i = 0; i < BLOCK_POINTS; i++) job->work->gaps[first + (size_t)i] = INFINITY;
         if (block->most <= least_that_counts(job->level)) continue;
         near_block(job->work, block, &near);
         if (near.count == 0) continue;
@@ -173,8 +204,10 @@ static void mirror_blocks(void *context, int32_t begin, int32_t end)
         if (!block->bounded) continue;
         memcpy(job->work->lines + first, job->values + first, BLOCK_POINTS * sizeof(float));
         for (int i = 0; i < BLOCK_POINTS; i++) {
-            const float gap = job->work->gaps[first + (size_t)i];
-            if (gap > 0.0f && gap < (float)IMAGE_REACH && job->values[first + (size_t)i] < cut_at(job->level, gap)) job->work->lines[first + (size_t)i] = with_images(job, block, &near, i);
+            const float gap = job->work->gaps[first + (size_t)i], own = job->values[first + (size_t)i];
+            if (gap <= -deepest || gap >= (float)IMAGE_REACH) continue;
+            /* Whole matter has an image like itself. */
+            job->work->lines[first + (size_t)i] = own >= flat_at(gap) ? own + flat_at(-gap) : with_images(job, block, &near, i);
         }
     }
 }

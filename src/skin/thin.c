@@ -6,7 +6,7 @@ enum { THIN_GRAIN = 4 };
 
 /* F at a particle alone, which fills an eighth of a cell. */
 static const float ALONE = 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
-static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
+static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f, SHARE_MOST = 2.0f;
 
 typedef struct ThinJob {
     const FieldWork *work;
@@ -81,7 +81,10 @@ static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, cons
     const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
     int32_t cell[3];
     work->spray[row] = filling <= ALONE;
-    if (work->spray[row]) block->spray += amount;
+    if (work->spray[row]) {
+        block->spray += amount;
+        return;
+    }
     if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
     field_splat(box, local, (times - 1.0f) * amount);
     blocks_cell(work->blocks, block, work->matter->particles, row, cell);
@@ -126,38 +129,69 @@ static void thicken_blocks(void *context, int32_t begin, int32_t end)
 
 /* ---- k ---- */
 
-/* Values in the middles of the cubes above a block's points. */
-static void find_middles(const SkinBlock *block, const float *values, float middle[BLOCK_POINTS])
+static float share_at(float step) { return step * SHARE_MOST / THICKENINGS; }
+
+/* Means over the corners of the cubes above a block's points. */
+static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
 {
-    enum { PLANE = BOX_AXIS * BOX_AXIS };
-    float box[BOX_POINTS], pair[BOX_POINTS], four[PLANE];
-    blocks_gather(block, values, box);
-    for (int i = 0; i < BOX_POINTS - 1; i++) pair[i] = box[i] + box[i + 1];
+    enum { PLANE = BOX_AXIS * BOX_AXIS, BEGIN = BOX_MARGIN * PLANE, END = BEGIN + (BLOCK_AXIS + 1) * PLANE };
+    float pair[END - BEGIN], four[PLANE];
+    for (int i = BEGIN; i < END; i++) pair[i - BEGIN] = box[i] + box[i + 1];
     for (int z = 0; z < BLOCK_AXIS; z++) {
-        const float *slab = pair + (z + BOX_MARGIN) * PLANE;
-        for (int i = 0; i < PLANE - 1; i++) four[i] = slab[i] + slab[i + PLANE];
+        for (int i = 0; i < PLANE; i++) four[i] = pair[z * PLANE + i] + pair[(z + 1) * PLANE + i];
         for (int y = 0; y < BLOCK_AXIS; y++) {
             const float *row = four + (y + BOX_MARGIN) * BOX_AXIS + BOX_MARGIN;
-            for (int x = 0; x < BLOCK_AXIS; x++) middle[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.125f * (row[x] + row[x + BOX_AXIS]);
+            for (int x = 0; x < BLOCK_AXIS; x++) mean[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.125f * (row[x] + row[x + BOX_AXIS]);
         }
     }
 }
 
-/* What there is, and what the surface encloses of it with each share; what lies in obstacles does not count. */
-static void weigh_block(const ThinJob *job, SkinBlock *block)
+/* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
+static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
+
+/* Of places where F and T have these values: what there is, and what the surface encloses of it with each share of T. `room`: what a place counts. */
+static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], float room[BLOCK_POINTS])
 {
-    const float *gaps = job->work->gaps + first_point((int32_t)(block - blocks_at(job->work->blocks, 0)));
-    float own[BLOCK_POINTS], more[BLOCK_POINTS];
-    find_middles(block, job->values, own);
-    find_middles(block, job->more, more);
-    for (int i = 0; i < BLOCK_POINTS && block->bounded; i++) more[i] = gaps[i] > 0.0f ? more[i] : 0.0f;
-    for (int i = 0; i < BLOCK_POINTS; i++) block->thin += more[i] != 0.0f ? own[i] : 0.0f;
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = more[i] != 0.0f ? room[i] : 0.0f;
+    for (int i = 0; i < BLOCK_POINTS; i++) block->thin += room[i] * own[i];
     for (int k = 0; k <= THICKENINGS; k++) {
-        const float share = (float)k / THICKENINGS;
-        int32_t inside = 0;
-        for (int i = 0; i < BLOCK_POINTS; i++) inside += (more[i] != 0.0f) & (own[i] + share * more[i] >= job->level);
-        block->enclosed[k] = (float)inside;
+        const float share = share_at((float)k);
+        float inside = 0.0f;
+        for (int i = 0; i < BLOCK_POINTS; i++) inside += own[i] + share * more[i] >= level ? room[i] : 0.0f;
+        block->enclosed[k] += inside;
     }
+}
+
+/* 1 in the open, 0 in obstacles. */
+static void find_open(const float *gaps, float *open, int count)
+{
+    for (int i = 0; i < count; i++) open[i] = gaps[i] > 0.0f ? 1.0f : 0.0f;
+}
+
+static void weigh_corners(const ThinJob *job, SkinBlock *block, const float *own, const float *more)
+{
+    float room[BLOCK_POINTS];
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
+    if (block->bounded) find_open(job->work->gaps + (own - job->values), room, BLOCK_POINTS);
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= CORNER_WEIGHT;
+    weigh_places(block, job->level, own, more, room);
+}
+
+static void weigh_middles(const ThinJob *job, SkinBlock *block)
+{
+    float box[BOX_POINTS], own[BLOCK_POINTS], more[BLOCK_POINTS], room[BLOCK_POINTS];
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
+    if (block->bounded) {
+        blocks_gather(block, job->work->gaps, box);
+        find_open(box, box, BOX_POINTS);
+        find_means(box, room);
+    }
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= MIDDLE_WEIGHT;
+    blocks_gather(block, job->values, box);
+    find_means(box, own);
+    blocks_gather(block, job->more, box);
+    find_means(box, more);
+    weigh_places(block, job->level, own, more, room);
 }
 
 /* Where T reaches no block, it is 0. */
@@ -175,7 +209,9 @@ static void weigh_blocks(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(job->work->blocks, b);
         block->thin = b < job->work->blocks->with_rows ? -block->spray : 0.0f;
         memset(block->enclosed, 0, sizeof block->enclosed);
-        if (block->wanted) weigh_block(job, block);
+        if (!block->wanted) continue;
+        weigh_corners(job, block, job->values + first_point(b), job->more + first_point(b));
+        weigh_middles(job, block);
     }
 }
 
@@ -192,7 +228,7 @@ static void choose_share(const SkinBlocks *blocks, SkinBlock *block)
     while (k < THICKENINGS && enclosed[k + 1] < thin) k++;
     const float rise = k < THICKENINGS ? enclosed[k + 1] - enclosed[k] : 0.0f;
     const float way = rise > 0.0f ? (thin - enclosed[k]) / rise : 0.0f;
-    block->thickening = ((float)k + (way < 0.0f ? 0.0f : way)) / THICKENINGS;
+    block->thickening = share_at((float)k + (way < 0.0f ? 0.0f : way));
 }
 
 static void choose_shares(void *context, int32_t begin, int32_t end)
