@@ -1,5 +1,6 @@
 #include "skin/thin.h"
 
+#include <math.h>
 #include <string.h>
 
 enum { THIN_GRAIN = 4 };
@@ -149,16 +150,18 @@ static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
 /* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
 static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
 
-/* Of places where F and T have these values: what there is, and what the surface encloses of it with each share of T. `room`: what a place counts. */
-static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], float room[BLOCK_POINTS])
+/* Of places where F and T have these values: what there is, and what each step of the share adds to what the surface encloses. `room`: what a place counts. T is
+ * below 0 only by a ripple of S. */
+static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
 {
-    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = more[i] != 0.0f ? room[i] : 0.0f;
-    for (int i = 0; i < BLOCK_POINTS; i++) block->thin += room[i] * own[i];
-    for (int k = 0; k <= THICKENINGS; k++) {
-        const float share = share_at((float)k);
-        float inside = 0.0f;
-        for (int i = 0; i < BLOCK_POINTS; i++) inside += own[i] + share * more[i] >= level ? room[i] : 0.0f;
-        block->enclosed[k] += inside;
+    for (int i = 0; i < BLOCK_POINTS; i++) {
+        if (more[i] == 0.0f) continue;
+        const float lacks = level - own[i], steps = lacks / (more[i] * share_at(1.0f));
+        block->thin += room[i] * own[i];
+        if (lacks <= 0.0f)
+            block->enclosed[0] += room[i];
+        else if (steps > 0.0f && steps <= THICKENINGS)
+            block->enclosed[(int)ceilf(steps)] += room[i];
     }
 }
 
@@ -212,6 +215,7 @@ static void weigh_blocks(void *context, int32_t begin, int32_t end)
         if (!block->wanted) continue;
         weigh_corners(job, block, job->values + first_point(b), job->more + first_point(b));
         weigh_middles(job, block);
+        for (int k = 0; k < THICKENINGS; k++) block->enclosed[k + 1] += block->enclosed[k];
     }
 }
 
