@@ -7,7 +7,10 @@ enum { THIN_GRAIN = 4 };
 
 /* F at a particle alone, which fills an eighth of a cell. */
 static const float ALONE = 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
-static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f, SHARE_MOST = 2.0f;
+/* c and the most of s, see thin.h. */
+static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
+/* The most of k: with it s is up to 7, and a particle alone would ask for 6. */
+static const float SHARE_MOST = 2.0f;
 
 typedef struct ThinJob {
     const FieldWork *work;
