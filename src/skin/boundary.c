@@ -113,24 +113,24 @@ static void measure_block(const BoundaryJob *job, SkinBlock *block, const Near *
 /* F at a place in points from the first point of a block, which is in that block or in one beside it. */
 static float field_at(const SkinBlock *block, const float *values, const double local[3])
 {
-    int first[3];
-    float t[3], sum = 0.0f;
+    static const unsigned neighbour_step[3] = {1, 3, 9}, point_step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
+    unsigned neighbour[3][2], at[3][2]; /* per axis, of the points on either side */
+    float weight[3][2], sum = 0.0f;
     for (int a = 0; a < 3; a++) {
-        first[a] = (int)floor(local[a]);
-        t[a] = (float)(local[a] - first[a]);
+        const double from = local[a] + BLOCK_AXIS; /* counted from the first point of the block before */
+        if (!(from >= 0.0 && from < 3 * BLOCK_AXIS - 1)) return 0.0f;
+        const unsigned first = (unsigned)from;
+        weight[a][1] = (float)(from - first);
+        weight[a][0] = 1.0f - weight[a][1];
+        for (unsigned up = 0; up < 2; up++) {
+            neighbour[a][up] = (first + up) / BLOCK_AXIS * neighbour_step[a];
+            at[a][up] = (first + up) % BLOCK_AXIS * point_step[a];
+        }
     }
     for (int c = 0; c < 8; c++) {
-        float weight = 1.0f;
-        int neighbour = 0, at = 0;
-        for (int a = 2; a >= 0; a--) {
-            const int up = c >> a & 1, k = first[a] + up + BLOCK_AXIS;
-            if (k < 0 || k >= 3 * BLOCK_AXIS) return 0.0f;
-            weight *= up ? t[a] : 1.0f - t[a];
-            neighbour = 3 * neighbour + k / BLOCK_AXIS;
-            at = BLOCK_AXIS * at + k % BLOCK_AXIS;
-        }
-        const int32_t other = block->neighbour[neighbour];
-        if (other != GRID_NOWHERE) sum += weight * values[(size_t)other * BLOCK_POINTS + (size_t)at];
+        const int x = c & 1, y = c >> 1 & 1, z = c >> 2;
+        const int32_t other = block->neighbour[neighbour[0][x] + neighbour[1][y] + neighbour[2][z]];
+        if (other != GRID_NOWHERE) sum += weight[0][x] * weight[1][y] * weight[2][z] * values[(size_t)other * BLOCK_POINTS + at[0][x] + at[1][y] + at[2][z]];
     }
     return sum;
 }
@@ -162,7 +162,7 @@ static float hidden_share(const FieldWork *work, const SkinBlock *block, const N
 }
 
 /* F at a point and at all that it is reflected to. Of a point in an obstacle it is that of its reflection before it. */
-static float with_images(const BoundaryJob *job, const SkinBlock *block, const Near *near, int i)
+static float with_images(const BoundaryJob *job, const SkinBlock *block, const Near *near, int i, float at_point)
 {
     double local[3], place[3], image[3];
     Face face[FIELD_FACES];
@@ -172,7 +172,7 @@ static float with_images(const BoundaryJob *job, const SkinBlock *block, const N
     const int count = planes_at(near, place, face);
     for (int f = 0; f < count; f++) before |= (face[f].distance < 0.0) << f;
     reflect(job->work, face, before, local, image);
-    const float own = field_at(block, job->values, image);
+    const float own = before ? field_at(block, job->values, image) : at_point;
     float sum = own;
     for (int set = 0; set < 1 << count; set++) {
         if (set == before) continue;
@@ -208,7 +208,7 @@ static void mirror_blocks(void *context, int32_t begin, int32_t end)
             const float gap = job->work->gaps[first + (size_t)i], own = job->values[first + (size_t)i];
             if (gap <= -deepest || gap >= (float)IMAGE_REACH) continue;
             /* Whole matter has an image like itself. */
-            job->work->lines[first + (size_t)i] = own >= flat_at(gap) ? own + flat_at(-gap) : with_images(job, block, &near, i);
+            job->work->lines[first + (size_t)i] = own >= flat_at(gap) ? own + flat_at(-gap) : with_images(job, block, &near, i, own);
         }
     }
 }
@@ -220,8 +220,7 @@ static void take_mirrored(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(job->work->blocks, b);
         const size_t first = (size_t)b * BLOCK_POINTS;
         if (!block->bounded) continue;
-        memcpy(job->values + first, job->work->lines + first, BLOCK_POINTS * sizeof(float));
-        field_bound(block, job->values + first);
+        memcpy(job->values + first, job->work->lines + first, BLOCK_POINTS * sizeof(float)); /* it grew, so the least is no more than it is */
     }
 }
 
