@@ -7,7 +7,7 @@
 
 enum { BOUNDARY_GRAIN = 2, PART_AXIS = 4 };
 
-/* So far [cells] outside of a flat surface F is 0, but for a ripple of S: what is farther from a wall than this has no image. */
+/* So far [cells] outside of a flat surface F is 0 but for a ripple of S: what is farther from a wall has no image. */
 static const double IMAGE_REACH = 0.75;
 /* Of F at a flat surface, per cell: S W at 0. */
 static const float FLAT_SLOPE = 29.0f / 32.0f;

@@ -8,8 +8,9 @@
  * But matter that came loose, a jet that stretches or a cloud of drops, has F < c L too, and with all of s the surface encloses the air in it. So a share k of
  * s - 1 is taken, such that the surface encloses the volume that is there. With T the sum of what s adds, it is that of
  *     F + k T = L,   where   sum over points of [F + k T >= L] = sum of F,   both where T is not 0.
- * W adds up to 1 over the lattice, so the sum of F is the particles' volume. Points in the middles of cubes are counted: about a thin layer they are right on the mean, as the triangles
- * are. k is found for a block with those around it, and changes linearly from one block's middle to the next.
+ * W adds up to 1 over the lattice, so the sum of F is the particles' volume. Corners and middles of the lattice's cubes are counted, by Simpson's rule: corners alone
+ * give a layer too much that only just has one plane of them. k is found for a block with those around it, and changes linearly from one block's middle to
+ * the next.
  *
  * A particle that has no more of F than it gives itself is spray: it is no part of the surface, and its volume does not count. */
 #ifndef PBMPM_SRC_SKIN_THIN_H
