@@ -12,7 +12,7 @@ extern "C" {
  * They do not depend on the number of threads. Who asks for none pays nothing.
  *
  * The surface is where the filling (query.h) is `level`. It is closed: each edge has two triangles, each vertex one ring of them. Matter that touches a wall or an
- * obstacle ends on it, where it stands now. So do only the obstacles that act on one of the materials. Vertices are numbered block by block, as the particles lie in memory.
+ * obstacle ends on it, where it stands now. Obstacles that act on none of the materials do not count. Vertices are numbered block by block, as the particles lie in memory.
  *
  * What came loose, such as a jet that stretches, encloses its own volume without the air in it. What is crushed, and has less room than its volume, has no more.
  *
