@@ -271,6 +271,18 @@ static void test_obstacles_count_where_they_stand(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, alone, volume_of(extract(0, world, &def)));
 }
 
+/* Films on both sides of a plate, thinner than a cell, are no images of each other. */
+static void test_a_plate_between_films(void)
+{
+    const pbmpm_world_id world = space(0.1f, 2000, 1);
+    const pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
+    create_collider(world, box_shape(0, 0, 0, 0.8f, 0.02f, 0.8f), false);
+    for (int side = -1; side <= 1; side += 2) fill_shape(world, water, box_shape(0, 0.045f * (float)side, 0, 0.5f, 0.025f, 0.5f), STILL);
+    const pbmpm_surface_def def = definition();
+    TEST_ASSERT_DOUBLE_WITHIN(0.1, 1.0, volume_of(extract(0, world, &def)) / (world_stats(world).mass / 1000.0));
+    check_closed(&made[0]);
+}
+
 /* Matter that came loose does not have the air in it: a cloud that fills a third of its space encloses what it has. 0.1: of what it has a tenth may be spray. */
 static void test_loose_matter(void)
 {
@@ -748,6 +760,7 @@ int main(void)
     RUN_TEST(test_a_pool_ends_at_the_walls);
     RUN_TEST(test_walls_are_flat);
     RUN_TEST(test_obstacles_count_where_they_stand);
+    RUN_TEST(test_a_plate_between_films);
     RUN_TEST(test_loose_matter);
     RUN_TEST(test_clouds_are_closed);
     RUN_TEST(test_thin_matter);
