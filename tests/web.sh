@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 . packaging/tools.sh
 . tests/emulated.sh
 node=$(need_tool node nodejs)
-"$node" -e 'process.exit(parseInt(process.versions.node) < 20)' || stop "Node 20 or newer is needed; this is $("$node" --version)"
+"$node" -e 'process.exit(parseInt(process.versions.node) < 20 ? 1 : 0)' || stop "Node 20 or newer is needed; this is $("$node" --version)"
 need_llvm
 make_tools
 strict_build linux-x64
