@@ -11,10 +11,12 @@ extern "C" {
 /* Surfaces are of the present state, after steps and after edits, in 3D. They change nothing: no view expires, and no later result depends on them.
  * They do not depend on the number of threads. Who asks for none pays nothing.
  *
- * The surface is where the filling (query.h) is `level`. It is closed: at walls and obstacles it runs along the matter's own boundary. Each edge has two triangles,
- * each vertex one ring of them. Vertices are numbered block by block, as the particles lie in memory.
+ * The surface is where the filling (query.h) is `level`. It is closed: each edge has two triangles, each vertex one ring of them. Matter that touches a wall or an
+ * obstacle ends on it, where it stands now. Obstacles that act on none of the materials do not count. Vertices are numbered block by block, as the particles lie in memory.
  *
- * Calls take memory of the world: some 80 bytes per particle with subdivision 2, 16 with 1, and a third more for velocities. They use the world's threads. Several threads may
+ * What came loose, such as a jet that stretches, encloses its own volume without the air in it. What is crushed, and has less room than its volume, has no more.
+ *
+ * Calls take memory of the world: some 90 bytes per particle with subdivision 2, 18 with 1, and a third more for velocities. They use the world's threads. Several threads may
  * read the world meanwhile, but one at a time makes a surface. */
 
 /** What a surface is of, and how fine. Fill it with pbmpm_surface_def_init(), then change what differs. */

@@ -50,15 +50,21 @@ static int32_t want_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
 
 static int32_t floor_divide(int32_t a, int32_t b) { return a / b - (a % b < 0); }
 
-/* Whether a row is in the block, whose bounds then hold it. */
-static bool bound_row(const SkinBlocks *blocks, SkinBlock *block, const Particles *p, uint32_t row)
+/* The end of the rows from one on that count and are in the block, whose bounds then hold them. */
+static uint32_t bound_rows(const SkinBlocks *blocks, SkinBlock *block, const SkinMatter *matter, uint32_t row)
 {
-    int32_t cell[3];
-    blocks_cell(blocks, block, p, row, cell);
-    for (int a = 0; a < 3; a++)
-        if (cell[a] < 0 || cell[a] >= blocks_cells(blocks)) return false;
-    cells_add(&block->cells, cell);
-    return true;
+    const Particles *p = matter->particles;
+    const uint32_t cells = (uint32_t)blocks_cells(blocks);
+    CellBox box = block->cells; /* a copy: nobody else writes to it */
+    int32_t first[3];
+    for (int a = 0; a < 3; a++) first[a] = blocks->anchor[a] + block->place[a] * (int32_t)cells;
+    for (; row < p->count && matter_has(matter, row); row++) {
+        const int32_t cell[3] = {p->cell[0][row] - first[0], p->cell[1][row] - first[1], p->cell[2][row] - first[2]};
+        if ((uint32_t)cell[0] >= cells || (uint32_t)cell[1] >= cells || (uint32_t)cell[2] >= cells) break;
+        cells_add(&box, cell);
+    }
+    block->cells = box;
+    return row;
 }
 
 /* The run that begins with a row; false: no memory. */
@@ -82,8 +88,7 @@ static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matt
         }
         if (!find_run(blocks, memory, p, row, &run)) return false;
         SkinBlock *block = blocks_at(blocks, run.block);
-        while (row < p->count && matter_has(matter, row) && bound_row(blocks, block, p, row)) row++;
-        run.end = row;
+        run.end = row = bound_rows(blocks, block, matter, row);
         block->runs++;
         block->volume += (float)(run.end - run.begin) * matter_volume(matter, run.begin);
         const size_t count = (size_t)blocks->runs++;
@@ -98,8 +103,9 @@ static const float SPRAY_MOST = 1.0f;
 
 static bool is_spray(const SkinBlocks *blocks, const SkinBlock *block)
 {
-    float volume = 0.0f;
+    float volume = block->volume;
     for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
+        if (n == BLOCK_NEIGHBOURS / 2) continue; /* that is itself */
         int32_t place[3];
         grid_neighbour_offset(n, 3, place);
         for (int a = 0; a < 3; a++) place[a] += block->place[a];

@@ -17,7 +17,8 @@ enum {
     BOX_MARGIN = 2,
     BOX_AXIS = BLOCK_AXIS + 2 * BOX_MARGIN,
     BOX_POINTS = BOX_AXIS * BOX_AXIS * BOX_AXIS,
-    BLOCK_NEIGHBOURS = 27
+    BLOCK_NEIGHBOURS = 27,
+    THICKENINGS = 8
 };
 
 /* Rows of particles that follow one another in a block. */
@@ -39,9 +40,11 @@ typedef struct SkinBlock {
     uint32_t first_run, runs;
     float volume;                        /* of its particles [cells] */
     CellBox reached;                     /* its points that boxes which are splatted change */
+    bool bounded;                        /* obstacles are near, see boundary.h */
     bool wanted;                         /* the field is to be worked out here */
     int32_t kept_as;                     /* its number once spray is left out */
     float least, most;       /* of the field */
+    float spray, thin, enclosed[THICKENINGS + 1], thickening; /* see thin.h */
     uint32_t first_vertex, vertices, first_triangle, triangles;
 } SkinBlock;
 

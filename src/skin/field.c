@@ -22,8 +22,8 @@ static Four spline(float r)
     return (Four){0.5f * low * low, 0.75f - r * r, 0.5f * high * high, 0.0f};
 }
 
-/* Adds to the 27 points around a place; four at a time along x, where the last gets 0. */
-static void splat(float *box, const float local[3], float amount)
+/* Four at a time along x, where the last gets 0. */
+void field_splat(float *box, const float local[3], float amount)
 {
     Four w[3];
     int first[3];
@@ -49,17 +49,14 @@ typedef struct SplatJob {
     const FieldWork *work;
     FieldAmount *amount;
     int channel;
-    float level;
     float *values;
-    bool adds, at_surface; /* to what is there; only near the surface */
+    bool at_surface; /* only near it */
     int axis;
     const float *from;
     float *to;
-    uint8_t *outside;
 } SplatJob;
 
-/* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
-static float points_per_cell(const SkinBlocks *blocks)
+float field_points_per_cell(const SkinBlocks *blocks)
 {
     return (float)(blocks->subdivision * blocks->subdivision * blocks->subdivision);
 }
@@ -68,7 +65,7 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
     const FieldWork *work = job->work;
-    const float scale = points_per_cell(work->blocks);
+    const float scale = field_points_per_cell(work->blocks);
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(work->blocks, b);
         float *box = work->boxes + (size_t)b * BOX_POINTS;
@@ -80,7 +77,7 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
             for (uint32_t row = run->begin; row < run->end; row++) {
                 float local[3];
                 blocks_locate(work->blocks, block, work->matter->particles, row, local);
-                splat(box, local, scale * job->amount(work->matter, row, job->channel));
+                field_splat(box, local, scale * job->amount(work->matter, row, job->channel));
             }
         }
     }
@@ -159,7 +156,7 @@ static void filter_across_x(const Filter *filter, const CellBox *within, int axi
     }
 }
 
-static void bound_block(SkinBlock *block, const float values[BLOCK_POINTS])
+void field_bound(SkinBlock *block, const float values[BLOCK_POINTS])
 {
     float least[BLOCK_AXIS], most[BLOCK_AXIS];
     memcpy(least, values, sizeof least);
@@ -177,9 +174,7 @@ static void bound_block(SkinBlock *block, const float values[BLOCK_POINTS])
     }
 }
 
-/* Points next to a missing block below are out of all particles' reach, though S may leave a ripple there. They are outside, so that the missing block
- * has no vertices: thus the surface is closed whatever the field is. */
-static void close_off(const SkinBlock *block, float values[BLOCK_POINTS])
+void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS])
 {
     for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
         int32_t way[3];
@@ -212,171 +207,40 @@ static void filter_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-static void filter_last(void *context, int32_t begin, int32_t end)
+static void finish_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(job->work->blocks, b);
-        float more[BLOCK_POINTS], *to = job->to + (size_t)b * BLOCK_POINTS;
         if (!block->wanted) continue;
-        filter_line(job, block, job->adds ? more : to);
-        for (int i = 0; i < BLOCK_POINTS && job->adds; i++) to[i] += more[i];
-        if (job->at_surface) continue;
-        close_off(block, to);
-        bound_block(block, to);
+        field_close_off(block, job->values + (size_t)b * BLOCK_POINTS);
+        field_bound(block, job->values + (size_t)b * BLOCK_POINTS);
     }
 }
 
-/* Along x to `lines`, along y back, along z to the values. */
-static void collect(SplatJob *job)
+/* Along x to `lines`, along y back, along z to where it goes. */
+static void collect(SplatJob *job, float *values)
 {
     const FieldWork *work = job->work;
-    const int32_t count = work->blocks->count;
-    float *stage[4] = {work->sums, work->lines, work->sums, job->values};
-    pool_for(work->pool, count, FIELD_GRAIN, sum_blocks, job);
+    float *stage[4] = {work->sums, work->lines, work->sums, values};
+    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, sum_blocks, job);
     for (job->axis = 0; job->axis < 3; job->axis++) {
         job->from = stage[job->axis];
         job->to = stage[job->axis + 1];
-        pool_for(work->pool, count, FIELD_GRAIN, job->axis == 2 ? filter_last : filter_blocks, job);
+        pool_for(work->pool, work->blocks->count, FIELD_GRAIN, filter_blocks, job);
     }
+}
+
+void field_collect(const FieldWork *work, float *values)
+{
+    SplatJob job = {.work = work};
+    collect(&job, values);
 }
 
 void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values)
 {
     SplatJob job = {.work = work, .amount = amount, .channel = channel, .at_surface = at_surface, .values = values};
     pool_for(work->pool, work->blocks->with_rows, FIELD_GRAIN, splat_blocks, &job);
-    collect(&job);
-}
-
-/* ---- Thin matter ----
- *
- * A layer of single particles fills no more than 0.45, and F = 1/2 is nowhere. So particles in thin matter count more: s = max(1, c L / F(x_p)) times, at the level L.
- * A layer of particles a cell's half apart has the profile F(z) = s/2 g(z) with g = S W: g(0) = 29/32, g(1/4) = 105/128. So with c = g(0) / g(1/4) = 116/105 the surface F = L
- * is 1/4 from its middle, where it belongs. Inside matter and at flat surfaces, where F(x_p) is 0.74, s is 1; at corners, which the spline rounds, it is larger.
- * A thread of particles asks for s = 2.7, and a particle alone for 6: a ball that the lattice would catch by chance. s is at most 4, so that one is no part of the
- * surface but spray; see points.c. */
-
-static const float THIN_SHARE = 116.0f / 105.0f; /* c */
-static const float THICKEN_MOST = 4.0f;          /* between the 2.7 of a thread and the 6 of a lone particle */
-
-/* F at a place, between the 8 points around it. */
-static float between(const float box[BOX_POINTS], const float local[3], float shift)
-{
-    int first[3];
-    float t[3], along[4];
-    for (int a = 0; a < 3; a++) {
-        const float at = local[a] + shift + (float)BOX_MARGIN;
-        first[a] = (int)at;
-        t[a] = at - (float)first[a];
-    }
-    const float *corner = &box[(first[2] * BOX_AXIS + first[1]) * BOX_AXIS + first[0]];
-    for (int k = 0; k < 4; k++) {
-        const float *pair = corner + (k / 2 * BOX_AXIS + k % 2) * BOX_AXIS;
-        along[k] = pair[0] + t[0] * (pair[1] - pair[0]);
-    }
-    const float near = along[0] + t[1] * (along[1] - along[0]), far = along[2] + t[1] * (along[3] - along[2]);
-    return near + t[2] * (far - near);
-}
-
-static void find_outside(void *context, int32_t begin, int32_t end)
-{
-    const SplatJob *job = context;
-    const FieldWork *work = job->work;
-    for (int32_t b = begin; b < end; b++) {
-        const SkinBlock *block = blocks_at(work->blocks, b);
-        float near[BOX_POINTS], local[3];
-        blocks_gather(block, job->values, near);
-        for (uint32_t r = 0; r < block->runs; r++) {
-            const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
-            for (uint32_t row = run->begin; row < run->end; row++) {
-                blocks_locate(work->blocks, block, work->matter->particles, row, local);
-                job->outside[row] = between(near, local, field_shift(work->blocks)) < job->level;
-            }
-        }
-    }
-}
-
-void field_find_outside(const FieldWork *work, float level, const float *values, uint8_t *outside)
-{
-    SplatJob job = {.work = work, .level = level, .values = (float *)values, .outside = outside};
-    pool_for(work->pool, work->blocks->with_rows, FIELD_GRAIN, find_outside, &job);
-}
-
-/* Whether F is large enough wherever a particle of the block may be. */
-static bool is_thick(const SkinBlocks *blocks, const SkinBlock *block, float enough)
-{
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
-        if (block->neighbour[n] == GRID_NOWHERE || blocks_at(blocks, block->neighbour[n])->least < enough) return false;
-    return true;
-}
-
-static void take_least(float *least, const float *other, int count)
-{
-    for (int i = 0; i < count; i++) least[i] = other[i] < least[i] ? other[i] : least[i];
-}
-
-/* The least of the points around each cell of a block, axis by axis: F of a particle in it is no less. */
-static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS], float cell[BLOCK_POINTS])
-{
-    const int cells = blocks_cells(blocks), points = blocks->subdivision + 2, plane = BOX_AXIS * BOX_AXIS;
-    for (int z = 0; z < cells; z++) {
-        float slab[BOX_AXIS * BOX_AXIS];
-        const float *from = near + (z * blocks->subdivision + BOX_MARGIN - 1) * plane;
-        memcpy(slab, from, sizeof slab);
-        for (int k = 1; k < points; k++) take_least(slab, from + k * plane, plane);
-        for (int y = 0; y < cells; y++) {
-            float row[BOX_AXIS];
-            const float *beside = slab + (y * blocks->subdivision + BOX_MARGIN - 1) * BOX_AXIS;
-            memcpy(row, beside, sizeof row);
-            for (int k = 1; k < points; k++) take_least(row, beside + k * BOX_AXIS, BOX_AXIS);
-            for (int x = 0; x < cells; x++) {
-                float *least = &cell[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x];
-                const float *along = row + x * blocks->subdivision + BOX_MARGIN - 1;
-                *least = along[0];
-                for (int k = 1; k < points; k++) take_least(least, along + k, 1);
-            }
-        }
-    }
-}
-
-static void thicken_block(const SplatJob *job, SkinBlock *block, float *box)
-{
-    const FieldWork *work = job->work;
-    const float enough = THIN_SHARE * job->level, scale = points_per_cell(work->blocks), shift = field_shift(work->blocks);
-    float near[BOX_POINTS], least[BLOCK_POINTS];
-    blocks_gather(block, job->values, near);
-    least_of_cells(work->blocks, near, least);
-    for (uint32_t r = 0; r < block->runs; r++) {
-        const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
-        for (uint32_t row = run->begin; row < run->end; row++) {
-            float local[3];
-            int32_t cell[3];
-            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
-            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
-            blocks_locate(work->blocks, block, work->matter->particles, row, local);
-            const float filling = between(near, local, shift);
-            if (filling >= enough) continue;
-            if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
-            const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
-            splat(box, local, (times - 1.0f) * scale * matter_volume(work->matter, row));
-            cells_add(&block->splatted, cell);
-        }
-    }
-}
-
-static void thicken_blocks(void *context, int32_t begin, int32_t end)
-{
-    const SplatJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        block->splatted = cells_none();
-        if (!is_thick(job->work->blocks, block, THIN_SHARE * job->level)) thicken_block(job, block, job->work->boxes + (size_t)b * BOX_POINTS);
-    }
-}
-
-void field_thicken(const FieldWork *work, float level, float *values)
-{
-    SplatJob job = {.work = work, .level = level, .values = values, .adds = true};
-    pool_for(work->pool, work->blocks->with_rows, FIELD_GRAIN, thicken_blocks, &job);
-    collect(&job);
+    collect(&job, values);
+    if (!at_surface) pool_for(work->pool, work->blocks->count, FIELD_GRAIN, finish_blocks, &job);
 }

@@ -23,12 +23,19 @@ typedef float FieldAmount(const SkinMatter *matter, uint32_t row, int channel);
 /* Its volume. */
 float field_volume(const SkinMatter *matter, uint32_t row, int channel);
 
+struct Boundary;
+
 typedef struct FieldWork {
     SkinBlocks *blocks;
     const SkinMatter *matter;
     Pool *pool;
     float *boxes;        /* BOX_POINTS per block with particles: scratch */
     float *sums, *lines; /* BLOCK_POINTS per block: scratch */
+    float *gaps;         /* likewise, in bounded blocks: how far [cells] obstacles are, negative inside; infinite where that does not matter */
+    uint8_t *spray;      /* per row, see thin.h */
+    const struct Boundary *boundary;
+    uint32_t groups; /* of the materials */
+    double cell_size;
 } FieldWork;
 
 /* From a place in points, as blocks_locate() has it, to one on the lattice. */
@@ -37,10 +44,16 @@ static inline float field_shift(const SkinBlocks *blocks) { return blocks->subdi
 /* Writes F to `values`, BLOCK_POINTS per block; with `at_surface` only where the surface needs it. Notes the least and the most of each block. */
 void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values);
 
-/* Adds what keeps thin matter in sight, see field.c. */
-void field_thicken(const FieldWork *work, float level, float *values);
-
-/* Notes for each row of a block whether F is below the level there; other rows stay as they are. */
-void field_find_outside(const FieldWork *work, float level, const float *values, uint8_t *outside);
+/* Its parts. Adds to the 27 points of a block's box around a place. */
+void field_splat(float *box, const float local[3], float amount);
+/* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
+float field_points_per_cell(const SkinBlocks *blocks);
+/* Makes F of the boxes that are splatted, in the blocks that they reach: those are `wanted`. */
+void field_collect(const FieldWork *work, float *values);
+/* Points next to a missing block below are out of all particles' reach, though S may leave a ripple there. They are outside, so that the missing block
+ * has no vertices: thus the surface is closed whatever the field is. */
+void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS]);
+/* Notes the least and the most of a block. */
+void field_bound(SkinBlock *block, const float values[BLOCK_POINTS]);
 
 #endif

@@ -19,6 +19,16 @@ static uint8_t cut_edges(uint8_t inside)
     return (uint8_t)(inside & 1 ? ends ^ 7 : ends);
 }
 
+static const uint8_t ones[8] = {0, 1, 1, 2, 1, 2, 2, 3};
+
+/* Whether the surface passes all cubes of a row by: their corners are all inside, or all outside. */
+static bool row_is_whole(const uint8_t *inside)
+{
+    uint64_t row;
+    memcpy(&row, inside, sizeof row);
+    return row == 0 || row == UINT64_MAX;
+}
+
 /* ---- Counting ---- */
 
 /* Whether the surface passes between points of the block and those above them. */
@@ -52,7 +62,6 @@ static void find_cases(const SkinMesh *mesh, const float box[BOX_POINTS], uint8_
 
 static void count_blocks(void *context, int32_t begin, int32_t end)
 {
-    static const uint8_t ones[8] = {0, 1, 1, 2, 1, 2, 2, 3};
     const SkinMesh *mesh = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(mesh->blocks, b);
@@ -63,11 +72,12 @@ static void count_blocks(void *context, int32_t begin, int32_t end)
         if (!may_cut(mesh, block)) continue;
         blocks_gather(block, mesh->field, box);
         find_cases(mesh, box, inside);
-        for (int i = 0; i < BLOCK_POINTS; i++) {
-            start[i] = (uint16_t)block->vertices;
-            block->vertices += ones[cut_edges(inside[i])];
-            block->triangles += mesh->cases->triangles[inside[i]];
-        }
+        for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS)
+            for (int i = row; i < row + BLOCK_AXIS && !row_is_whole(inside + row); i++) {
+                start[i] = (uint16_t)block->vertices;
+                block->vertices += ones[cut_edges(inside[i])];
+                block->triangles += mesh->cases->triangles[inside[i]];
+            }
     }
 }
 
@@ -98,8 +108,13 @@ typedef void WithEdge(const CutEdge *edge, void *context);
 static void visit_edges(const SkinMesh *mesh, int32_t b, const float box[BOX_POINTS], WithEdge *with, void *context)
 {
     uint32_t vertex = blocks_at(mesh->blocks, b)->first_vertex;
+    const uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
     for (int i = 0; i < BLOCK_POINTS; i++) {
-        const uint8_t cut = cut_edges(mesh->inside[(size_t)b * BLOCK_POINTS + (size_t)i]);
+        if (i % BLOCK_AXIS == 0 && row_is_whole(inside + i)) {
+            i += BLOCK_AXIS - 1;
+            continue;
+        }
+        const uint8_t cut = cut_edges(inside[i]);
         for (int a = 0; a < 3 && cut >> a; a++) {
             if (!(cut >> a & 1)) continue;
             CutEdge edge = {.vertex = vertex++, .point = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)}, .axis = a};
@@ -220,6 +235,9 @@ typedef struct IndicesJob {
     uint32_t index_bytes;
 } IndicesJob;
 
+/* How many edges of a point are cut before that along an edge's axis. */
+static uint32_t cut_before(uint8_t inside, int edge) { return ones[cut_edges(inside) & ((1 << case_axis(edge)) - 1)]; }
+
 /* The number of the vertex on an edge of the cube above a point. */
 static uint32_t vertex_on(const SkinMesh *mesh, int32_t b, const int point[3], int edge)
 {
@@ -231,9 +249,7 @@ static uint32_t vertex_on(const SkinMesh *mesh, int32_t b, const int point[3], i
     }
     const int32_t owner = blocks_at(mesh->blocks, b)->neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
     const size_t i = (size_t)owner * BLOCK_POINTS + (size_t)point_at(at[0], at[1], at[2]);
-    uint32_t vertex = blocks_at(mesh->blocks, owner)->first_vertex + mesh->start[i];
-    for (int a = 0; a < case_axis(edge); a++) vertex += cut_edges(mesh->inside[i]) >> a & 1;
-    return vertex;
+    return blocks_at(mesh->blocks, owner)->first_vertex + mesh->start[i] + cut_before(mesh->inside[i], edge);
 }
 
 /* The same where the cube has all its corners in the block. */
@@ -241,9 +257,7 @@ static uint32_t vertex_within(const SkinMesh *mesh, int32_t b, int point, int ed
 {
     const int corner = case_corner(edge);
     const size_t i = (size_t)b * BLOCK_POINTS + (size_t)(point + point_at(corner & 1, corner >> 1 & 1, corner >> 2));
-    uint32_t vertex = blocks_at(mesh->blocks, b)->first_vertex + mesh->start[i];
-    for (int a = 0; a < case_axis(edge); a++) vertex += cut_edges(mesh->inside[i]) >> a & 1;
-    return vertex;
+    return blocks_at(mesh->blocks, b)->first_vertex + mesh->start[i] + cut_before(mesh->inside[i], edge);
 }
 
 static void put_index(const IndicesJob *job, size_t place, uint32_t index)
@@ -265,6 +279,10 @@ static void write_indices(void *context, int32_t begin, int32_t end)
         size_t place = (size_t)block->first_triangle * 3;
         if (!block->triangles) continue;
         for (int i = 0; i < BLOCK_POINTS; i++) {
+            if (i % BLOCK_AXIS == 0 && row_is_whole(inside + i)) {
+                i += BLOCK_AXIS - 1;
+                continue;
+            }
             const int point[3] = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)};
             const bool within = point[0] < BLOCK_AXIS - 1 && point[1] < BLOCK_AXIS - 1 && point[2] < BLOCK_AXIS - 1;
             for (int e = 0; e < 3 * mesh->cases->triangles[inside[i]]; e++) {

@@ -9,9 +9,6 @@
 
 enum { CHUNK_ROWS = 1024, WHITE = -1 };
 
-/* F at a particle alone, an eighth of a cell, is at most 4 times (29/32)^3 / 8, see field.c: who has more has company. */
-static const float SPRAY_BELOW = 4.0f * 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
-
 pbmpm_points_def skin_points_defaults(void) { return (pbmpm_points_def){.size = sizeof(pbmpm_points_def), .radius_scale = 1.0f}; }
 
 const char *skin_points_problem(const pbmpm_points_def *def)
@@ -90,14 +87,9 @@ static void choose_colours(PointsJob *job)
 /* Notes which particles the surface leaves out. */
 static pbmpm_result find_spray(World *world, Skin *skin, SkinKey *key, PointsJob *job)
 {
-    if (!state_reserve(world, &skin->outside, world->particles.count, sizeof(uint8_t))) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory to find spray");
     const pbmpm_result result = state_make(world, skin, key);
-    if (result != PBMPM_OK) return result;
-    const FieldWork work = state_work(world, skin, &job->matter);
-    memset(skin->outside.data, 1, world->particles.count); /* blocks of spray are left out of the field */
-    field_find_outside(&work, SPRAY_BELOW, skin->field.data, skin->outside.data);
-    job->outside = skin->outside.data;
-    return PBMPM_OK;
+    job->outside = skin->spray.data;
+    return result;
 }
 
 static pbmpm_result make_points(World *world, Skin *skin, PointsJob *job, uint32_t capacity, uint32_t *count)

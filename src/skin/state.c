@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "base/result.h"
+#include "skin/thin.h"
 
 Skin *state_take(World *world, pbmpm_result *result)
 {
@@ -70,6 +71,8 @@ static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
     return state_reserve(world, &skin->boxes, (size_t)skin->blocks.with_rows * BOX_POINTS, sizeof(float)) &&
            state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->lines, count, sizeof(float)) &&
            state_reserve(world, &skin->field, count, sizeof(float)) &&
+           (skin->boundary.stands == 0 || state_reserve(world, &skin->gaps, count, sizeof(float))) &&
+           state_reserve(world, &skin->spray, world->particles.count, sizeof(uint8_t)) &&
            state_reserve(world, &skin->inside, count, sizeof(uint8_t)) && state_reserve(world, &skin->start, count, sizeof(uint16_t));
 }
 
@@ -86,7 +89,22 @@ SkinMatter state_matter(const World *world, const SkinKey *key)
 
 FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
 {
-    return (FieldWork){&skin->blocks, matter, world->pool, skin->boxes.data, skin->sums.data, skin->lines.data};
+    uint32_t groups = 0;
+    for (size_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (matter->cells_per_mass[slot] != 0.0f) groups |= world->materials.def[slot].groups;
+    return (FieldWork){
+        .blocks = &skin->blocks,
+        .matter = matter,
+        .pool = world->pool,
+        .boxes = skin->boxes.data,
+        .sums = skin->sums.data,
+        .lines = skin->lines.data,
+        .gaps = skin->gaps.data,
+        .spray = skin->spray.data,
+        .boundary = &skin->boundary,
+        .groups = groups,
+        .cell_size = (double)world->def.cell_size,
+    };
 }
 
 SkinMesh state_mesh(const World *world, const Skin *skin)
@@ -106,16 +124,24 @@ SkinMesh state_mesh(const World *world, const Skin *skin)
 
 pbmpm_result state_make(World *world, Skin *skin, SkinKey *key)
 {
+    bool moved;
     key->generation = world->generation;
-    if (memcmp(&skin->key, key, sizeof *key) == 0) return PBMPM_OK;
+    pthread_mutex_lock(&world->making);
+    const bool bounded = boundary_find(&skin->boundary, world, &moved);
+    pthread_mutex_unlock(&world->making);
+    if (!bounded) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the obstacles around a surface");
+    if (!moved && memcmp(&skin->key, key, sizeof *key) == 0) return PBMPM_OK;
     skin->key.generation = 0;
     skin->blocks.subdivision = key->subdivision;
     const SkinMatter matter = state_matter(world, key);
     if (!find_blocks(world, skin, &matter)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a surface of %d blocks", skin->blocks.count);
     const FieldWork work = state_work(world, skin, &matter);
     blocks_link(&skin->blocks, world->pool);
+    memset(skin->spray.data, 1, world->particles.count); /* blocks of spray are left out of the field */
     field_make(&work, field_volume, 0, false, skin->field.data);
-    if (key->keeps_thin) field_thicken(&work, key->level, skin->field.data);
+    if (skin->boundary.stands) boundary_mirror(&work, key->level, skin->field.data);
+    if (key->keeps_thin) thin_add(&work, key->level, skin->field.data);
+    if (skin->boundary.stands) boundary_cut(&work, key->level, skin->field.data);
     skin->key = *key;
     const SkinMesh mesh = state_mesh(world, skin);
     mesh_count(&mesh, &skin->vertices, &skin->triangles);
@@ -127,7 +153,8 @@ void state_free(World *world)
     Skin *skin = world->skin;
     if (!skin) return;
     Array *arrays[] = {&skin->boxes,   &skin->sums,   &skin->lines,   &skin->field,   &skin->inside,     &skin->start,
-                       &skin->volumes, &skin->values, &skin->outside, &skin->chunk_begin};
+                       &skin->volumes, &skin->values, &skin->gaps,   &skin->spray, &skin->chunk_begin};
+    boundary_free(&skin->boundary, &world->memory);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     blocks_free(&skin->blocks, &world->memory);
     memory_give(&world->memory, skin, sizeof *skin);

@@ -3,6 +3,7 @@
 #define PBMPM_SRC_SKIN_STATE_H
 
 #include "skin/blocks.h"
+#include "skin/boundary.h"
 #include "skin/cases.h"
 #include "skin/field.h"
 #include "skin/matter.h"
@@ -25,7 +26,9 @@ struct Skin {
     Cases cases;
     Array boxes, sums, lines, field, inside, start; /* see field.h and mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
-    Array outside, chunk_begin;           /* of points, see points.c */
+    Array gaps, spray;                    /* see field.h */
+    Boundary boundary;
+    Array chunk_begin;                    /* of points, see points.c */
     uint64_t vertices, triangles;
 };
 

@@ -1,0 +1,292 @@
+#include "skin/thin.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { THIN_GRAIN = 4 };
+
+/* F at a particle alone, which fills an eighth of a cell. */
+static const float ALONE = 29.0f * 29.0f * 29.0f / (32.0f * 32.0f * 32.0f * 8.0f);
+/* c and the most of s, see thin.h. */
+static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
+/* The most of k: with it s is up to 7, and a particle alone would ask for 6. */
+static const float SHARE_MOST = 2.0f;
+
+typedef struct ThinJob {
+    const FieldWork *work;
+    float level, *values, *more; /* F, T */
+} ThinJob;
+
+static size_t first_point(int32_t b) { return (size_t)b * BLOCK_POINTS; }
+
+/* ---- T ---- */
+
+/* F at a place, between the 8 points around it. */
+static float between(const float box[BOX_POINTS], const float local[3], float shift)
+{
+    int first[3];
+    float t[3], along[4];
+    for (int a = 0; a < 3; a++) {
+        const float at = local[a] + shift + (float)BOX_MARGIN;
+        first[a] = (int)at;
+        t[a] = at - (float)first[a];
+    }
+    const float *corner = &box[(first[2] * BOX_AXIS + first[1]) * BOX_AXIS + first[0]];
+    for (int k = 0; k < 4; k++) {
+        const float *pair = corner + (k / 2 * BOX_AXIS + k % 2) * BOX_AXIS;
+        along[k] = pair[0] + t[0] * (pair[1] - pair[0]);
+    }
+    const float near = along[0] + t[1] * (along[1] - along[0]), far = along[2] + t[1] * (along[3] - along[2]);
+    return near + t[2] * (far - near);
+}
+
+/* Whether F is large enough wherever a particle of the block may be. */
+static bool is_thick(const SkinBlocks *blocks, const SkinBlock *block, float enough)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
+        if (block->neighbour[n] == GRID_NOWHERE || blocks_at(blocks, block->neighbour[n])->least < enough) return false;
+    return true;
+}
+
+static void take_least(float *least, const float *other, int count)
+{
+    for (int i = 0; i < count; i++) least[i] = other[i] < least[i] ? other[i] : least[i];
+}
+
+/* The least of the points around each cell of a block, axis by axis: F of a particle in it is no less. */
+static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS], float cell[BLOCK_POINTS])
+{
+    const int cells = blocks_cells(blocks), points = blocks->subdivision + 2, plane = BOX_AXIS * BOX_AXIS;
+    for (int z = 0; z < cells; z++) {
+        float slab[BOX_AXIS * BOX_AXIS];
+        const float *from = near + (z * blocks->subdivision + BOX_MARGIN - 1) * plane;
+        memcpy(slab, from, sizeof slab);
+        for (int k = 1; k < points; k++) take_least(slab, from + k * plane, plane);
+        for (int y = 0; y < cells; y++) {
+            float row[BOX_AXIS];
+            const float *beside = slab + (y * blocks->subdivision + BOX_MARGIN - 1) * BOX_AXIS;
+            memcpy(row, beside, sizeof row);
+            for (int k = 1; k < points; k++) take_least(row, beside + k * BOX_AXIS, BOX_AXIS);
+            for (int x = 0; x < cells; x++) {
+                float *least = &cell[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x];
+                const float *along = row + x * blocks->subdivision + BOX_MARGIN - 1;
+                *least = along[0];
+                for (int k = 1; k < points; k++) take_least(least, along + k, 1);
+            }
+        }
+    }
+}
+
+/* Notes who is spray, and adds what a row gives to T. */
+static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, const float local[3], float filling, float *box)
+{
+    const FieldWork *work = job->work;
+    const float enough = THIN_SHARE * job->level, amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
+    const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
+    int32_t cell[3];
+    work->spray[row] = filling <= ALONE;
+    if (work->spray[row]) {
+        block->spray += amount;
+        return;
+    }
+    if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
+    field_splat(box, local, (times - 1.0f) * amount);
+    blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+    cells_add(&block->splatted, cell);
+}
+
+static void thicken_block(const ThinJob *job, SkinBlock *block, float *box)
+{
+    const FieldWork *work = job->work;
+    const float enough = THIN_SHARE * job->level, shift = field_shift(work->blocks);
+    float near[BOX_POINTS], least[BLOCK_POINTS];
+    blocks_gather(block, job->values, near);
+    least_of_cells(work->blocks, near, least);
+    for (uint32_t r = 0; r < block->runs; r++) {
+        const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
+        for (uint32_t row = run->begin; row < run->end; row++) {
+            float local[3];
+            int32_t cell[3];
+            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
+            blocks_locate(work->blocks, block, work->matter->particles, row, local);
+            const float filling = between(near, local, shift);
+            if (filling < enough) thicken_row(job, block, row, local, filling, box);
+        }
+    }
+}
+
+static void thicken_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        block->splatted = cells_none();
+        block->spray = 0.0f;
+        for (uint32_t r = 0; r < block->runs; r++) {
+            const BlockRun *run = blocks_run(job->work->blocks, block->first_run + r);
+            memset(job->work->spray + run->begin, 0, run->end - run->begin);
+        }
+        if (!is_thick(job->work->blocks, block, THIN_SHARE * job->level)) thicken_block(job, block, job->work->boxes + (size_t)b * BOX_POINTS);
+    }
+}
+
+/* ---- k ---- */
+
+static float share_at(float step) { return step * SHARE_MOST / THICKENINGS; }
+
+/* Means over the corners of the cubes above a block's points. */
+static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
+{
+    enum { PLANE = BOX_AXIS * BOX_AXIS, BEGIN = BOX_MARGIN * PLANE, END = BEGIN + (BLOCK_AXIS + 1) * PLANE };
+    float pair[END - BEGIN], four[PLANE];
+    for (int i = BEGIN; i < END; i++) pair[i - BEGIN] = box[i] + box[i + 1];
+    for (int z = 0; z < BLOCK_AXIS; z++) {
+        for (int i = 0; i < PLANE; i++) four[i] = pair[z * PLANE + i] + pair[(z + 1) * PLANE + i];
+        for (int y = 0; y < BLOCK_AXIS; y++) {
+            const float *row = four + (y + BOX_MARGIN) * BOX_AXIS + BOX_MARGIN;
+            for (int x = 0; x < BLOCK_AXIS; x++) mean[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.125f * (row[x] + row[x + BOX_AXIS]);
+        }
+    }
+}
+
+/* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
+static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
+
+/* Of places where F and T have these values: what there is, and what each step of the share adds to what the surface encloses. `room`: what a place counts. T is
+ * below 0 only by a ripple of S. */
+static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
+{
+    for (int i = 0; i < BLOCK_POINTS; i++) {
+        if (more[i] == 0.0f) continue;
+        const float lacks = level - own[i], steps = lacks / (more[i] * share_at(1.0f));
+        block->thin += room[i] * own[i];
+        if (lacks <= 0.0f)
+            block->enclosed[0] += room[i];
+        else if (steps > 0.0f && steps <= THICKENINGS)
+            block->enclosed[(int)ceilf(steps)] += room[i];
+    }
+}
+
+/* 1 in the open, 0 in obstacles. */
+static void find_open(const float *gaps, float *open, int count)
+{
+    for (int i = 0; i < count; i++) open[i] = gaps[i] > 0.0f ? 1.0f : 0.0f;
+}
+
+static void weigh_corners(const ThinJob *job, SkinBlock *block, const float *own, const float *more)
+{
+    float room[BLOCK_POINTS];
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
+    if (block->bounded) find_open(job->work->gaps + (own - job->values), room, BLOCK_POINTS);
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= CORNER_WEIGHT;
+    weigh_places(block, job->level, own, more, room);
+}
+
+static void weigh_middles(const ThinJob *job, SkinBlock *block)
+{
+    float box[BOX_POINTS], own[BLOCK_POINTS], more[BLOCK_POINTS], room[BLOCK_POINTS];
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
+    if (block->bounded) {
+        blocks_gather(block, job->work->gaps, box);
+        find_open(box, box, BOX_POINTS);
+        find_means(box, room);
+    }
+    for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= MIDDLE_WEIGHT;
+    blocks_gather(block, job->values, box);
+    find_means(box, own);
+    blocks_gather(block, job->more, box);
+    find_means(box, more);
+    weigh_places(block, job->level, own, more, room);
+}
+
+/* Where T reaches no block, it is 0. */
+static void clear_more(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++)
+        if (!blocks_at(job->work->blocks, b)->wanted) memset(job->more + first_point(b), 0, BLOCK_POINTS * sizeof(float));
+}
+
+static void weigh_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        block->thin = b < job->work->blocks->with_rows ? -block->spray : 0.0f;
+        memset(block->enclosed, 0, sizeof block->enclosed);
+        if (!block->wanted) continue;
+        weigh_corners(job, block, job->values + first_point(b), job->more + first_point(b));
+        weigh_middles(job, block);
+        for (int k = 0; k < THICKENINGS; k++) block->enclosed[k + 1] += block->enclosed[k];
+    }
+}
+
+static void choose_share(const SkinBlocks *blocks, SkinBlock *block)
+{
+    float thin = 0.0f, enclosed[THICKENINGS + 1] = {0};
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
+        if (block->neighbour[n] == GRID_NOWHERE) continue;
+        const SkinBlock *other = blocks_at(blocks, block->neighbour[n]);
+        thin += other->thin;
+        for (int k = 0; k <= THICKENINGS; k++) enclosed[k] += other->enclosed[k];
+    }
+    int k = 0;
+    while (k < THICKENINGS && enclosed[k + 1] < thin) k++;
+    const float rise = k < THICKENINGS ? enclosed[k + 1] - enclosed[k] : 0.0f;
+    const float way = rise > 0.0f ? (thin - enclosed[k]) / rise : 0.0f;
+    block->thickening = share_at((float)k + (way < 0.0f ? 0.0f : way));
+}
+
+static void choose_shares(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) choose_share(job->work->blocks, blocks_at(job->work->blocks, b));
+}
+
+/* ---- F + k T ---- */
+
+/* From three values at the middles of blocks along an axis: that at a point of the block between. */
+static float from_middles(const float *value, int step, int point)
+{
+    const float at = ((float)point + 0.5f) / BLOCK_AXIS - 0.5f;
+    return at < 0.0f ? value[step] + at * (value[step] - value[0]) : value[step] + at * (value[2 * step] - value[step]);
+}
+
+static void add_block(const ThinJob *job, SkinBlock *block, float *values, const float *more)
+{
+    float share[BLOCK_NEIGHBOURS], plane[9], line[3];
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) /* where no block is, there is none of its own */
+        share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(job->work->blocks, block->neighbour[n])->thickening;
+    for (int z = 0; z < BLOCK_AXIS; z++) {
+        for (int i = 0; i < 9; i++) plane[i] = from_middles(share + i, 9, z);
+        for (int y = 0; y < BLOCK_AXIS; y++) {
+            const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
+            for (int i = 0; i < 3; i++) line[i] = from_middles(plane + i, 3, y);
+            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * from_middles(line, 1, x);
+        }
+    }
+    field_close_off(block, values);
+    field_bound(block, values);
+}
+
+static void add_blocks(void *context, int32_t begin, int32_t end)
+{
+    const ThinJob *job = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(job->work->blocks, b);
+        if (block->wanted) add_block(job, block, job->values + first_point(b), job->more + first_point(b));
+    }
+}
+
+void thin_add(const FieldWork *work, float level, float *values)
+{
+    const int32_t count = work->blocks->count;
+    ThinJob job = {work, level, values, work->lines};
+    pool_for(work->pool, work->blocks->with_rows, THIN_GRAIN, thicken_blocks, &job);
+    field_collect(work, job.more);
+    pool_for(work->pool, count, THIN_GRAIN, clear_more, &job);
+    pool_for(work->pool, count, THIN_GRAIN, weigh_blocks, &job);
+    pool_for(work->pool, count, THIN_GRAIN, choose_shares, &job);
+    pool_for(work->pool, count, THIN_GRAIN, add_blocks, &job);
+}
