@@ -478,96 +478,39 @@ double field_spline(double x)
     return off < 0.5 ? 0.75 - off * off : 0.5 * rest * rest;
 }
 
-double field_spline_push(double x)
-{
-    const double off = fabs(x), rest = fmax(0.0, NODE_REACH - off), square = x * x;
-    return off < 0.5 ? 0.8125 - square * (1.5 - square) : rest * rest * rest * (1.0 - 0.5 * rest);
-}
-
-/* Where the two faces of a box lie along one of its axes [cells from the point], and the axis. With `before` all that is behind that face is the box. */
-typedef struct Slab {
-    double low, high, axis[3];
-} Slab;
-
-static void find_slabs(const Near *near, const Solid *s, const double point[3], const Face *before, Slab slab[3])
+/* The share of a node's weight that a box takes: along each of its axes what lies between its two faces, or all that is behind `before`. The spline is nearly the same
+ * along turned axes. */
+static double box_share(const Near *near, const Solid *s, const double point[3], const Face *before)
 {
     static const double ALONG = 0.9; /* cosine: within 26 degrees of an axis of the box */
-    double local[3];
+    double local[3], normal[3], share = 1.0;
     along_axes(s, point, local);
     for (int a = 0; a < s->dimension; a++) {
-        box_normal(s, a, 1.0, slab[a].axis);
-        const double along = before ? dot3(slab[a].axis, before->normal) : 0.0;
-        slab[a].high = ((along < -ALONG ? INFINITY : s->half_extents[a]) - local[a]) / near->cell_size;
-        slab[a].low = ((along > ALONG ? -INFINITY : -s->half_extents[a]) - local[a]) / near->cell_size;
+        box_normal(s, a, 1.0, normal);
+        const double along = before ? dot3(normal, before->normal) : 0.0;
+        const double high = along < -ALONG ? INFINITY : s->half_extents[a], low = along > ALONG ? -INFINITY : -s->half_extents[a];
+        share *= field_spline_below((high - local[a]) / near->cell_size) - field_spline_below((low - local[a]) / near->cell_size);
     }
+    return share;
 }
 
-static double slab_share(const Slab *slab) { return field_spline_below(slab->high) - field_spline_below(slab->low); }
-
-/* The box that is the only obstacle near; else null. `least`: how far [cells] the next surface is. */
-static const Solid *only_box(const Near *near, const double point[3], double *least)
-{
-    const Solid *only = NULL;
-    int close = 0;
-    *least = INFINITY;
-    for (int i = 0; i < near->count; i++) {
-        const Solid *solid = field_solid(near, near->obstacle[i]);
-        const double distance = solid_gap(solid, point) / near->cell_size;
-        *least = fmin(*least, distance);
-        if (distance >= NODE_REACH * sqrt((double)near->dimension)) continue;
-        only = solid;
-        close++;
-    }
-    return close == 1 && only->kind == PBMPM_BOX ? only : NULL;
-}
-
-/* A box by itself takes what lies between its faces; the spline is nearly the same along turned axes. Of several obstacles the planes around the point tell: those in a
- * hollow leave the product of what each leaves. */
+/* A box by itself takes its own share. Of several obstacles the planes around the point tell: those in a hollow leave the product of what each leaves. */
 double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count, bool one_sided)
 {
     Face face[FIELD_FACES];
-    Slab slab[3];
-    double least, share = 1.0;
-    const Solid *box = only_box(near, point, &least);
-    if (least >= NODE_REACH) return 1.0;
-    if (box) {
-        find_slabs(near, box, point, one_sided ? known : NULL, slab);
-        for (int a = 0; a < near->dimension; a++) share *= slab_share(&slab[a]);
-        return fmax(1.0 - share, field_spline_below(-deepest));
+    const Obstacle *only = NULL;
+    double least = INFINITY, share = 1.0;
+    int close = 0;
+    for (int i = 0; i < near->count; i++) {
+        const double distance = solid_gap(field_solid(near, near->obstacle[i]), point) / near->cell_size;
+        least = fmin(least, distance);
+        if (distance >= NODE_REACH * sqrt((double)near->dimension)) continue;
+        only = near->obstacle[i];
+        close++;
     }
+    if (least >= NODE_REACH) return 1.0;
+    if (close == 1 && field_solid(near, only)->kind == PBMPM_BOX) return fmax(1.0 - box_share(near, field_solid(near, only), point, one_sided ? known : NULL), field_spline_below(-deepest));
     if (!known) count = field_faces(near, point, NODE_REACH, face);
     for (int i = 0; i < count; i++) share *= field_spline_below(fmax((known ? known : face)[i].distance, -deepest));
     return count > 0 || least > 0.0 ? share : field_spline_below(-deepest);
-}
-
-/* 4 int t w(t) dt between the faces along one axis, times the shares along the others. */
-static void push_of_box(const Near *near, const Slab slab[3], double push[3])
-{
-    for (int a = 0; a < near->dimension; a++) {
-        double size = field_spline_push(slab[a].low) - field_spline_push(slab[a].high);
-        for (int b = 0; b < near->dimension; b++) size *= b == a ? 1.0 : slab_share(&slab[b]);
-        for (int c = 0; c < 3; c++) push[c] += size * slab[a].axis[c];
-    }
-}
-
-void field_push(const Near *near, const double point[3], const Face *known, int count, bool one_sided, double push[3])
-{
-    Face face[FIELD_FACES];
-    Slab slab[3];
-    double least;
-    const Solid *box = only_box(near, point, &least);
-    push[0] = push[1] = push[2] = 0.0;
-    if (least >= NODE_REACH) return;
-    if (box) {
-        find_slabs(near, box, point, one_sided ? known : NULL, slab);
-        push_of_box(near, slab, push);
-        return;
-    }
-    if (!known) count = field_faces(near, point, NODE_REACH, face);
-    const Face *faces = known ? known : face;
-    for (int i = 0; i < count; i++) {
-        double size = field_spline_push(faces[i].distance);
-        for (int k = 0; k < count; k++) size *= k == i ? 1.0 : field_spline_below(faces[k].distance);
-        for (int c = 0; c < 3; c++) push[c] -= size * faces[i].normal[c];
-    }
 }

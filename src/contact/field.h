@@ -93,15 +93,11 @@ bool field_opposite(const Near *near, const double point[3], const Face *face, F
 /* The integral of the quadratic spline from -1.5 to x: the share of a node's weight that is open, x cells before a plane. */
 double field_spline_below(double x);
 
-/* The quadratic spline itself, and k(x) = 4 int_|x|^1.5 t w(t) dt: what an even pressure pushes a node with that is x cells before a plane. */
+/* The quadratic spline, x cells from its node. */
 double field_spline(double x);
-double field_spline_push(double x);
 
 /* The share of a node's weight that is open. Farther than `deepest` [cells] behind a face the same is taken to be open as there. `known`: the planes around it, if the
  * caller has them, `count` of them; else null. `one_sided`: what is open behind the first of them, across a thin wall, does not count. */
 double field_open_share(const Near *near, const double point[3], double deepest, const Face *known, int count, bool one_sided);
-
-/* What an even pressure of 1 pushes a node towards the walls with if all that is open is full: 4 times the first moment of what is closed to the spline. */
-void field_push(const Near *near, const double point[3], const Face *known, int count, bool one_sided, double push[3]);
 
 #endif

@@ -83,28 +83,6 @@ static Four own_of(const ApplyJob *job, uint32_t i, Four v)
     return times(&own, v);
 }
 
-static Four four(const float v[3]) { return (Four){v[0], v[1], v[2]}; }
-
-static float dot4(Four a, Four b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-/* u~ with b . u~ behind it. */
-static Four balanced(Four free, Four balance)
-{
-    free[3] = dot4(balance, free);
-    return free;
-}
-
-/* What an entry makes of u~ of a place. */
-static Four taken(const WallEntry *entry, Four mean) { return times(&entry->matrix, mean) - mean[3] * entry->normal; }
-
-/* The transpose, with n . p behind it. */
-static Four sent(const WallEntry *entry, Four p)
-{
-    Four back = times(&entry->matrix, p);
-    back[3] = -dot4(entry->normal, p);
-    return back;
-}
-
 /* What an entry takes from: the mean of its parents' u~. */
 static Four mean_of(const ApplyJob *job, const WallEntry *entry)
 {
@@ -123,19 +101,18 @@ static void send_back(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         const WallMotion *n = &motion[i];
         if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
-        if (n->entry != NO_ENTRY) job->v.back[n->entry] = sent(&entry[n->entry], rest_of(job, n, job->v.momentum[i]));
+        if (n->entry != NO_ENTRY) job->v.back[n->entry] = times(&entry[n->entry].matrix, rest_of(job, n, job->v.momentum[i]));
     }
 }
 
 /* E^T (p - m c0) at one node, with its links. */
-static Four folded(const ApplyJob *job, uint32_t i, Four balance, uint32_t link_begin, uint32_t link_moving)
+static Four folded(const ApplyJob *job, uint32_t i, uint32_t link_begin, uint32_t link_moving)
 {
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
     const WallLink *link = job->walls->link.data;
     Four sum = own_of(job, i, rest_of(job, n, job->v.momentum[i]));
-    sum[3] = 0.0f;
     for (uint32_t l = link_begin; l < link_moving; l++) sum += link[l].weight * job->v.back[link[l].from];
-    return sum + sum[3] * balance;
+    return sum;
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
@@ -145,8 +122,7 @@ static void find_free(void *context, int32_t begin, int32_t end)
     const WallFree *free = job->walls->free.data;
     for (int32_t f = begin; f < end; f++) {
         const uint32_t i = free[f].place;
-        const Four back = folded(job, i, free[f].balance, free[f].link_begin, free[f].link_moving);
-        job->v.free[i] = job->v.moved[i] = balanced(times(&free[f].inverse, back), free[f].balance);
+        job->v.free[i] = job->v.moved[i] = times(&free[f].inverse, folded(job, i, free[f].link_begin, free[f].link_moving));
         store(job->v.free[i], node_at(job, motion[i].node));
     }
 }
@@ -159,7 +135,7 @@ static void take_free(void *context, int32_t begin, int32_t end)
     const WallFree *free = job->walls->free.data;
     for (int32_t f = begin; f < end; f++) {
         const uint32_t i = free[f].place;
-        job->v.free[i] = job->v.moved[i] = balanced(load(node_at(job, motion[i].node)), free[f].balance);
+        job->v.free[i] = job->v.moved[i] = load(node_at(job, motion[i].node));
     }
 }
 
@@ -174,7 +150,7 @@ static void find_moved(void *context, int32_t begin, int32_t end)
         const uint32_t i = moved[m];
         const WallMotion *n = &motion[i];
         Four u = own_of(job, i, job->v.free[i]) + job->shifted * n->shift;
-        if (n->entry != NO_ENTRY) u += taken(&entry[n->entry], mean_of(job, &entry[n->entry]));
+        if (n->entry != NO_ENTRY) u += times(&entry[n->entry].matrix, mean_of(job, &entry[n->entry]));
         job->v.moved[i] = u;
         store(u, node_at(job, n->node));
     }
@@ -186,18 +162,15 @@ static void given(const ApplyJob *job, uint32_t i, double sum[3])
 {
     const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
     const Four p = job->v.momentum[i], u = job->v.moved[i];
-    const Four own = own_of(job, i, rest_of(job, n, p)), still = own_of(job, i, own_of(job, i, job->v.free[i]));
+    const Four own = own_of(job, i, rest_of(job, n, p)), still = own_of(job, i, job->v.free[i]);
     for (int a = 0; a < 3; a++) sum[a] = (double)n->mass * ((double)u[a] - (double)still[a]) - (double)p[a] + (double)own[a];
     if (n->entry == NO_ENTRY) return;
     const WallEntry *entry = (const WallEntry *)job->walls->entry.data + n->entry;
     const WallCorner *corner = job->walls->corner.data;
-    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++) {
-        const uint32_t parent = corner[k].parent;
-        const Four balance = four(((const WallNode *)job->walls->node.data)[parent].balance), back = job->v.back[n->entry];
-        const Four counted = sent(entry, taken(entry, job->v.free[parent]));
-        for (int a = 0; a < 3; a++)
-            sum[a] += (double)corner[k].weight * ((double)(back[a] + balance[a] * back[3]) - (double)n->mass * (double)(counted[a] + balance[a] * counted[3]));
-    }
+    const Four counted = times(&entry->matrix, times(&entry->matrix, mean_of(job, entry)));
+    double weight = 0.0;
+    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++) weight += (double)corner[k].weight;
+    for (int a = 0; a < 3; a++) sum[a] += weight * (double)job->v.back[n->entry][a] - (double)n->mass * (double)counted[a];
 }
 
 static void press(void *context, int32_t begin, int32_t end)
@@ -250,7 +223,6 @@ static void rub(void *context, int32_t begin, int32_t end)
         const float mass = (m[0] * v[0] + m[1] * v[1] + m[2] * v[2]) / size2; /* in the direction of motion */
         const float lost = mass > 0.0f ? n->coefficient * impulse / (mass * sqrtf(size2)) : 1.0f;
         for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
-        *u = balanced(*u, free[f].balance);
         if (n->follows) continue; /* find_moved() comes after this */
         job->v.moved[i] = *u;
         store(*u, node_at(job, n->node));
@@ -317,14 +289,15 @@ float walls_value(const Walls *walls, uint32_t node, const float *u, const float
 
 /* ---- Impulses ---- */
 
-static void book(const ApplyJob *job, const WallNode *n, int j, const double gained[3])
+/* What `place` gained from face `j` of a node. */
+static void book(const ApplyJob *job, const WallNode *n, int j, const WallNode *place, const double gained[3])
 {
     const Colliders *colliders = job->frame->colliders;
     const Obstacle *o = &colliders->obstacle[n->obstacle[j]];
     double point[3];
     const uint32_t cells = (uint32_t)job->frame->grid->block_cells;
     if (!o->measures) return;
-    contacts_node_position(job->frame, (int32_t)(n->node / cells), (int)(n->node % cells), point);
+    contacts_node_position(job->frame, (int32_t)(place->node / cells), (int)(place->node % cells), point);
     impulse_add(&colliders->impulses.sum[o->place], point, gained);
 }
 
@@ -338,7 +311,7 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
         double sum[3], gained[3];
         float held[3];
         given(&job, i, sum);
-        const Four back = folded(&job, i, four(n->balance), n->link_begin, n->link_moving), u = job.v.free[i];
+        const Four back = folded(&job, i, n->link_begin, n->link_moving), u = job.v.free[i];
         times_lump(n, (const float[]){u[0], u[1], u[2]}, held);
         for (int a = 0; a < 3; a++) sum[a] += (double)held[a] - (double)back[a];
         for (int j = 1; j < n->normals; j++) { /* along its own normal each wall, the rest the nearest one */
@@ -348,28 +321,29 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
                 gained[a] = scale * along * (double)n->normal[j][a];
                 sum[a] -= along * (double)n->normal[j][a];
             }
-            book(&job, n, j, gained);
+            book(&job, n, j, n, gained);
         }
         for (int a = 0; a < 3; a++) gained[a] = scale * sum[a];
-        if (n->normals > 0) book(&job, n, 0, gained);
+        if (n->normals > 0) book(&job, n, 0, n, gained);
     }
 }
 
 /* ---- What lies behind rounded edges ---- */
 
-/* Adds momentum to a node that is free, from the wall of `at`. */
+/* Adds a weight to a node that is free, from the wall of `at`. */
 static void push_free(const ApplyJob *job, const WallNode *at, const WallNode *to, float weight, const float gravity[3], float *base)
 {
     float *u = node_at(job, to->node), *from = base + (size_t)to->node * K_NODE_WIDTH;
-    const double scale = contacts_momentum_scale(job->frame);
     double gained[3];
     for (int a = 0; a < 3; a++) {
         const float more = weight * gravity[a] / to->mass;
         u[a] += more;
         from[a] += more;
-        gained[a] = scale * (double)(to->mass * more);
+        gained[a] = (double)(to->mass * more);
     }
-    if (job->frame->colliders->measures) book(job, at, 0, gained);
+    if (!job->frame->colliders->measures) return;
+    for (int a = 0; a < 3; a++) gained[a] *= contacts_momentum_scale(job->frame);
+    book(job, at, 0, to, gained);
 }
 
 /* Mass in a full cell before a wall. */

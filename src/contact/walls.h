@@ -12,7 +12,7 @@
  * What nodes behind a wall do along it by themselves, as a mirror's do off the grid, is a motion that few iterations do not see: it drove fountains.
  *
  * At outer edges, blunt inner ones and curved walls a node has one normal: the slope of the distances at the nodes around it. It turns as slowly as the spline sees
- * the wall turn. What an even pressure would still do there those that follow take off: u = E u~ holds that, see balance_node() in walls_find.c.
+ * the wall turn. The nearest face's own leaps there, and an even pressure then drives water round the edge: a pool with a box in it stirred at 0.2 m/s.
  *
  * The density is found on folded nodes: mass and open share of nodes within a cell are reflected in the wall.
  *

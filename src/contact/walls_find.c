@@ -83,8 +83,6 @@ typedef struct Bound {
     int faces;
     bool both, thin; /* see wet_faces() */
     float open; /* share */
-    bool edged;     /* see WallNode, as the next one */
-    float push[3];
 } Bound;
 
 /* ---- The nodes that follow ---- */
@@ -409,10 +407,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
-        if (found && leaves(b, bound, corner_begin, &profile[j], scale[j])) {
-            scale[j] = 1.0;
-            node->loose = true;
-        }
+        if (found && leaves(b, bound, corner_begin, &profile[j], scale[j])) scale[j] = 1.0;
         add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
@@ -427,7 +422,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     }
     if (!found) return;
     node->entry = b->walls->entries++;
-    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), {node->normal[0][0], node->normal[0][1], node->normal[0][2]}, index, corner_begin, b->walls->corners};
+    ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
 }
 
 /* The density is mirrored in each face by its share. */
@@ -461,10 +456,7 @@ static void add_follower(Builder *b, uint32_t index)
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    node->edged = bound->edged && count == 1;
-    node->loose = sticks || count != 1 || bound->both;
-    if (!node->loose) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
-    memcpy(node->push, bound->push, sizeof node->push);
+    if (!bound->both && !sticks && count == 1) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
     node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner[0]->coefficient : 0.0f;
@@ -575,11 +567,9 @@ static void give_friction(Walls *walls)
     }
 }
 
-/* (A - n b^T)^T (A - n b^T) */
-static void square(const Columns *matrix, const float balance[3], Four normal, float out[6])
+static void square(const Columns *m, float out[6])
 {
-    Four row[3];
-    for (int a = 0; a < 3; a++) row[a] = matrix->column[a] - balance[a] * normal;
+    const Four *row = m->column;
     int k = 0;
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
@@ -601,121 +591,14 @@ static void list_motion(Walls *walls, uint32_t i, int dimension)
     const WallOwn own = kind_of_own(node->own, dimension);
     const Four shift = {node->shift[0], node->shift[1], node->shift[2]};
     ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry, node->mass, own, shift};
-    if (node->follows || own == OWN_PART) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
+    if (node->follows) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
     if (own == OWN_NONE && node->link_begin == node->link_moving) return;
     float inverse[6];
     invert(node->lump, inverse);
-    const Four balance = {node->balance[0], node->balance[1], node->balance[2]};
-    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){symmetric_columns(inverse), balance, i, node->link_begin, node->link_moving};
+    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){symmetric_columns(inverse), i, node->link_begin, node->link_moving};
 }
 
-/* ---- An even pressure ---- */
-
-/* F of a bound node: what an even pressure pushes it with. */
-static void find_push(const Near *near, const double point[3], Bound *bound)
-{
-    static const double EVEN = 1e-6; /* of a node's share: rounding */
-    double push[3];
-    field_push(near, point, bound->face, bound->faces, bound->thin, push);
-    bound->edged = fabs((double)bound->open - field_spline_below(bound->face[0].distance)) > EVEN;
-    for (int a = 0; a < 3; a++) bound->push[a] = (float)push[a];
-}
-
-/* The same of a node that no face is near to. */
-static void find_far_push(const ContactFrame *frame, WallNode *node)
-{
-    const uint32_t cells = (uint32_t)frame->grid->block_cells;
-    double point[3], push[3];
-    Near near, some;
-    contacts_node_position(frame, (int32_t)(node->node / cells), (int)(node->node % cells), point);
-    field_near(&near, frame, point, 2.0 * NODE_REACH, false);
-    field_push(field_meeting(&near, contacts_node_groups(frame, node->node), &some), point, NULL, 0, false, push);
-    for (int a = 0; a < 3; a++) node->push[a] = (float)push[a];
-}
-
-/* Whether an even pressure may work on what a node and those that follow it do. */
-static bool may_work(const Walls *walls, const WallNode *n)
-{
-    const WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    bool edged = n->edged, loose = n->follows || (n->normals > 0 && n->loose) || n->link_begin == n->link_moving;
-    for (uint32_t l = n->link_begin; l < n->link_moving; l++) {
-        const WallNode *from = &node[entry[link[l].from].follower];
-        edged = edged || from->edged;
-        loose = loose || from->loose;
-    }
-    return edged && !loose;
-}
-
-/* What an even pressure does on u~ of a node: a = F + sum w A F. Also S = sum w n . F of those that follow, and W = sum w. */
-typedef struct Work {
-    double a[3], along, weight;
-} Work;
-
-static Work work_at(const Walls *walls, const WallNode *n)
-{
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    Work work = {.a = {(double)n->push[0], (double)n->push[1], (double)n->push[2]}};
-    for (uint32_t l = n->link_begin; l < n->link_moving; l++) {
-        const WallEntry *e = &entry[link[l].from];
-        const float *push = ((const WallNode *)walls->node.data)[e->follower].push;
-        work.weight += (double)link[l].weight;
-        for (int r = 0; r < 3; r++) {
-            work.along += (double)(link[l].weight * e->normal[r] * push[r]);
-            for (int c = 0; c < 3; c++) work.a[r] += (double)(link[l].weight * e->matrix.column[c][r] * push[c]);
-        }
-    }
-    return work;
-}
-
-/* What is taken off a motion is taken off the motion against the wall. */
-static void add_shifts(Walls *walls, WallNode *n, double own, const double way[3])
-{
-    WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    for (uint32_t l = n->link_begin; l < n->link_moving; l++) {
-        const WallEntry *e = &entry[link[l].from];
-        WallNode *from = &node[e->follower];
-        const float *surface = from->surface, weight = link[l].weight;
-        const float still = n->balance[0] * surface[0] + n->balance[1] * surface[1] + n->balance[2] * surface[2];
-        const double along = way[0] * (double)surface[0] + way[1] * (double)surface[1] + way[2] * (double)surface[2];
-        for (int k = 0; k < 3; k++) from->shift[k] += weight * still * e->normal[k];
-        for (int k = 0; k < 3 && l == n->link_begin; k++) n->shift[k] += (float)(own * along * way[k]);
-    }
-}
-
-/* Where a wall is straight along an axis a is 0; round the edges of a box it is up to a third, and drives water along them. The least change of E that leaves none of it:
- * those that follow take b . u~ off along their normals, and the node itself the share c of what it has along a. With e = a / |a| and f = e . F
- *     b = l S / W e,  c = l f,  l = |a| / (S^2 / W + f^2),  for then  S b + c f e = a. */
-static void balance_node(Walls *walls, WallNode *n)
-{
-    static const double NOTHING = 1e-6, AWAY = 1e-3; /* rounding; of a wall that the node and those that follow hardly see */
-    const Work work = work_at(walls, n);
-    const double size = sqrt(dot3(work.a, work.a));
-    if (size < NOTHING) return;
-    const double e[3] = {work.a[0] / size, work.a[1] / size, work.a[2] / size};
-    const double f = e[0] * (double)n->push[0] + e[1] * (double)n->push[1] + e[2] * (double)n->push[2];
-    const double seen = work.along * work.along / work.weight + f * f;
-    if (seen < AWAY * AWAY) return;
-    for (int k = 0; k < 3; k++) n->balance[k] = (float)(size / seen * work.along / work.weight * e[k]);
-    add_product(n->own, -size / seen * f, e);
-    add_shifts(walls, n, size / seen * f, e);
-}
-
-static void balance(Walls *walls, const ContactFrame *frame)
-{
-    WallNode *node = walls->node.data;
-    for (uint32_t i = 0; i < walls->nodes; i++) {
-        if (!may_work(walls, &node[i])) continue;
-        if (node[i].normals == 0) find_far_push(frame, &node[i]);
-        balance_node(walls, &node[i]);
-    }
-}
-
-/* M = sum m W (A - n b^T)^T (A - n b^T), what a node has itself included. */
+/* M = sum m W A^2, what a node has itself included. */
 static void lump(Walls *walls, int dimension)
 {
     WallNode *node = walls->node.data;
@@ -723,13 +606,11 @@ static void lump(Walls *walls, int dimension)
     const WallLink *link = walls->link.data;
     for (uint32_t i = 0; i < walls->nodes; i++) {
         float *m = node[i].lump, part[6];
-        const Columns own = symmetric_columns(node[i].own);
-        square(&own, node[i].balance, (Four){0}, part);
-        for (int k = 0; k < 6; k++) m[k] = node[i].mass * part[k];
+        for (int k = 0; k < 6; k++) m[k] = node[i].mass * node[i].own[k];
         for (uint32_t l = node[i].link_begin; l < node[i].link_moving; l++) {
             const WallEntry *e = &entry[link[l].from];
             const float mass = node[e->follower].mass * link[l].weight;
-            square(&e->matrix, node[i].balance, e->normal, part);
+            square(&e->matrix, part);
             for (int k = 0; k < 6; k++) m[k] += mass * part[k];
         }
         if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
@@ -787,9 +668,7 @@ static void bind_node(const ContactFrame *frame, const Near *near, Bound *bound,
     contacts_node_position(frame, bound->block, node, site.point);
     bound->faces = wet_faces(&site, REACH, bound->face, &bound->thin, &bound->both);
     if (bound->faces > 0 && bound->face[0].distance >= 1.0) bound->faces = 0;
-    if (bound->faces == 0 || bound->both) return;
-    bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces, bound->thin);
-    find_push(meeting, site.point, bound);
+    if (bound->faces > 0 && !bound->both) bound->open = (float)field_open_share(meeting, site.point, NODE_REACH, bound->face, bound->faces, bound->thin);
 }
 
 static void bind_blocks(void *context, int32_t first, int32_t end)
@@ -878,7 +757,6 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes at walls of %d blocks", grid->node_blocks);
     }
     if (walls->nodes > 0) memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
-    balance(walls, frame);
     give_friction(walls);
     lump(walls, grid->dimension);
     return PBMPM_OK;

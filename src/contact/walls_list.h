@@ -27,10 +27,9 @@ typedef struct WallCorner {
     float weight;
 } WallCorner;
 
-/* The motion that a node takes from others: A u~ of a place between them, less n (b . u~), with b of each of them. */
+/* The motion that a node takes from others: A u~ of a place between them. */
 typedef struct WallEntry {
     Columns matrix; /* A */
-    Four normal;    /* n */
     uint32_t follower, corner_begin, corner_end;
 } WallEntry;
 
@@ -51,16 +50,12 @@ typedef struct WallNode {
     float own[6];      /* what of u~ it has itself: a symmetric matrix, the upper triangle row by row */
     float lump[6];     /* M, likewise */
     float shift[3];    /* c0 */
-    float balance[3];  /* b, see balance_node() in walls_find.c */
     float own_mirror;  /* share of the density that it keeps */
     float open;        /* share of its weight that is open; negative: not known */
     float normal[NORMALS_MAX][3];
     uint16_t obstacle[NORMALS_MAX];
     uint16_t normals;
     float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's rounded image, see walls_weigh() */
-    float push[3];     /* F, see field_push() */
-    bool edged;        /* near it is more than one plane along an axis */
-    bool loose;        /* it has several normals, or matter sticks to the wall or leaves it */
     bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
@@ -77,7 +72,6 @@ typedef struct WallMotion {
 /* and of those that are free: they have something of u~ themselves, or are followed. */
 typedef struct WallFree {
     Columns inverse; /* M^-1 */
-    Four balance;    /* b */
     uint32_t place;  /* in the list */
     uint32_t link_begin, link_moving;
 } WallFree;
