@@ -143,14 +143,14 @@ typedef struct Turn {
  * more is open, and by so much the profile of the normal motion is too high. At sharp edges that is the volume between the edge and its rounded image, see walls_weigh(). */
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
-    static const double SMOOTH = 0.89; /* cosine of the turn per cell: of a ball with a radius of two cells */
+    static const double SMOOTH = 0.89, OFF_PLANE = 0.25; /* cosine of the turn per cell, and way off the plane [cells]: of a ball with a radius of two cells */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0, .rounded = 0.0};
     double slope[3] = {0}, length = 0.0;
     for (int a = 0; a < grid->dimension; a++) {
         double curve = 0.0;
-        bool smooth = true;
+        bool smooth = true, sharp = false;
         for (int side = -1; side <= 1; side += 2) {
             int way[3] = {0};
             way[a] = side;
@@ -159,11 +159,14 @@ static Turn turn_of(const Builder *b, const Bound *bound)
             double distance = face->distance + side * face->normal[a];
             if (beside && goes_on(b->frame, bound, beside)) distance = beside->face[0].distance;
             if (!beside && other != GRID_NOWHERE && (double)b->frame->gap[other] < INFINITY) distance = fmax(distance, (double)b->frame->gap[other]);
-            smooth = smooth && beside && dot3(face->normal, beside->face[0].normal) > SMOOTH;
+            const bool turns = beside ? dot3(face->normal, beside->face[0].normal) <= SMOOTH : distance - face->distance - side * face->normal[a] > OFF_PLANE;
+            smooth = smooth && beside && !turns;
+            sharp = sharp || turns;
             slope[a] += side * distance;
             curve += distance - face->distance;
         }
-        *(smooth ? &turn.bend : &turn.rounded) += curve / 8.0;
+        if (smooth) turn.bend += curve / 8.0;
+        if (sharp) turn.rounded += curve / 8.0;
     }
     for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
     length = sqrt(length);
@@ -456,7 +459,8 @@ static void add_follower(Builder *b, uint32_t index)
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    if (!bound->both && !sticks && count == 1) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
+    const bool weighs = !bound->both && !sticks && count == 1 && !owner[0]->moves; /* see walls_weigh() */
+    if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
     node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner[0]->coefficient : 0.0f;

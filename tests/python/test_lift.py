@@ -1,11 +1,11 @@
-"""What water does to a box in it: the lift of Archimedes, wherever the box stands on the grid, and no stir."""
+"""What water does to a box that is held in it: the lift of Archimedes, wherever the box stands on the grid, and no stir."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 
-from pbmpm import Box, Friction, Liquid, RigidBody, World
+from pbmpm import Box, Friction, Liquid, World
 
 CELL = 0.025
 RATE_HZ = 60
@@ -58,23 +58,3 @@ def test_water_rests_around_a_held_box() -> None:
             if step >= 3 * RATE_HZ:
                 squares.append(np.mean(np.sum(np.square(world.velocities.array()), axis=1)))
         assert np.sqrt(np.mean(squares)) < 0.005  # as a pool of 12 cells between walls of the domain may
-
-
-@pytest.mark.parametrize("density", [600, 800])
-def test_small_cubes_float(density: float) -> None:
-    """Rigid cubes of four cells float as deep as their density says: those of 800 kg/m^3 sank. Half a cell is what a grid knows of a level."""
-    width, depth, side = 16, 12, 4 * CELL
-    with tank(3, width, depth) as world:
-        centre = [0.5 * width * CELL + 0.3 * CELL, depth * CELL, 0.5 * width * CELL + 0.3 * CELL]
-        cube = world.add_collider(Box(centre, [0.5 * side] * 3), kinematic=True, measures_impulse=True, friction=Friction.SLIP)
-        body = RigidBody(cube, density=density)
-        pour(world, width, depth)
-        level = (world.stats.mass / 1000 + side**3 * density / 1000) / (width * CELL) ** 2
-        heights = []
-        for step in range(5 * RATE_HZ):
-            body.advance(1 / RATE_HZ)
-            world.step(1 / RATE_HZ)
-            if step >= 3 * RATE_HZ:
-                heights.append(body.position[1])
-        under = level - (np.mean(heights) - 0.5 * side)
-        assert under == pytest.approx(side * density / 1000, abs=0.5 * CELL)
