@@ -358,7 +358,7 @@ void walls_weigh(const Walls *walls, const ContactFrame *frame, const float grav
         const WallNode *n = &node[i];
         if (n->behind == 0.0f) continue;
         if (n->entry == NO_ENTRY) {
-            if (n->mass > 0.0f) push_free(&job, n, n, n->behind * density_at(n), gravity, base);
+            if (!n->follows && n->mass > 0.0f) push_free(&job, n, n, n->behind * density_at(n), gravity, base);
             continue;
         }
         const WallEntry *entry = (const WallEntry *)walls->entry.data + n->entry;
