@@ -255,76 +255,6 @@ static void check_torque(DualStage *stage, Joint *joint)
     reference_grid_free(&balanced);
 }
 
-/* Nodes move by u = M x, x from the lowest node of the scene. Returns the longest way along an axis. */
-static double move_evenly(Scene *scene, const double M[9])
-{
-    const Grid *grid = &scene->world->grid;
-    float *node = scene->world->grid.node.data;
-    double longest = 0.0;
-    for (int32_t block = 0; block < grid->node_blocks; block++)
-        for (int32_t i = 0; i < grid->block_cells; i++, node += K_NODE_WIDTH) {
-            const int32_t *corner = (const int32_t *)grid->coordinate.data + 3 * block, local[3] = {i & 3, i >> 2 & 3, i >> 4};
-            for (int r = 0; r < scene->step.dimension && node[3] > 0.0f; r++) {
-                double u = 0.0;
-                for (int c = 0; c < scene->step.dimension; c++) u += M[r * 3 + c] * (double)(corner[c] * K_BLOCK_AXIS + local[c] - scene->low[c]);
-                node[r] = (float)u;
-                longest = fmax(longest, fabs(u));
-            }
-        }
-    return longest;
-}
-
-/* A turn is no strain, however large: couples leave no torque at all. */
-static void check_turn(DualStage *stage, Joint *joint)
-{
-    static const double ANGLE = 0.7;
-    const double c = cos(ANGLE), s = sin(ANGLE), turn[9] = {c - 1.0, -s, 0.0, s, c - 1.0, 0.0, 0.0, 0.0, 0.0};
-    Scene *scene = &stage->scene;
-    double largest, torque[3];
-    set_among_liquid(stage, joint, 1);
-    const double longest = move_evenly(scene, turn);
-    RefGrid balanced = forces_by(scene, scene->kernels->force_first, &largest);
-    torque_of(&balanced, torque);
-    const double arm = balanced.size[0] + balanced.size[1] + balanced.size[2];
-    for (int a = 0; a < 3; a++) check_near(0.0, torque[a], 64.0 * UNIT_ROUNDOFF * largest * arm * (1.0 + longest), "torque after a turn", a);
-    reference_grid_free(&balanced);
-}
-
-/* The couple of each particle at the stretch D = s along the first axis: its largest entry. */
-static void find_couples(DualStage *stage, float stretch, double *couple)
-{
-    const double M[9] = {(double)stretch};
-    const World *world = stage->scene.world;
-    move_evenly(&stage->scene, M);
-    scene_run_particles(&stage->scene, stage->scene.kernels->force_first);
-    for (uint32_t i = 0; i < world->particles.count; i++) couple[i] = (double)world->args.primal.couple[0][i];
-}
-
-/* They grow as s (1 - E), with the strain E = s + s^2 / 2, and vanish where E is 1. */
-static void check_fading(DualStage *stage, Joint *joint)
-{
-    static const float SLIGHT = 0.015625f, HALF = 0.5f, MUCH = 1.0f;
-    const World *world = stage->scene.world;
-    const size_t bytes = world->particles.count * sizeof(double);
-    double *slight = malloc(bytes), *half = malloc(bytes), *much = malloc(bytes), most = 0.0;
-    const double s = (double)SLIGHT, h = (double)HALF, ratio = h * (1.0 - h - 0.5 * h * h) / (s * (1.0 - s - 0.5 * s * s));
-    set_among_liquid(stage, joint, 1);
-    find_couples(stage, SLIGHT, slight);
-    find_couples(stage, HALF, half);
-    find_couples(stage, MUCH, much);
-    for (uint32_t i = 0; i < world->particles.count; i++) {
-        if (scene_particle(&stage->scene, i).material.kind == K_LIQUID) continue;
-        const double expected = ratio * slight[i];
-        most = fmax(most, fabs(expected));
-        check_near(expected, half[i], 1e-4 * fabs(expected), "couple of a stretch", (long)i); /* D has rounding of 2^-24 times the way, over SLIGHT */
-        check_true(much[i] == 0.0, "no couple where all is strain", (long)i);
-    }
-    check_true(most > 0.0, "stretches have couples", 0);
-    free(slight);
-    free(half);
-    free(much);
-}
-
 /* The transpose of reference_gradient(), times m / 4. */
 static void push_by_slopes(RefGrid *force, const RefParticle *p, const double S[9])
 {
@@ -396,23 +326,6 @@ static void test_solids_among_liquid_have_no_torque_where_they_begin(void)
     dual_check_spec(&spec, 3, check_balance);
 }
 
-static void check_strained(DualStage *stage)
-{
-    dual_check_begin(stage);
-    dual_check_push(stage);
-    Joint joint = joint_bind(stage);
-    memset(stage->scene.world->args.primal.sketch, 0, sizeof stage->scene.world->args.primal.sketch);
-    check_turn(stage, &joint);
-    check_fading(stage, &joint);
-    joint_free(&joint);
-}
-
-static void test_couples_know_turns_from_strains(void)
-{
-    const SceneSpec spec = scene_of("joint: couples of strains", PBMPM_ELASTIC);
-    dual_check_spec(&spec, 2, check_strained);
-}
-
 static void test_liquids_keep_the_pressures_of_the_dual(void)
 {
     const SceneSpec spec = scene_of("joint: liquids", PBMPM_LIQUID);
@@ -431,6 +344,5 @@ int main(void)
     RUN_TEST(test_liquids_keep_the_pressures_of_the_dual);
     RUN_TEST(test_solids_count_from_the_sketch);
     RUN_TEST(test_solids_among_liquid_have_no_torque_where_they_begin);
-    RUN_TEST(test_couples_know_turns_from_strains);
     return UNITY_END();
 }

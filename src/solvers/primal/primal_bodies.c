@@ -18,13 +18,6 @@ bool primal_is_multistep(const Primal *p, int32_t block)
     return share && share[block] < 1.0f;
 }
 
-/* Whether a node goes back where its body gained. Of the joint solver's bodies with liquid only what solids reach does: they alone store energy. Liquid stays where
- * the dual took it; what it then lacks of balance is an error of its volume, which later substeps mend. */
-static bool goes_back(const Primal *p, int32_t block, size_t node)
-{
-    return !p->joint || ((const uint64_t *)p->world->colliders.solid.data)[block] >> node & 1;
-}
-
 /* Sums over the nodes of a block, for sum_bodies(). Forces do work as gravity does. */
 static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
@@ -32,9 +25,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
     const float *pull = p->world->args.gravity, *without_forces = p->world->args.grid.node_before;
     for (size_t i = begin; i < end; i += W) {
         const double mass = (double)p->base[i + 3];
-        const double back = goes_back(p, block, (i - begin) / W) ? mass : 0.0;
         sum[3] += mass;
-        sum[13] += back;
         for (size_t c = 0; c < 3; c++) {
             const double u = (double)p->best[i + c], free = (double)p->base[i + c];
             const double g = (double)pull[c] + (free - (double)without_forces[i + c]);
@@ -45,7 +36,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
                 sum[0] += 0.5 * mass * u * u - mass * g * u;
                 sum[1] += mass > 0.0 ? 0.5 * mass * (free - g) * (free - g) : 0.0;
             }
-            sum[4 + c] += back * free;
+            sum[4 + c] += mass * free;
             sum[8] += 0.5 * mass * u * u;
             sum[12] += 0.5 * mass * free * free;
             sum[9 + c] += mass * u;
@@ -101,7 +92,6 @@ uint32_t primal_check_bodies(Primal *p)
         b->before += sum[1];
         b->work += sum[2];
         b->mass += sum[3];
-        b->back += sum[13];
         b->kinetic += sum[8];
         b->still += sum[12];
         if (!primal_is_multistep(p, block)) b->fallen += sum[8] - sum[0];
@@ -117,7 +107,7 @@ uint32_t primal_check_bodies(Primal *p)
         b->before += (double)rest[K_ENERGIES * block + 2] + (double)rest[K_ENERGIES * block + 3];
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
-        for (int c = 0; c < 3 && body[i].back > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].back;
+        for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
         body[i].failed = gained(&body[i]);
         body[i].unsound = body[i].unsound || body[i].failed;
         failed += body[i].failed;
@@ -132,7 +122,8 @@ uint32_t primal_check_bodies(Primal *p)
     return failed;
 }
 
-/* A mean motion may lead through a floor; a liquid of the primal that touches something starts from standing still. */
+/* A mean motion may lead through a floor; a liquid that touches something starts from standing still. In the joint solver nothing has less energy than where the
+ * descent is: there pressures and solids are balanced as far as they are, so it goes on from there. */
 static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const BodySum *body = primal_body_of(p, block);
@@ -143,12 +134,12 @@ static void pull_back(Primal *p, int32_t block, size_t begin, size_t end, double
         constraints_project(p->contacts, p->node, block, block + 1);
         return;
     }
-    const bool stands = body->with_liquid && body->touches && !p->joint;
+    const bool goes_on = p->joint && body->with_liquid;
     for (size_t i = begin; i < end; i++) {
         const size_t c = i % W;
         if (c == 3 || p->base[i - c + 3] == 0.0f) continue;
-        const float start = stands ? 0.0f : (float)body->start[c];
-        p->node[i] = body->failed && goes_back(p, block, (i - begin) / W) ? start + p->share * (p->best[i] - start) : p->best[i];
+        const float start = body->with_liquid && body->touches ? 0.0f : (float)body->start[c];
+        p->node[i] = body->failed && !goes_on ? start + p->share * (p->best[i] - start) : p->best[i];
     }
     constraints_project(p->contacts, p->node, block, block + 1);
 }

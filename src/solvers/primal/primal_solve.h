@@ -17,8 +17,7 @@ typedef struct BodySum {
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double stiff;             /* sum of the nodes' stiffnesses */
     double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
-    double mass;
-    double back, momentum[3]; /* mass of the nodes that would go back, see primal_bodies.c, and their momentum in the predictor */
+    double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
     double liquid;            /* energy of the liquid particles */
