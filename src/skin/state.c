@@ -137,7 +137,7 @@ pbmpm_result state_make(World *world, Skin *skin, SkinKey *key)
     if (!find_blocks(world, skin, &matter)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a surface of %d blocks", skin->blocks.count);
     const FieldWork work = state_work(world, skin, &matter);
     blocks_link(&skin->blocks, world->pool);
-    memset(skin->spray.data, 1, world->particles.count); /* blocks of spray are left out of the field */
+    if (world->particles.count > 0) memset(skin->spray.data, 1, world->particles.count); /* blocks of spray are left out of the field */
     field_make(&work, field_volume, 0, false, skin->field.data);
     if (skin->boundary.stands) boundary_mirror(&work, key->level, skin->field.data);
     if (key->keeps_thin) thin_add(&work, key->level, skin->field.data);
