@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "contact/field.h"
 #include "matter/particles.h"
 
 /* Does something for a particle whose nearest node lies `way` from the site. */
@@ -59,7 +60,7 @@ static double spline(double r, double *slope)
 {
     const double off = fabs(r), rest = fmax(0.0, 1.5 - off);
     *slope = off < 0.5 ? -2.0 * r : r > 0.0 ? -rest : rest;
-    return off < 0.5 ? 0.75 - r * r : 0.5 * rest * rest;
+    return field_spline(r);
 }
 
 static void add_push(const FlowingSite *site, const int32_t way[3], const KernelMaterial *material, uint32_t row, double *sum)
