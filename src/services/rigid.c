@@ -1,5 +1,6 @@
 #include "services/rigid.h"
 
+#include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
@@ -294,7 +295,7 @@ static void change_spin(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, co
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt)
 {
     const Ways ways = ways_to_move(def, dimension);
-    const double heavier = push->virtual_mass / def->mass;
+    const double heavier = getenv("VM") ? atof(getenv("VM")) * push->virtual_mass / def->mass : 0.0;
     double torque[3], asked[3];
     find_torque(def, state, push, dimension, dt, torque);
     change_spin(def, state, torque, is_held(def) ? heavier : 0.0, dimension); /* free bodies turn without: see the header */
@@ -304,6 +305,48 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
     keep_ways(&ways, state->velocity_change);
     change(asked, heavier, state->velocity_change, state->velocity);
     state->virtual_mass = push->virtual_mass;
+}
+
+/* ---- What a body answers ---- */
+
+BodyAnswer rigid_answer(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension)
+{
+    BodyAnswer answer = {.count = 0};
+    const Ways moves = ways_to_move(def, dimension);
+    const Spinner spinner = spinner_of(def, dimension);
+    double turn[9], own[3], arm[3], m[3][3], weight[3], lever[3], of_weight[3];
+    for (int i = 0; i < moves.count && !is_held(def); i++, answer.count++)
+        for (int a = 0; a < 3; a++) answer.way[answer.count][a] = moves.way[i][a] / sqrt(def->mass);
+    rotation_from_quaternion(state->rotation, turn);
+    inertia_along_ways(&spinner, turn, m);
+    for (int c = 0; c < spinner.ways.count; c++) { /* M = L L^T, K = (L^-1)^T L^-1 */
+        double column[3] = {0}, l[3][3] = {{0}};
+        for (int j = 0; j < spinner.ways.count; j++)
+            for (int i = j; i < spinner.ways.count; i++) {
+                double sum = m[i][j];
+                for (int k = 0; k < j; k++) sum -= l[i][k] * l[j][k];
+                l[i][j] = i == j ? sqrt(sum) : sum / l[j][j];
+            }
+        column[c] = 1.0;
+        for (int i = spinner.ways.count - 1; i >= 0; i--) { /* column c of L^-T: L^T x = e_c */
+            for (int k = i + 1; k < spinner.ways.count; k++) column[i] -= l[k][i] * column[k];
+            column[i] /= l[i][i];
+        }
+        for (int a = 0; a < 3; a++)
+            for (int i = 0; i < spinner.ways.count; i++) answer.way[answer.count][3 + a] += column[i] * spinner.ways.way[i][a];
+        answer.count++;
+    }
+    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
+    to_world(turn, own, arm);
+    own_lever(def, dimension, own);
+    to_world(turn, own, lever);
+    for (int a = 0; a < 3; a++) {
+        answer.centre[a] = a < dimension ? state->position[a] + arm[a] : 0.0;
+        answer.push[a] = weight[a] = def->mass * gravity[a] + def->force[a];
+    }
+    cross3(lever, weight, of_weight);
+    for (int a = 0; a < 3; a++) answer.push[3 + a] = of_weight[a] + def->torque[a];
+    return answer;
 }
 
 /* ---- Poses ---- */

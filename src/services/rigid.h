@@ -24,6 +24,9 @@ typedef struct RigidPush {
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt);
 void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int dimension, double dt);
 
+/* What it answers in the step to come, to where `state` brings it. */
+BodyAnswer rigid_answer(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension);
+
 /* Puts a body that passed walls back to them, along what way it may move, and stops it there. */
 void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension);
 

@@ -194,6 +194,8 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         Obstacle *o = &colliders->obstacle[count++];
         *o = collider_obstacle(&colliders->slot[slot], dimension, part, parts);
         o->place = (uint16_t)slot;
+        o->answer = colliders->slot[slot].answer;
+        o->elapsed = part + 1;
         colliders->measures = colliders->measures || o->measures;
     }
     for (int place = 0; domain && place < 2 * dimension; place++)
@@ -205,6 +207,7 @@ void colliders_end_step(Colliders *colliders)
 {
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         Collider *collider = &colliders->slot[slot];
+        collider->answer.count = 0;
         if (collider->generation != 0 && collider->moving)
             collider_place(collider, collider->target_position, collider->target_rotation, true);
     }
