@@ -1,6 +1,7 @@
 /* The exported functions of rigid.h. */
 #include "pbmpm/pbmpm.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -133,7 +134,17 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
-    if (!getenv("NOB")) found->answer = rigid_answer(&own, &next, push.gravity, w->def.dimension);
+    double answered[6];
+    memcpy(answered, found->answer.answered, sizeof answered);
+    if (!getenv("NOB")) {
+        found->answer = rigid_answer(&own, &next, push.gravity, w->def.dimension);
+        for (int a = 0; a < 3; a++) {
+            found->answer.other[a] = next.velocity_change[a] - (double)dt * push.gravity[a] - (double)dt * own.force[a] / own.mass - answered[a];
+            found->answer.other[3 + a] = next.angular_velocity_change[a] - answered[3 + a];
+        }
+        if (getenv("DBG")) fprintf(stderr, "J %.4f G %.4f other %.4f  spin %.3f %.3f %.3f\n", next.velocity_change[1] - dt * push.gravity[1], answered[1], found->answer.other[1], next.angular_velocity_change[2], answered[5], found->answer.other[5]);
+        if (getenv("NOO")) memset(found->answer.other, 0, sizeof answered);
+    }
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

@@ -13,6 +13,8 @@ typedef struct BodyAnswer {
     double way[BODY_WAYS][6];
     double centre[3];         /* [m]: what it turns about */
     double push[6];           /* by gravity and the host: force and torque about the centre */
+    double other[6];          /* what else changed its velocity and spin in the last step: contacts that walls do not see */
+    double answered[6];       /* what walls made of it in this step so far, and after the step in all */
 } BodyAnswer;
 
 /* An obstacle during one substep: a collider, or a wall of the domain. */
@@ -27,7 +29,7 @@ typedef struct Obstacle {
     uint16_t place; /* of its impulse, see Impulses.sum */
     uint32_t meets; /* groups of materials; 0: all */
     BodyAnswer answer;
-    double elapsed; /* substeps of this step, with this one */
+    double elapsed, parts; /* substeps of this step, with this one; and in all */
 } Obstacle;
 
 /* Whether what `meets` these groups acts on matter of those; see pbmpm_collider_def. */

@@ -240,6 +240,7 @@ static void answer_bodies(void *context, int32_t begin, int32_t end)
             for (int c = 0; c < body[b].count; c++) body[b].answer[a] += body[b].way[c][a] * q[c];
         }
     }
+    for (uint32_t b = 0; b < job->walls->bodies && job->shifted != 0.0f; b++) memcpy(body[b].kept, body[b].answer, sizeof body[b].kept);
     tell_answers(job);
 }
 
@@ -450,8 +451,21 @@ static void book(const ApplyJob *job, const WallNode *n, int j, const WallNode *
     impulse_add(&colliders->impulses.sum[o->place], point, gained);
 }
 
+void walls_note_answers(const Walls *walls, const ContactFrame *frame)
+{
+    const WallBody *body = walls->body.data;
+    for (uint32_t b = 0; b < walls->bodies; b++) {
+        double *answered = colliders_answered(frame->colliders, &frame->colliders->obstacle[body[b].obstacle]);
+        for (int a = 0; a < 3; a++) {
+            answered[a] += body[b].kept[a] * frame->substep->to_velocity;
+            answered[3 + a] += body[b].kept[3 + a] / frame->substep->dt;
+        }
+    }
+}
+
 void walls_book(const Walls *walls, const ContactFrame *frame)
 {
+    walls_note_answers(walls, frame);
     if (!frame->colliders->measures || walls->nodes == 0) return;
     const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
     const double scale = contacts_momentum_scale(frame);

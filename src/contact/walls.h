@@ -77,6 +77,9 @@ void walls_weigh(const Walls *walls, const ContactFrame *frame, const float grav
 /* Finds what the bodies among the walls answer with; by walls_find(). */
 void walls_bind_bodies(Walls *walls, const ContactFrame *frame);
 
+/* Adds what the walls' bodies answered in the substep to their colliders. */
+void walls_note_answers(const Walls *walls, const ContactFrame *frame);
+
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
 void walls_book(const Walls *walls, const ContactFrame *frame);
 

@@ -104,13 +104,8 @@ static void free_motion(const ContactFrame *frame, const Obstacle *o, double mot
     const double dt = frame->substep->dt;
     double push[6];
     for (int a = 0; a < 6; a++) push[a] = o->answer.push[a] * dt * o->elapsed;
-    const ImpulseSum *sum = &frame->colliders->impulses.sum[o->place];
-    const pbmpm_impulse given = impulse_about(sum, o->answer.centre, frame->grid->dimension);
-    for (int a = 0; a < 3; a++) {
-        push[a] += given.linear[a];
-        push[3 + a] += given.angular[a];
-    }
     answer_to(&o->answer, push, motion);
+    for (int a = 0; a < 6; a++) motion[a] += o->answer.answered[a] + o->answer.other[a] * o->elapsed / o->parts;
     for (int a = 0; a < 3; a++) {
         motion[a] *= frame->substep->to_cells;
         motion[3 + a] *= dt;

@@ -89,7 +89,7 @@ typedef struct WallBody {
     double way[6][6], factor[6][6];
     double free[6];   /* what it moves and turns by itself beside the obstacle's own motion [cells, rad] */
     double answer[6]; /* and what matter makes it */
-    double given[6];
+    double given[6], kept[6]; /* kept: the last answer with the walls' own motion */
 } WallBody;
 
 /* Who follows a node: an entry, or for the density the node itself. */

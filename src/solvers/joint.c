@@ -225,6 +225,7 @@ void joint_solve(World *world, const ContactFrame *contacts)
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     world->record.iterations_used = 0;
     begin_primal(world);
+    walls_note_answers(&world->walls, contacts);
     walls_clear(&world->walls); /* contacts book what they give */
     primal_solve(world, contacts);
     note_dual(&world->record, &dual);

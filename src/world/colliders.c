@@ -196,12 +196,15 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         o->place = (uint16_t)slot;
         o->answer = colliders->slot[slot].answer;
         o->elapsed = part + 1;
+        o->parts = parts;
         colliders->measures = colliders->measures || o->measures;
     }
     for (int place = 0; domain && place < 2 * dimension; place++)
         if (!domain->wall[place].open) colliders->obstacle[count++] = domain_wall(domain, dimension, place / 2, place % 2);
     colliders->obstacle_count = count;
 }
+
+double *colliders_answered(const Colliders *colliders, const Obstacle *obstacle) { return colliders->slot[obstacle->place].answer.answered; }
 
 void colliders_end_step(Colliders *colliders)
 {
