@@ -129,21 +129,35 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (result == PBMPM_OK && problem) result = api_invalid(problem);
     if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
     if (result != PBMPM_OK) LET_GO(result);
+    const BodyAnswer *last = &found->answer;
+    double later[6] = {0};
+    if (last->walled) {
+        const BodyAnswer now = rigid_answer(&own, &next, push.gravity, w->def.dimension);
+        const pbmpm_impulse given = impulse_about(&w->colliders.impulses.sum[collider.index], now.centre, w->def.dimension);
+        const double j[6] = {given.linear[0], given.linear[1], given.linear[2], given.angular[0], given.angular[1], given.angular[2]};
+        for (int c = 0; c < now.count; c++) {
+            double along = 0.0;
+            for (int a = 0; a < 6; a++) along += now.way[c][a] * j[a];
+            for (int a = 0; a < 6; a++) later[a] += along * now.way[c][a];
+        }
+        for (int a = 0; a < 6; a++) later[a] -= last->answered[a];
+        if (getenv("DBG")) fprintf(stderr, "G %.4f later %.4f earlier %.4f  spin %.3f %.3f\n", last->answered[1], later[1], last->other[1], last->answered[5], later[5]);
+        if (getenv("NOO")) memset(later, 0, sizeof later);
+    }
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
+    for (int a = 0; a < 3; a++) {
+        next.velocity[a] += last->other[a] - later[a];
+        next.velocity_change[a] += last->other[a] - later[a];
+        next.angular_velocity[a] += last->other[3 + a] - later[3 + a];
+        next.angular_velocity_change[a] += last->other[3 + a] - later[3 + a];
+    }
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
-    double answered[6];
-    memcpy(answered, found->answer.answered, sizeof answered);
     if (!getenv("NOB")) {
         found->answer = rigid_answer(&own, &next, push.gravity, w->def.dimension);
-        for (int a = 0; a < 3; a++) {
-            found->answer.other[a] = next.velocity_change[a] - (double)dt * push.gravity[a] - (double)dt * own.force[a] / own.mass - answered[a];
-            found->answer.other[3 + a] = next.angular_velocity_change[a] - answered[3 + a];
-        }
-        if (getenv("DBG")) fprintf(stderr, "J %.4f G %.4f other %.4f  spin %.3f %.3f %.3f\n", next.velocity_change[1] - dt * push.gravity[1], answered[1], found->answer.other[1], next.angular_velocity_change[2], answered[5], found->answer.other[5]);
-        if (getenv("NOO")) memset(found->answer.other, 0, sizeof answered);
+        memcpy(found->answer.other, later, sizeof later);
     }
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);

@@ -85,7 +85,7 @@ static inline uint32_t contacts_row_groups(const ContactFrame *frame, const Part
 }
 
 /* What an obstacle's collider has answered in this step. */
-double *colliders_answered(const Colliders *colliders, const Obstacle *obstacle);
+BodyAnswer *colliders_answer(const Colliders *colliders, const Obstacle *obstacle);
 
 /* Contacts of the last substep, without those of nodes that are held by nobody's obstacle. */
 uint32_t colliders_contacts(const Colliders *colliders);

@@ -14,6 +14,7 @@ typedef struct BodyAnswer {
     double centre[3];         /* [m]: what it turns about */
     double push[6];           /* by gravity and the host: force and torque about the centre */
     double other[6];          /* what else changed its velocity and spin in the last step: contacts that walls do not see */
+    bool walled; /* matter followed its walls */
     double answered[6];       /* what walls made of it in this step so far, and after the step in all */
 } BodyAnswer;
 

@@ -455,7 +455,9 @@ void walls_note_answers(const Walls *walls, const ContactFrame *frame)
 {
     const WallBody *body = walls->body.data;
     for (uint32_t b = 0; b < walls->bodies; b++) {
-        double *answered = colliders_answered(frame->colliders, &frame->colliders->obstacle[body[b].obstacle]);
+        BodyAnswer *answer = colliders_answer(frame->colliders, &frame->colliders->obstacle[body[b].obstacle]);
+        double *answered = answer->answered;
+        answer->walled = answer->walled || body[b].gripped;
         for (int a = 0; a < 3; a++) {
             answered[a] += body[b].kept[a] * frame->substep->to_velocity;
             answered[3 + a] += body[b].kept[3 + a] / frame->substep->dt;

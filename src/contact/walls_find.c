@@ -460,9 +460,10 @@ static void add_grip(Builder *b, uint32_t index, const Profile *profile, const O
         b->failed = true;
         return;
     }
-    const WallBody *body = walls->body.data;
+    WallBody *body = walls->body.data;
     WallGrip grip = {.share = symmetric_columns(share), .follower = index};
     while (body[grip.body].obstacle != place) grip.body++;
+    body[grip.body].gripped = true;
     for (int a = 0; a < 3; a++) grip.arm[a] = a < b->frame->grid->dimension ? (float)((profile->foot[a] - owner->answer.centre[a]) / b->frame->cell_size) : 0.0f;
     ((WallGrip *)walls->grip.data)[walls->grips++] = grip;
     const Four motion = grip_motion(&grip, body[grip.body].free);

@@ -86,6 +86,7 @@ typedef struct WallGrip {
 /* A rigid body whose walls nodes follow. In units of the nodes: B, and the Cholesky factor of 1 + B^T S B. */
 typedef struct WallBody {
     int obstacle, count;
+    bool gripped; /* a node follows it */
     double way[6][6], factor[6][6];
     double free[6];   /* what it moves and turns by itself beside the obstacle's own motion [cells, rad] */
     double answer[6]; /* and what matter makes it */

@@ -204,7 +204,7 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
     colliders->obstacle_count = count;
 }
 
-double *colliders_answered(const Colliders *colliders, const Obstacle *obstacle) { return colliders->slot[obstacle->place].answer.answered; }
+BodyAnswer *colliders_answer(const Colliders *colliders, const Obstacle *obstacle) { return &colliders->slot[obstacle->place].answer; }
 
 void colliders_end_step(Colliders *colliders)
 {
