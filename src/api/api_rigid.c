@@ -1,8 +1,6 @@
 /* The exported functions of rigid.h. */
 #include "pbmpm/pbmpm.h"
 
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "api/api_call.h"
@@ -84,13 +82,16 @@ pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider,
 static pbmpm_result find_push(World *world, pbmpm_collider_id id, const Collider *collider, RigidPush *push)
 {
     double point[3] = {0};
-    pbmpm_submersion under;
+    pbmpm_submersion under = {.volume = 0.0};
     const int dimension = world->def.dimension;
-    const pbmpm_result result = submerged_measure(world, collider, ANY_MATERIAL, &under);
+    const FreeBody *body = &collider->body;
+    const pbmpm_result result = body->walled ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
     if (result != PBMPM_OK) return result;
     for (int a = 0; a < dimension; a++) point[a] = (double)collider->shape.position[a];
     const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], point, dimension);
-    *push = (RigidPush){.virtual_mass = under.density * under.volume * under.share};
+    *push = (RigidPush){.walled = body->walled != 0, .virtual_mass = under.density * under.volume * under.share};
+    memcpy(push->yielded, body->yielded, sizeof push->yielded);
+    memcpy(push->delayed, body->delayed, sizeof push->delayed);
     for (int a = 0; a < 3; a++) {
         push->gravity[a] = a < dimension ? (double)world->settings.gravity[a] : 0.0;
         push->linear[a] = a < dimension ? given.linear[a] : 0.0;
@@ -129,36 +130,13 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (result == PBMPM_OK && problem) result = api_invalid(problem);
     if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
     if (result != PBMPM_OK) LET_GO(result);
-    const BodyAnswer *last = &found->answer;
-    double later[6] = {0};
-    if (last->walled) {
-        const BodyAnswer now = rigid_answer(&own, &next, push.gravity, w->def.dimension);
-        const pbmpm_impulse given = impulse_about(&w->colliders.impulses.sum[collider.index], now.centre, w->def.dimension);
-        const double j[6] = {given.linear[0], given.linear[1], given.linear[2], given.angular[0], given.angular[1], given.angular[2]};
-        for (int c = 0; c < now.count; c++) {
-            double along = 0.0;
-            for (int a = 0; a < 6; a++) along += now.way[c][a] * j[a];
-            for (int a = 0; a < 6; a++) later[a] += along * now.way[c][a];
-        }
-        for (int a = 0; a < 6; a++) later[a] -= last->answered[a];
-        if (getenv("DBG")) fprintf(stderr, "G %.4f later %.4f earlier %.4f  spin %.3f %.3f\n", last->answered[1], later[1], last->other[1], last->answered[5], later[5]);
-        if (getenv("NOO")) memset(later, 0, sizeof later);
-    }
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
-    for (int a = 0; a < 3; a++) {
-        next.velocity[a] += last->other[a] - later[a];
-        next.velocity_change[a] += last->other[a] - later[a];
-        next.angular_velocity[a] += last->other[3 + a] - later[3 + a];
-        next.angular_velocity_change[a] += last->other[3 + a] - later[3 + a];
-    }
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
-    if (!getenv("NOB")) {
-        found->answer = rigid_answer(&own, &next, push.gravity, w->def.dimension);
-        memcpy(found->answer.other, later, sizeof later);
-    }
+    found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
+    memcpy(found->body.delayed, push.later, sizeof push.later);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

@@ -84,9 +84,6 @@ static inline uint32_t contacts_row_groups(const ContactFrame *frame, const Part
     return frame->material ? frame->material[particles->material[row]].groups : ALL_GROUPS;
 }
 
-/* What an obstacle's collider has answered in this step. */
-BodyAnswer *colliders_answer(const Colliders *colliders, const Obstacle *obstacle);
-
 /* Contacts of the last substep, without those of nodes that are held by nobody's obstacle. */
 uint32_t colliders_contacts(const Colliders *colliders);
 

@@ -20,3 +20,13 @@ void obstacle_motion(const Obstacle *o, const double point[3], double cell_size,
     const double scale = length > (double)limit * limit ? limit / sqrt(length) : 1.0;
     for (int r = 0; r < o->start.dimension; r++) out[r] = (float)(moved[r] * scale);
 }
+
+void free_body_yields(const FreeBody *body, const double push[6], double change[6])
+{
+    memset(change, 0, 6 * sizeof *change);
+    for (int k = 0; k < body->ways; k++) {
+        double along = 0.0;
+        for (int a = 0; a < 6; a++) along += body->way[k][a] * push[a];
+        for (int a = 0; a < 6; a++) change[a] += along * body->way[k][a];
+    }
+}

@@ -5,18 +5,20 @@
 #include "pbmpm/collider.h"
 #include "shape/shapes.h"
 
-/* How an obstacle that is a rigid body answers to impulses in a step: by B B^T, with one column of B per degree of freedom: velocity [m/s] and spin [rad/s] per root of
- * the energy's unit. */
-enum { BODY_WAYS = 6 };
-typedef struct BodyAnswer {
-    int count;                /* of columns; 0: it goes its way whatever pushes it */
-    double way[BODY_WAYS][6];
-    double centre[3];         /* [m]: what it turns about */
-    double push[6];           /* by gravity and the host: force and torque about the centre */
-    double other[6];          /* what else changed its velocity and spin in the last step: contacts that walls do not see */
-    bool walled; /* matter followed its walls */
-    double answered[6];       /* what walls made of it in this step so far, and after the step in all */
-} BodyAnswer;
+/* An obstacle that is a rigid body yields to what pushes it: its velocity [m/s] and spin [rad/s] change by B B^T times an impulse and its moment about the centre. */
+enum { FREE_BODY_WAYS = 6 };
+typedef struct FreeBody {
+    int32_t ways;  /* degrees of freedom; 0: it yields to nothing */
+    int32_t walled; /* matter followed its walls in the last step */
+    double way[FREE_BODY_WAYS][6]; /* the columns of B */
+    double centre[3];  /* [m]: what it turns about */
+    double push[6];    /* gravity and the host: force, and moment about the centre */
+    double yielded[6]; /* by how much it yielded to matter at its walls in this step so far */
+    double delayed[6]; /* what contacts gave in the last step, and it yields to in this one */
+} FreeBody;
+
+/* B B^T times an impulse and its moment. */
+void free_body_yields(const FreeBody *body, const double push[6], double change[6]);
 
 /* An obstacle during one substep: a collider, or a wall of the domain. */
 typedef struct Obstacle {
@@ -29,8 +31,8 @@ typedef struct Obstacle {
     bool measures;
     uint16_t place; /* of its impulse, see Impulses.sum */
     uint32_t meets; /* groups of materials; 0: all */
-    BodyAnswer answer;
-    double elapsed, parts; /* substeps of this step, with this one; and in all */
+    FreeBody *body;  /* null: it goes its way */
+    int part, parts; /* which substep of how many this is */
 } Obstacle;
 
 /* Whether what `meets` these groups acts on matter of those; see pbmpm_collider_def. */

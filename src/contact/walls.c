@@ -1,36 +1,25 @@
 #include "contact/walls.h"
 
 #include <math.h>
-#include <string.h>
 
+#include "contact/wall_bodies.h"
+#include "contact/walls_job.h"
 #include "contact/walls_list.h"
 
 enum { GRAIN = 64, WALL_NODE_NS = 20 };
-
-/* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
-typedef struct Vectors {
-    Four *momentum, *free, *moved, *back;
-} Vectors;
-
-static Vectors vectors_of(const Walls *walls)
-{
-    Four *first = walls->vector.data;
-    if (walls->nodes == 0) return (Vectors){0};
-    return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + VECTORS * (size_t)walls->nodes};
-}
 
 void walls_free(Walls *walls, Memory *memory)
 {
     Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->mirror, &walls->corner,
                        &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->faced,  &walls->vector,
-                       &walls->grip, &walls->body};
+                       &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->frees = walls->moves = walls->entries = walls->mirrors = walls->corners = walls->grips = walls->bodies = 0;
+    walls->nodes = walls->frees = walls->moves = walls->entries = walls->mirrors = walls->corners = walls->grips = walls->bodies = walls->beside = 0;
     walls->rubs = false;
 }
 
@@ -52,14 +41,6 @@ bool walls_hold(const Walls *walls, uint32_t node)
 
 /* ---- Making motion admissible ---- */
 
-typedef struct ApplyJob {
-    const Walls *walls;
-    const ContactFrame *frame;
-    Vectors v;
-    float shifted; /* 1 with the walls' own motion, 0 without */
-    const uint8_t *mark;
-} ApplyJob;
-
 static float *node_at(const ApplyJob *job, uint32_t node) { return (float *)job->frame->grid->node.data + (size_t)node * K_NODE_WIDTH; }
 
 static Four load(const float *node) { return (Four){node[0], node[1], node[2], node[3]}; }
@@ -68,45 +49,6 @@ static Four load(const float *node) { return (Four){node[0], node[1], node[2], n
 static void store(Four u, float *node)
 {
     for (int a = 0; a < 3; a++) node[a] = u[a];
-}
-
-/* Per node what the answers of bodies add to c0, see answer_bodies(). */
-static Four *answers(const ApplyJob *job) { return job->v.back + job->walls->entries; }
-
-/* The wall's own motion c0 at a node. */
-static Four shift_of(const ApplyJob *job, const WallMotion *n)
-{
-    const Four shift = job->shifted * n->shift;
-    return job->walls->bodies == 0 ? shift : shift + answers(job)[n - (const WallMotion *)job->walls->motion.data];
-}
-
-/* p - m c0 */
-static Four rest_of(const ApplyJob *job, const WallMotion *n, Four p) { return p - n->mass * shift_of(job, n); }
-
-/* What a node has itself of a vector. */
-static Four own_of(const ApplyJob *job, uint32_t i, Four v)
-{
-    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
-    if (n->own == OWN_ALL) return v;
-    if (n->own == OWN_NONE) return (Four){0};
-    const Columns own = symmetric_columns(((const WallNode *)job->walls->node.data)[i].own);
-    return times(&own, v);
-}
-
-/* What an entry takes from: the mean of its parents' u~. */
-static Four mean_of(const ApplyJob *job, const WallEntry *entry)
-{
-    const WallCorner *corner = job->walls->corner.data;
-    Four mean = {0};
-    for (uint32_t k = entry->corner_begin; k < entry->corner_end; k++) mean += corner[k].weight * job->v.free[corner[k].parent];
-    return mean;
-}
-
-static void fold_back(const ApplyJob *job, uint32_t i)
-{
-    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
-    const WallEntry *entry = job->walls->entry.data;
-    if (n->entry != NO_ENTRY) job->v.back[n->entry] = times(&entry[n->entry].matrix, rest_of(job, n, job->v.momentum[i]));
 }
 
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
@@ -121,26 +63,39 @@ static void send_back(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* E^T (p - m c0) at one node, with its links. */
-static Four folded(const ApplyJob *job, uint32_t i, uint32_t link_begin, uint32_t link_moving)
+static void find_free_node(const ApplyJob *job, const WallFree *free)
 {
-    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
-    const WallLink *link = job->walls->link.data;
-    Four sum = own_of(job, i, rest_of(job, n, job->v.momentum[i]));
-    for (uint32_t l = link_begin; l < link_moving; l++) sum += link[l].weight * job->v.back[link[l].from];
-    return sum;
+    const uint32_t i = free->place;
+    job->v.free[i] = job->v.moved[i] = times(&free->inverse, folded(job, i, free->link_begin, free->link_moving));
+    store(job->v.free[i], node_at(job, ((const WallMotion *)job->walls->motion.data)[i].node));
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallMotion *motion = job->walls->motion.data;
-    const WallFree *free = job->walls->free.data;
-    for (int32_t f = begin; f < end; f++) {
-        const uint32_t i = free[f].place;
-        job->v.free[i] = job->v.moved[i] = times(&free[f].inverse, folded(job, i, free[f].link_begin, free[f].link_moving));
-        store(job->v.free[i], node_at(job, motion[i].node));
-    }
+    for (int32_t f = begin; f < end; f++) find_free_node(job, (const WallFree *)job->walls->free.data + f);
+}
+
+/* Those beside bodies, once the bodies have yielded. */
+static void find_free_again(void *context, int32_t begin, int32_t end)
+{
+    const ApplyJob *job = context;
+    const uint32_t *beside = job->walls->beside_body.data;
+    for (int32_t k = begin; k < end; k++) find_free_node(job, (const WallFree *)job->walls->free.data + beside[k]);
+}
+
+static void hold_bodies(void *context, int32_t begin, int32_t end)
+{
+    (void)begin;
+    (void)end;
+    wall_bodies_hold(context);
+}
+
+static void let_yield(void *context, int32_t begin, int32_t end)
+{
+    (void)begin;
+    (void)end;
+    wall_bodies_yield(context);
 }
 
 /* Where contacts were obeyed in between. */
@@ -170,78 +125,6 @@ static void find_moved(void *context, int32_t begin, int32_t end)
         job->v.moved[i] = u;
         store(u, node_at(job, n->node));
     }
-}
-
-/* ---- Rigid bodies ----
- *
- * A body's own motion z is one of the unknowns: with y what it answers beside z0, C its motion at the nodes, and K = B B^T what it answers to impulses,
- *     K^-1 y = C^T (p - m u) = G - S y,   y = B (1 + B^T S B)^-1 B^T G,   S = C^T m C - C^T m E M^-1 E^T m C.
- * With M >= E^T m E all of it stays symmetric, and its norm at most that of 1/m. So a body that is lighter than the matter around it is as stable as any. */
-
-static void solve_factored(const double l[6][6], double x[6], int count);
-
-static void grip_push(const WallGrip *grip, Four f, double push[6])
-{
-    const Four force = times(&grip->share, f), torque = cross(grip->arm, force);
-    for (int a = 0; a < 3; a++) {
-        push[a] += (double)force[a];
-        push[3 + a] += (double)torque[a];
-    }
-}
-
-/* G: what the nodes give to the bodies. */
-static void push_bodies(const ApplyJob *job)
-{
-    const WallGrip *grip = job->walls->grip.data;
-    const WallMotion *motion = job->walls->motion.data;
-    const WallEntry *entry = job->walls->entry.data;
-    WallBody *body = job->walls->body.data;
-    for (uint32_t b = 0; b < job->walls->bodies; b++) memset(body[b].given, 0, sizeof body[b].given);
-    for (uint32_t g = 0; g < job->walls->grips; g++) {
-        const uint32_t i = grip[g].follower;
-        const WallMotion *n = &motion[i];
-        Four u = own_of(job, i, job->v.free[i]) + shift_of(job, n);
-        if (n->entry != NO_ENTRY) u += times(&entry[n->entry].matrix, mean_of(job, &entry[n->entry]));
-        grip_push(&grip[g], job->v.momentum[i] - n->mass * u, body[grip[g].body].given);
-    }
-}
-
-/* Tells the nodes what the bodies answer. */
-static void tell_answers(const ApplyJob *job)
-{
-    const WallGrip *grip = job->walls->grip.data;
-    const WallBody *body = job->walls->body.data;
-    memset(answers(job), 0, job->walls->nodes * sizeof(Four));
-    for (uint32_t g = 0; g < job->walls->grips; g++) answers(job)[grip[g].follower] += grip_motion(&grip[g], body[grip[g].body].answer);
-}
-
-static void forget_answers(void *context, int32_t begin, int32_t end)
-{
-    const ApplyJob *job = context;
-    memset(answers(job) + begin, 0, (size_t)(end - begin) * sizeof(Four));
-}
-
-static void answer_bodies(void *context, int32_t begin, int32_t end)
-{
-    const ApplyJob *job = context;
-    WallBody *body = job->walls->body.data;
-    (void)begin;
-    (void)end;
-    push_bodies(job);
-    for (uint32_t b = 0; b < job->walls->bodies; b++) {
-        double q[6];
-        for (int c = 0; c < body[b].count; c++) {
-            q[c] = 0.0;
-            for (int a = 0; a < 6; a++) q[c] += body[b].way[c][a] * body[b].given[a];
-        }
-        solve_factored(body[b].factor, q, body[b].count);
-        for (int a = 0; a < 6; a++) {
-            body[b].answer[a] = 0.0;
-            for (int c = 0; c < body[b].count; c++) body[b].answer[a] += body[b].way[c][a] * q[c];
-        }
-    }
-    for (uint32_t b = 0; b < job->walls->bodies && job->shifted != 0.0f; b++) memcpy(body[b].kept, body[b].answer, sizeof body[b].kept);
-    tell_answers(job);
 }
 
 /* What the wall gives to a node: m u - p, with what E^T brings to others and less what M counts of it there. The sum over all nodes is the change of momentum,
@@ -330,25 +213,18 @@ static void obey(void *context, int32_t begin, int32_t end)
     }
 }
 
-static void send_free(void *context, int32_t begin, int32_t end)
-{
-    const ApplyJob *job = context;
-    for (int32_t i = begin; i < end; i++) fold_back(job, (uint32_t)i);
-}
-
 static Span span_of(uint32_t count) { return (Span){(int32_t)count, GRAIN, (int64_t)count * WALL_NODE_NS}; }
 
 void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool linear, const uint8_t *mark)
 {
     const ApplyJob job = {walls, frame, vectors_of(walls), linear ? 0.0f : 1.0f, mark};
     const Span all = span_of(walls->nodes), free = span_of(walls->frees), moved = span_of(walls->moves);
-    if (walls->bodies > 0) LOOPS_ADD(loops, all, forget_answers, &job);
+    if (walls->grips > 0) LOOPS_ADD(loops, span_once(), hold_bodies, &job);
     LOOPS_ADD(loops, all, send_back, &job);
     LOOPS_ADD(loops, free, find_free, &job);
-    if (walls->bodies > 0) {
-        LOOPS_ADD(loops, span_once(), answer_bodies, &job);
-        LOOPS_ADD(loops, all, send_free, &job);
-        LOOPS_ADD(loops, free, find_free, &job);
+    if (walls->grips > 0) {
+        LOOPS_ADD(loops, span_once(), let_yield, &job);
+        LOOPS_ADD(loops, span_of(walls->beside), find_free_again, &job);
     }
     if (frame->colliders->contacts > 0) {
         LOOPS_ADD(loops, grid_nodes(frame->grid, 4), obey, &job);
@@ -360,56 +236,6 @@ void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool
         LOOPS_ADD(loops, free, rub, &job);
         LOOPS_ADD(loops, moved, find_moved, &job);
     }
-}
-
-/* Solves L L^T x = x in place. */
-static void solve_factored(const double l[6][6], double x[6], int count)
-{
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < i; k++) x[i] -= l[i][k] * x[k];
-        x[i] /= l[i][i];
-    }
-    for (int i = count - 1; i >= 0; i--) {
-        for (int k = i + 1; k < count; k++) x[i] -= l[k][i] * x[k];
-        x[i] /= l[i][i];
-    }
-}
-
-static void factor(double m[6][6], int count, double l[6][6])
-{
-    memset(l, 0, 36 * sizeof(double));
-    for (int c = 0; c < count; c++)
-        for (int r = c; r < count; r++) {
-            double sum = m[r][c];
-            for (int k = 0; k < c; k++) sum -= l[r][k] * l[c][k];
-            l[r][c] = r == c ? sqrt(fmax(sum, 1e-30)) : sum / l[c][c];
-        }
-}
-
-void walls_bind_bodies(Walls *walls, const ContactFrame *frame)
-{
-    const ApplyJob job = {walls, frame, vectors_of(walls), 0.0f, NULL};
-    WallBody *body = walls->body.data;
-    memset(job.v.momentum, 0, walls->nodes * sizeof(Four));
-    for (uint32_t b = 0; b < walls->bodies; b++) {
-        double m[6][6] = {{0}};
-        for (uint32_t other = 0; other < walls->bodies; other++) memset(body[other].answer, 0, sizeof body[other].answer);
-        for (int c = 0; c < body[b].count; c++) {
-            memcpy(body[b].answer, body[b].way[c], sizeof body[b].answer);
-            tell_answers(&job);
-            send_free((void *)&job, 0, (int32_t)walls->nodes);
-            const WallFree *free = walls->free.data;
-            for (uint32_t f = 0; f < walls->frees; f++) job.v.free[free[f].place] = times(&free[f].inverse, folded(&job, free[f].place, free[f].link_begin, free[f].link_moving));
-            push_bodies(&job);
-            for (int r = 0; r < body[b].count; r++)
-                for (int a = 0; a < 6; a++) m[r][c] -= body[b].way[r][a] * body[b].given[a];
-            m[c][c] += 1.0;
-        }
-        factor(m, body[b].count, body[b].factor);
-        memset(body[b].answer, 0, sizeof body[b].answer);
-    }
-    memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four));
-    memset(answers(&job), 0, walls->nodes * sizeof(Four));
 }
 
 void walls_apply(const Walls *walls, const ContactFrame *frame, Pool *pool, bool linear, const uint8_t *mark)
@@ -451,23 +277,8 @@ static void book(const ApplyJob *job, const WallNode *n, int j, const WallNode *
     impulse_add(&colliders->impulses.sum[o->place], point, gained);
 }
 
-void walls_note_answers(const Walls *walls, const ContactFrame *frame)
-{
-    const WallBody *body = walls->body.data;
-    for (uint32_t b = 0; b < walls->bodies; b++) {
-        BodyAnswer *answer = colliders_answer(frame->colliders, &frame->colliders->obstacle[body[b].obstacle]);
-        double *answered = answer->answered;
-        answer->walled = answer->walled || body[b].gripped;
-        for (int a = 0; a < 3; a++) {
-            answered[a] += body[b].kept[a] * frame->substep->to_velocity;
-            answered[3 + a] += body[b].kept[3 + a] / frame->substep->dt;
-        }
-    }
-}
-
 void walls_book(const Walls *walls, const ContactFrame *frame)
 {
-    walls_note_answers(walls, frame);
     if (!frame->colliders->measures || walls->nodes == 0) return;
     const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
     const double scale = contacts_momentum_scale(frame);

@@ -37,9 +37,11 @@ typedef struct Walls {
     Array bound;      /* per such node: its faces */
     Array faced;      /* Bound * of those that have any */
     Array vector;     /* per node: what is passed between loops */
-    Array grip;       /* WallGrip */
+    Array grip;       /* WallGrip, in the order of the nodes that follow */
     Array body;       /* WallBody */
-    uint32_t nodes, frees, moves, entries, mirrors, corners, grips, bodies;
+    Array scratch;    /* while S is found */
+    Array beside_body; /* uint32_t: which of the free nodes rigid bodies move */
+    uint32_t nodes, frees, moves, entries, mirrors, corners, grips, bodies, beside;
     bool rubs;        /* a wall has friction */
 } Walls;
 
@@ -73,12 +75,6 @@ void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool
  * floated as they should, but wide rafts rocked by 15 degrees, for which there is no explanation yet. To be called before walls are obeyed.
  * `gravity`: of the substep [cells]; `base`: 4 floats per node, changed as the nodes are. */
 void walls_weigh(const Walls *walls, const ContactFrame *frame, const float gravity[3], float *base);
-
-/* Finds what the bodies among the walls answer with; by walls_find(). */
-void walls_bind_bodies(Walls *walls, const ContactFrame *frame);
-
-/* Adds what the walls' bodies answered in the substep to their colliders. */
-void walls_note_answers(const Walls *walls, const ContactFrame *frame);
 
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
 void walls_book(const Walls *walls, const ContactFrame *frame);

@@ -7,6 +7,7 @@
 #include "contact/flowing.h"
 #include "contact/obstacle_cache.h"
 #include "contact/reach.h"
+#include "contact/wall_bodies.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"
 #include "contact/wet_side.h"
@@ -84,58 +85,6 @@ typedef struct Bound {
     bool both, thin; /* see wet_faces() */
     float open; /* share */
 } Bound;
-
-/* ---- Rigid bodies ---- */
-
-/* K times what pushes it. */
-static void answer_to(const BodyAnswer *answer, const double push[6], double velocity[6])
-{
-    memset(velocity, 0, 6 * sizeof *velocity);
-    for (int c = 0; c < answer->count; c++) {
-        double along = 0.0;
-        for (int a = 0; a < 6; a++) along += answer->way[c][a] * push[a];
-        for (int a = 0; a < 6; a++) velocity[a] += along * answer->way[c][a];
-    }
-}
-
-/* In this substep, beside the motion that its obstacle has: it answers to gravity, the host and what matter gave it in this step before. */
-static void free_motion(const ContactFrame *frame, const Obstacle *o, double motion[6])
-{
-    const double dt = frame->substep->dt;
-    double push[6];
-    for (int a = 0; a < 6; a++) push[a] = o->answer.push[a] * dt * o->elapsed;
-    answer_to(&o->answer, push, motion);
-    for (int a = 0; a < 6; a++) motion[a] += o->answer.answered[a] + o->answer.other[a] * o->elapsed / o->parts;
-    for (int a = 0; a < 3; a++) {
-        motion[a] *= frame->substep->to_cells;
-        motion[3 + a] *= dt;
-    }
-}
-
-/* Lists the obstacles that are bodies. Per node p = mass times cells; a body's energy in those units. */
-static bool list_bodies(Walls *walls, const ContactFrame *frame, Memory *memory)
-{
-    const Colliders *colliders = frame->colliders;
-    uint32_t count = 0;
-    for (int i = 0; i < colliders->obstacle_count; i++) count += colliders->obstacle[i].answer.count > 0;
-    if (count == 0) return true;
-    if (!array_reserve(memory, &walls->body, count, sizeof(WallBody))) return false;
-    const double scale = contacts_momentum_scale(frame), dt = frame->substep->dt, to_cells = frame->substep->to_cells;
-    for (int i = 0; i < colliders->obstacle_count; i++) {
-        const Obstacle *o = &colliders->obstacle[i];
-        if (o->answer.count == 0) continue;
-        WallBody *body = (WallBody *)walls->body.data + walls->bodies++;
-        *body = (WallBody){.obstacle = i, .count = o->answer.count};
-        /* an impulse J of nodes is scale J [kg m/s], and a velocity v is v dt / dx [cells]: y = to_cells K scale J; torques and angles likewise */
-        for (int c = 0; c < body->count; c++)
-            for (int a = 0; a < 3; a++) {
-                body->way[c][a] = o->answer.way[c][a] * sqrt(to_cells * scale);
-                body->way[c][3 + a] = o->answer.way[c][3 + a] * sqrt(dt * scale * frame->cell_size);
-            }
-        free_motion(frame, o, body->free);
-    }
-    return true;
-}
 
 /* ---- The nodes that follow ---- */
 
@@ -450,24 +399,15 @@ static void way_out(const Profile *profile, int count, double way[3])
     }
 }
 
-/* The node follows the wall with the part `share` of the motion of the wall's foot. */
+/* The node follows the wall with the part `share` of its motion, which is more where that is a rigid body's. */
 static void add_grip(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, const float share[6])
 {
-    Walls *walls = b->walls;
-    const int place = (int)(owner - b->frame->colliders->obstacle);
-    if (owner->answer.count == 0) return;
-    if (!array_grow(b->memory, &walls->grip, (size_t)walls->grips + 1, sizeof(WallGrip), (size_t)walls->grips * sizeof(WallGrip))) {
+    float moved[3];
+    if (!owner->body) return;
+    if (wall_bodies_grip(b->walls, b->frame, b->memory, index, owner, profile->foot, share, moved))
+        for (int a = 0; a < 3; a++) ((WallNode *)b->walls->node.data)[index].shift[a] += moved[a];
+    else
         b->failed = true;
-        return;
-    }
-    WallBody *body = walls->body.data;
-    WallGrip grip = {.share = symmetric_columns(share), .follower = index};
-    while (body[grip.body].obstacle != place) grip.body++;
-    body[grip.body].gripped = true;
-    for (int a = 0; a < 3; a++) grip.arm[a] = a < b->frame->grid->dimension ? (float)((profile->foot[a] - owner->answer.centre[a]) / b->frame->cell_size) : 0.0f;
-    ((WallGrip *)walls->grip.data)[walls->grips++] = grip;
-    const Four motion = grip_motion(&grip, body[grip.body].free);
-    for (int a = 0; a < 3; a++) ((WallNode *)walls->node.data)[index].shift[a] += motion[a];
 }
 
 static void add_grip_along(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, double scale)
@@ -840,7 +780,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
         if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        ok = list_bodies(walls, frame, memory) && bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
+        ok = wall_bodies_list(walls, frame, memory) && bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
@@ -854,6 +794,9 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     if (walls->nodes > 0) memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
     lump(walls, grid->dimension);
-    if (walls->bodies > 0) walls_bind_bodies(walls, frame);
+    if (!wall_bodies_bind(walls, frame, memory)) {
+        walls_clear(walls);
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies", walls->bodies);
+    }
     return PBMPM_OK;
 }

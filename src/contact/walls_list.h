@@ -76,21 +76,24 @@ typedef struct WallFree {
     uint32_t link_begin, link_moving;
 } WallFree;
 
-/* A node that follows the wall of a rigid body: its motion is D (y + r x arm), with y and r what the body moves and turns. */
+/* A node that follows the wall of a rigid body: where that moves by y and turns by r, the node moves by D (y + r x arm). */
 typedef struct WallGrip {
     Columns share; /* D */
-    Four arm;      /* [cells] */
+    Four arm;      /* of the wall's foot, from what the body turns about [cells] */
     uint32_t follower, body;
 } WallGrip;
 
-/* A rigid body whose walls nodes follow. In units of the nodes: B, and the Cholesky factor of 1 + B^T S B. */
+/* A rigid body among the walls, see wall_bodies.h. Motions are displacements [cells], then turns. */
 typedef struct WallBody {
-    int obstacle, count;
-    bool gripped; /* a node follows it */
-    double way[6][6], factor[6][6];
-    double free[6];   /* what it moves and turns by itself beside the obstacle's own motion [cells, rad] */
-    double answer[6]; /* and what matter makes it */
-    double given[6], kept[6]; /* kept: the last answer with the walls' own motion */
+    FreeBody *free;
+    int obstacle;
+    bool gripped;       /* a node follows it */
+    double way[6][6];   /* the columns of B, for momenta as the nodes count them */
+    double factor[6][6]; /* L, with L L^T = 1 + B^T S B */
+    double before[6];   /* its motion in this substep beside the obstacle's own, but for */
+    double given[6];    /* G, of the last walls_apply() */
+    double yield[6];    /* y, likewise, and */
+    double yielded[6];  /* of the last one with the walls' own motion */
 } WallBody;
 
 /* Who follows a node: an entry, or for the density the node itself. */
@@ -102,11 +105,5 @@ typedef struct WallLink {
 static inline Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
 
 static inline Four cross(Four a, Four b) { return (Four){a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}; }
-
-static inline Four grip_motion(const WallGrip *grip, const double motion[6])
-{
-    const Four way = {(float)motion[0], (float)motion[1], (float)motion[2]}, spin = {(float)motion[3], (float)motion[4], (float)motion[5]};
-    return times(&grip->share, way + cross(spin, grip->arm));
-}
 
 #endif

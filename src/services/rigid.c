@@ -1,6 +1,5 @@
 #include "services/rigid.h"
 
-#include <stdlib.h>
 #include <math.h>
 #include <string.h>
 
@@ -255,6 +254,56 @@ static void momentum_of(const Spinner *spinner, const double rotation[4], const 
     }
 }
 
+/* ---- How it yields ---- */
+
+/* Adds the columns (L^-1)^T of what turns it, with L L^T the inertia along its ways: the inverse of the inertia is their product. */
+static void add_turns(const Spinner *spinner, const double turn[9], FreeBody *body)
+{
+    const int count = spinner->ways.count;
+    double m[3][3], l[3][3] = {{0}};
+    inertia_along_ways(spinner, turn, m);
+    for (int c = 0; c < count; c++)
+        for (int r = c; r < count; r++) { /* A.-L. Cholesky */
+            double rest = m[r][c];
+            for (int k = 0; k < c; k++) rest -= l[r][k] * l[c][k];
+            l[r][c] = r == c ? sqrt(rest) : rest / l[c][c];
+        }
+    for (int c = 0; c < count; c++) {
+        double x[3] = {0};
+        x[c] = 1.0;
+        for (int i = c; i >= 0; i--) { /* L^T x = e_c */
+            for (int k = i + 1; k <= c; k++) x[i] -= l[k][i] * x[k];
+            x[i] /= l[i][i];
+        }
+        for (int a = 0; a < 3; a++)
+            for (int i = 0; i < count; i++) body->way[body->ways][3 + a] += x[i] * spinner->ways.way[i][a];
+        body->ways++;
+    }
+}
+
+FreeBody rigid_free_body(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension)
+{
+    FreeBody body = {.ways = 0};
+    const Ways moves = ways_to_move(def, dimension);
+    const Spinner spinner = spinner_of(def, dimension);
+    double turn[9], own[3], arm[3], lever[3], of_weight[3];
+    rotation_from_quaternion(state->rotation, turn);
+    for (; body.ways < moves.count; body.ways++)
+        for (int a = 0; a < 3; a++) body.way[body.ways][a] = moves.way[body.ways][a] / sqrt(def->mass);
+    add_turns(&spinner, turn, &body);
+    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
+    to_world(turn, own, arm);
+    own_lever(def, dimension, own);
+    to_world(turn, own, lever);
+    for (int a = 0; a < 3; a++) {
+        body.centre[a] = a < dimension ? state->position[a] + arm[a] : 0.0;
+        body.push[a] = def->mass * gravity[a] + def->force[a];
+    }
+    cross3(lever, body.push, of_weight);
+    for (int a = 0; a < 3; a++) body.push[3 + a] = of_weight[a] + def->torque[a];
+    return body;
+}
+
 /* ---- Velocities ---- */
 
 /* What the impulses ask for, held back by the virtual mass. */
@@ -266,87 +315,32 @@ static void change(const double asked[3], double heavier, double last[3], double
     }
 }
 
-/* About what the body turns about. */
-static void find_torque(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt, double torque[3])
+void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt)
 {
-    double turn[9], own[3], arm[3], lever[3], weight[3], of_matter[3], of_weight[3];
-    rotation_from_quaternion(state->rotation, turn);
-    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
-    to_world(turn, own, arm);
-    own_lever(def, dimension, own);
-    to_world(turn, own, lever);
-    for (int a = 0; a < 3; a++) weight[a] = dt * (def->mass * push->gravity[a] + def->force[a]);
-    cross3(arm, push->linear, of_matter);
-    cross3(lever, weight, of_weight);
-    for (int a = 0; a < 3; a++) torque[a] = push->angular[a] - of_matter[a] + of_weight[a] + dt * def->torque[a];
-}
-
-static void change_spin(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const double torque[3], double heavier, int dimension)
-{
-    const Spinner spinner = spinner_of(def, dimension);
-    double along[3] = {0}, asked[3];
-    for (int i = 0; i < spinner.ways.count; i++) along[i] = dot3(spinner.ways.way[i], torque);
-    spin_of(&spinner, state->rotation, along, asked);
-    keep_ways(&spinner.ways, state->angular_velocity);
-    keep_ways(&spinner.ways, state->angular_velocity_change);
-    change(asked, heavier, state->angular_velocity_change, state->angular_velocity);
-}
-
-void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt)
-{
-    const Ways ways = ways_to_move(def, dimension);
-    const double heavier = getenv("VM") ? atof(getenv("VM")) * push->virtual_mass / def->mass : 0.0;
-    double torque[3], asked[3];
-    find_torque(def, state, push, dimension, dt, torque);
-    change_spin(def, state, torque, is_held(def) ? heavier : 0.0, dimension); /* free bodies turn without: see the header */
-    for (int a = 0; a < 3; a++) asked[a] = dt * push->gravity[a] + (push->linear[a] + dt * def->force[a]) / def->mass;
-    keep_ways(&ways, asked);
-    keep_ways(&ways, state->velocity);
-    keep_ways(&ways, state->velocity_change);
+    const FreeBody body = rigid_free_body(def, state, push->gravity, dimension);
+    const Ways moves = ways_to_move(def, dimension), turns = ways_to_turn(def, dimension);
+    const double heavier = push->virtual_mass / def->mass;
+    double arm[3], moment[3], impulse[6], asked[6], of_matter[6];
+    for (int a = 0; a < 3; a++) arm[a] = body.centre[a] - (a < dimension ? state->position[a] : 0.0);
+    cross3(arm, push->linear, moment);
+    for (int a = 0; a < 3; a++) {
+        impulse[a] = push->linear[a];
+        impulse[3 + a] = push->angular[a] - moment[a];
+    }
+    free_body_yields(&body, impulse, of_matter);
+    for (int a = 0; a < 6; a++) impulse[a] += dt * body.push[a];
+    free_body_yields(&body, impulse, asked);
+    for (int a = 0; a < 6; a++) {
+        push->later[a] = push->walled ? of_matter[a] - push->yielded[a] : 0.0;
+        asked[a] += push->delayed[a] - push->later[a];
+    }
+    keep_ways(&turns, state->angular_velocity);
+    keep_ways(&turns, state->angular_velocity_change);
+    change(asked + 3, is_held(def) ? heavier : 0.0, state->angular_velocity_change, state->angular_velocity); /* free bodies turn without: see the header */
+    keep_ways(&moves, state->velocity);
+    keep_ways(&moves, state->velocity_change);
     change(asked, heavier, state->velocity_change, state->velocity);
     state->virtual_mass = push->virtual_mass;
-}
-
-/* ---- What a body answers ---- */
-
-BodyAnswer rigid_answer(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension)
-{
-    BodyAnswer answer = {.count = 0};
-    const Ways moves = ways_to_move(def, dimension);
-    const Spinner spinner = spinner_of(def, dimension);
-    double turn[9], own[3], arm[3], m[3][3], weight[3], lever[3], of_weight[3];
-    for (int i = 0; i < moves.count && !is_held(def); i++, answer.count++)
-        for (int a = 0; a < 3; a++) answer.way[answer.count][a] = moves.way[i][a] / sqrt(def->mass);
-    rotation_from_quaternion(state->rotation, turn);
-    inertia_along_ways(&spinner, turn, m);
-    for (int c = 0; c < spinner.ways.count; c++) { /* M = L L^T, K = (L^-1)^T L^-1 */
-        double column[3] = {0}, l[3][3] = {{0}};
-        for (int j = 0; j < spinner.ways.count; j++)
-            for (int i = j; i < spinner.ways.count; i++) {
-                double sum = m[i][j];
-                for (int k = 0; k < j; k++) sum -= l[i][k] * l[j][k];
-                l[i][j] = i == j ? sqrt(sum) : sum / l[j][j];
-            }
-        column[c] = 1.0;
-        for (int i = spinner.ways.count - 1; i >= 0; i--) { /* column c of L^-T: L^T x = e_c */
-            for (int k = i + 1; k < spinner.ways.count; k++) column[i] -= l[k][i] * column[k];
-            column[i] /= l[i][i];
-        }
-        for (int a = 0; a < 3; a++)
-            for (int i = 0; i < spinner.ways.count; i++) answer.way[answer.count][3 + a] += column[i] * spinner.ways.way[i][a];
-        answer.count++;
-    }
-    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
-    to_world(turn, own, arm);
-    own_lever(def, dimension, own);
-    to_world(turn, own, lever);
-    for (int a = 0; a < 3; a++) {
-        answer.centre[a] = a < dimension ? state->position[a] + arm[a] : 0.0;
-        answer.push[a] = weight[a] = def->mass * gravity[a] + def->force[a];
-    }
-    cross3(lever, weight, of_weight);
-    for (int a = 0; a < 3; a++) answer.push[3 + a] = of_weight[a] + def->torque[a];
-    return answer;
 }
 
 /* ---- Poses ---- */

@@ -14,18 +14,22 @@ const char *rigid_state_problem(const pbmpm_rigid_state *state, int dimension);
 /* At rest where the obstacle is. */
 pbmpm_rigid_state rigid_at(const Collider *collider, const pbmpm_rigid_def *def, int dimension);
 
+/* How it yields to what pushes it, where `state` has it. */
+FreeBody rigid_free_body(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension);
+
 /* What changes a body's velocities in a step. */
 typedef struct RigidPush {
     double gravity[3];
     double linear[3], angular[3]; /* what matter gave; the second about the body's position */
+    bool walled;         /* matter followed the body's walls: it has yielded to a part of that in the step itself, and */
+    double yielded[6];   /* to how much */
+    double delayed[6];   /* what it was given to yield to later, and */
+    double later[6];     /* found: what it is given so now */
     double virtual_mass;
 } RigidPush;
 
-void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const RigidPush *push, int dimension, double dt);
+void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt);
 void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int dimension, double dt);
-
-/* What it answers in the step to come, to where `state` brings it. */
-BodyAnswer rigid_answer(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension);
 
 /* Puts a body that passed walls back to them, along what way it may move, and stops it there. */
 void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension);

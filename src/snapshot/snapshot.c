@@ -254,6 +254,7 @@ typedef struct ColliderMotion {
     uint32_t moving;
     float target_position[3], target_rotation[4];
     ImpulseSum impulse; /* of the last step, where it is measured: a body goes on with it */
+    FreeBody body;
 } ColliderMotion;
 
 typedef struct SavedCollider {
@@ -267,7 +268,7 @@ static void save_colliders(const World *world, SnapshotOut *out)
     for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
         const Collider *collider = &world->colliders.slot[slot];
         if (collider->generation == 0) continue;
-        ColliderMotion motion = {.moving = collider->moving};
+        ColliderMotion motion = {.moving = collider->moving, .body = collider->body};
         memcpy(motion.target_position, collider->target_position, sizeof motion.target_position);
         memcpy(motion.target_rotation, collider->target_rotation, sizeof motion.target_rotation);
         if (collider->def.measures_impulse) motion.impulse = world->colliders.impulses.sum[slot];
@@ -280,12 +281,20 @@ static void save_colliders(const World *world, SnapshotOut *out)
 
 static bool all_are_finite(const double vector[3]) { return isfinite(vector[0]) && isfinite(vector[1]) && isfinite(vector[2]); }
 
+static bool body_is_valid(const FreeBody *body)
+{
+    bool finite = true;
+    for (int k = 0; k < FREE_BODY_WAYS; k++) finite = finite && all_are_finite(body->way[k]) && all_are_finite(body->way[k] + 3);
+    for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->push + k) && all_are_finite(body->yielded + k) && all_are_finite(body->delayed + k);
+    return finite && all_are_finite(body->centre) && body->ways >= 0 && body->ways <= FREE_BODY_WAYS;
+}
+
 static bool take_collider(SnapshotIn *in, SavedCollider *saved)
 {
     *saved = (SavedCollider){.def = collider_defaults(), .shape = shape_defaults()};
     return snapshot_take_part(in, &saved->def, sizeof saved->def) && snapshot_take_part(in, &saved->shape, sizeof saved->shape) &&
            snapshot_take_part(in, &saved->motion, sizeof saved->motion) && all_are_finite(saved->motion.impulse.linear) &&
-           all_are_finite(saved->motion.impulse.angular);
+           all_are_finite(saved->motion.impulse.angular) && body_is_valid(&saved->motion.body);
 }
 
 /* Whether it is the same but for its pose. */
@@ -343,7 +352,9 @@ static void load_colliders(World *world, SnapshotIn in)
         collider->moving = saved.motion.moving != 0 && collider->def.kinematic;
         memcpy(collider->target_position, saved.motion.target_position, sizeof saved.motion.target_position);
         memcpy(collider->target_rotation, saved.motion.target_rotation, sizeof saved.motion.target_rotation);
-        if (collider->def.measures_impulse) world->colliders.impulses.sum[place] = saved.motion.impulse;
+        if (!collider->def.measures_impulse) continue;
+        world->colliders.impulses.sum[place] = saved.motion.impulse;
+        collider->body = saved.motion.body;
     }
 }
 

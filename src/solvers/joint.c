@@ -5,6 +5,7 @@
 
 #include "base/result.h"
 #include "contact/contacts_find.h"
+#include "contact/wall_bodies.h"
 #include "contact/walls.h"
 #include "solvers/dual/dual.h"
 #include "solvers/moduli.h"
@@ -225,7 +226,7 @@ void joint_solve(World *world, const ContactFrame *contacts)
     memcpy(world->grid.node_base.data, world->joint.base.data, bytes);
     world->record.iterations_used = 0;
     begin_primal(world);
-    walls_note_answers(&world->walls, contacts);
+    wall_bodies_keep(&world->walls, contacts);
     walls_clear(&world->walls); /* contacts book what they give */
     primal_solve(world, contacts);
     note_dual(&world->record, &dual);

@@ -10,6 +10,7 @@
 #include "contact/open_volume.h"
 #include "contact/push_out.h"
 #include "contact/reach.h"
+#include "contact/wall_bodies.h"
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/passes.h"
@@ -242,6 +243,7 @@ static uint32_t go(World *world, int part, const ContactFrame *contacts)
     solver_after_going(world, contacts);
     contacts_book(contacts); /* bodies that bounce off have scaled it */
     walls_book(&world->walls, contacts);
+    wall_bodies_keep(&world->walls, contacts);
     if (push.pushes_later) LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), push_out_blocks, &push);
     loops_run(&loops);
     contacts_book_push(contacts, &world->particles);

@@ -126,6 +126,7 @@ void collider_place(Collider *collider, const float position[3], const float *ro
     memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
     normalise_quaternion(collider->target_rotation); /* so that poses between two are evenly spaced */
     collider->moving = !at_once;
+    collider->body.ways = 0;
     if (!at_once) return;
     memcpy(shape->position, collider->target_position, sizeof shape->position);
     memcpy(shape->rotation, collider->target_rotation, sizeof shape->rotation);
@@ -194,8 +195,8 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         Obstacle *o = &colliders->obstacle[count++];
         *o = collider_obstacle(&colliders->slot[slot], dimension, part, parts);
         o->place = (uint16_t)slot;
-        o->answer = colliders->slot[slot].answer;
-        o->elapsed = part + 1;
+        o->body = colliders->slot[slot].body.ways > 0 ? &colliders->slot[slot].body : NULL;
+        o->part = part;
         o->parts = parts;
         colliders->measures = colliders->measures || o->measures;
     }
@@ -204,13 +205,11 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
     colliders->obstacle_count = count;
 }
 
-BodyAnswer *colliders_answer(const Colliders *colliders, const Obstacle *obstacle) { return &colliders->slot[obstacle->place].answer; }
-
 void colliders_end_step(Colliders *colliders)
 {
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         Collider *collider = &colliders->slot[slot];
-        collider->answer.count = 0;
+        collider->body.ways = 0;
         if (collider->generation != 0 && collider->moving)
             collider_place(collider, collider->target_position, collider->target_rotation, true);
     }

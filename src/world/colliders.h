@@ -11,7 +11,7 @@ struct Collider {
     float target_position[3]; /* where the next step takes it */
     float target_rotation[4];
     bool moving;
-    BodyAnswer answer; /* in the next step */
+    FreeBody body; /* of the next step, if the host advanced it as a rigid body */
     const DistanceGrid *grid; /* of a baked shape; else null */
     /* Bit n: material n touches it, as collider_touches_find() finds now, and as it told last. */
     uint64_t touching[PBMPM_MAX_MATERIALS / 64], touched[PBMPM_MAX_MATERIALS / 64];
