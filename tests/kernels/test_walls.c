@@ -11,6 +11,7 @@
 #include "contact/contacts_find.h"
 #include "contact/flowing.h"
 #include "contact/open_volume.h"
+#include "contact/wall_bodies.h"
 #include "contact/walls.h"
 #include "scene.h"
 #include "services/lifecycle.h"
@@ -385,7 +386,8 @@ static size_t count_nodes(const Scene *scene) { return (size_t)scene->world->gri
 static ContactFrame find_walls(Scene *scene)
 {
     World *world = scene->world;
-    ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = CELL, .max_displacement = 32.0f};
+    world->substep = substep_of(1.0 / 60.0, CELL);
+    ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = CELL, .substep = &world->substep, .max_displacement = 32.0f};
     predict(scene);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_measure(&frame, &world->memory, world->pool));
     world->colliders.contacts = 0;
@@ -561,14 +563,30 @@ static void add_slope(World *world)
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, colliders_add(&world->colliders, &world->memory, &def, &shape, NULL, 1, &id));
 }
 
-typedef enum WallScene { UPRIGHT, SLOPED, EDGED } WallScene;
+/* Lets the box in a box go: a rigid body without friction of a tenth of the water's density. */
+static void set_free(World *world)
+{
+    const int dimension = world->def.dimension;
+    const double side = 4.0 * CELL, mass = 100.0 * pow(side, dimension), inertia = mass * side * side / 6.0;
+    Collider *box = &world->colliders.slot[0];
+    box->def.friction = PBMPM_FRICTION_SLIP;
+    box->body = (FreeBody){.ways = dimension == 3 ? 6 : 3};
+    for (int a = 0; a < dimension; a++) {
+        box->body.way[a][a] = 1.0 / sqrt(mass);
+        box->body.centre[a] = (double)box->shape.position[a];
+    }
+    for (int k = dimension; k < box->body.ways; k++) box->body.way[k][dimension == 3 ? k : 5] = 1.0 / sqrt(inertia);
+}
+
+typedef enum WallScene { UPRIGHT, SLOPED, EDGED, FREE } WallScene;
 
 /* Random masses and motions, and the motion that the walls make of themselves most of. */
 static void check_norm(int dimension, int shift, WallScene walls)
 {
     Random random = {5};
-    Scene scene = walls == EDGED ? box_in_a_box(dimension, 0.1 * shift) : full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    Scene scene = walls >= EDGED ? box_in_a_box(dimension, 0.1 * shift) : full_box(cpu_isa(), dimension, 0.1 * shift, 2);
     if (walls == SLOPED) add_slope(scene.world);
+    if (walls == FREE) set_free(scene.world);
     for (uint32_t i = 0; i < scene.world->particles.count; i++) scene.world->particles.mass[i] *= (float)random_in(&random, 0.2, 2.0);
     ContactFrame frame = find_walls(&scene);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
@@ -652,10 +670,11 @@ static double value_of(Scene *scene, ContactFrame *frame, const float *base, con
 }
 
 /* Its slope is the displacement, its curvature the response. */
-static void check_value(int dimension, int shift)
+static void check_value(int dimension, int shift, bool free_box)
 {
     Random random = {7};
-    Scene scene = full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    Scene scene = free_box ? box_in_a_box(dimension, 0.1 * shift) : full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    if (free_box) set_free(scene.world);
     ContactFrame frame = find_walls(&scene);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
     float *node = scene.world->args.grid.node, *base = malloc(floats * sizeof *base), *push = malloc(floats * sizeof *push), *more = malloc(floats * sizeof *more);
@@ -684,7 +703,7 @@ static void check_value(int dimension, int shift)
 static void test_the_value_of_a_push(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++)
-        for (int shift = 0; shift < 10; shift++) check_value(dimension, shift);
+        for (int shift = 0; shift < 20; shift++) check_value(dimension, shift % 10, shift >= 10);
     check_report("value");
 }
 
@@ -692,8 +711,42 @@ static void test_walls_are_symmetric_and_never_add_motion(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int shift = 0; shift < 10; shift++)
-            for (int walls = UPRIGHT; walls <= EDGED; walls++) check_norm(dimension, shift, (WallScene)walls);
+            for (int walls = UPRIGHT; walls <= FREE; walls++) check_norm(dimension, shift, (WallScene)walls);
     check_report("walls");
+}
+
+/* What a body yields to is what its walls give, in the substep itself. Sums of floats: a thousandth of the impulse is no rounding. */
+static void test_a_body_yields_to_what_its_walls_give(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int shift = 0; shift < 10; shift++) {
+            Random random = {11};
+            Scene scene = box_in_a_box(dimension, 0.1 * shift);
+            World *world = scene.world;
+            FreeBody *body = &world->colliders.slot[0].body;
+            world->colliders.slot[0].def.measures_impulse = 1;
+            TEST_ASSERT_EQUAL_INT(PBMPM_OK, impulses_enable(&world->colliders.impulses, &world->memory));
+            impulses_clear(&world->colliders.impulses);
+            set_free(world);
+            ContactFrame frame = find_walls(&scene);
+            shake(&scene, &random);
+            walls_apply(&world->walls, &frame, world->pool, true, NULL);
+            for (int a = 0; a < 6; a++) TEST_ASSERT_EQUAL_DOUBLE(0.0, ((const WallBody *)world->walls.body.data)->yielded[a]);
+            shake(&scene, &random);
+            walls_apply(&world->walls, &frame, world->pool, false, NULL);
+            walls_book(&world->walls, &frame);
+            wall_bodies_keep(&world->walls, &frame);
+            const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[0], body->centre, dimension);
+            const double impulse[6] = {given.linear[0], given.linear[1], given.linear[2]};
+            double change[6], size = 0.0;
+            free_body_yields(body, impulse, change);
+            check_subject("rigid body", cpu_isa(), dimension);
+            for (int a = 0; a < dimension; a++) size = fmax(size, fabs(change[a]));
+            TEST_ASSERT_TRUE(size > 0.01 && body->walled);
+            for (int a = 0; a < dimension; a++) check_near(change[a], body->yielded[a], 1e-3 * size, "yields by", shift);
+            scene_close(&scene);
+        }
+    check_report("rigid body");
 }
 
 int main(void)
@@ -713,5 +766,6 @@ int main(void)
     RUN_TEST(test_edges_give_the_weight_that_the_spline_cuts_off);
     RUN_TEST(test_the_density_at_walls_is_folded);
     RUN_TEST(test_held_nodes_do_not_answer);
+    RUN_TEST(test_a_body_yields_to_what_its_walls_give);
     return UNITY_END();
 }
