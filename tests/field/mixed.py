@@ -200,17 +200,17 @@ def turns_in_water(run: Run, young_modulus: float, room: int = 0) -> None:
         run.check("rms speed after 10 s over that after 1 s", rms(world) / before, 0, 1, why="energy does not grow")
 
 
-@case(alone=dict(), loaded=dict(load=1500))
-def wide_raft(run: Run, load: float = 0.0) -> None:
-    """A rigid raft of 30 x 5 cells is put on water, with a hard box in its middle or without. Nothing tips it."""
+@case(alone=dict(), loaded=dict(load=1500), laid=dict(load=1500, gap=0), higher=dict(gap=1.3), much_higher=dict(gap=3))
+def wide_raft(run: Run, load: float = 0.0, gap: float = 1) -> None:
+    """A rigid raft of 30 x 5 cells falls by `gap` cells onto water, with a hard box as high above its middle or without. Nothing tips it."""
     cell, width, depth, long, high, side = 0.02, 1.6, 0.4, 0.6, 0.1, 0.12
     with run.world(2, cell, domain=((0, 0), (width, 1.0))) as world:
         pool(world, Frame(), (0, 0), (width, depth), Liquid())
-        middle = depth + cell + high / 2
+        middle = depth + gap * cell + high / 2
         raft = RigidBody(world.add_collider(Box((width / 2, middle), (long / 2, high / 2)), kinematic=True, measures_impulse=True), density=400)
         if load:
             box = world.add_material(Elastic(density=load, young_modulus=1e6))
-            world.fill(Box((width / 2, middle + high / 2 + cell + side / 2), (side / 2, side / 2)), box)
+            world.fill(Box((width / 2, middle + high / 2 + gap * cell + side / 2), (side / 2, side / 2)), box)
         tilts, speeds = [], []
 
         def after(_: float) -> None:

@@ -59,6 +59,49 @@ def test_a_convex_hull_floats() -> None:
     assert np.mean([y for _, y in places]) == pytest.approx(_level(0.29, 500) - waterline, abs=0.4 * DX)
 
 
+@pytest.mark.parametrize("density", [30, 100])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_light_body_rises_and_stays(dimension: int, density: float) -> None:
+    """Let go under water it comes up, leaps by less than its own height, and floats. It yields to the water while that is solved for: one step later it flew 2 m high."""
+    wide, side, depth = 0.64, 0.24, 0.48
+    others = [wide / 2] * (dimension - 2)
+    with pbmpm.World(dimension, 0.04, gravity=[0, -9.81, 0][:dimension], domain=([0.0] * dimension, [wide, 3.0, wide][:dimension]), iterations=5, capacity=25000) as world:
+        water = pbmpm.Box([wide / 2, depth / 2, *others], [wide / 2, depth / 2, *others])
+        collider = world.add_collider(pbmpm.Box([wide / 2, side, *others], [side / 2] * dimension), kinematic=True, measures_impulse=True)
+        world.fill(water, world.add_material(pbmpm.Liquid()))
+        body = pbmpm.RigidBody(collider, density=density)
+        heights = []
+        for _ in range(210):
+            body.advance(DT)
+            world.step(DT)
+            heights.append(body.position[1] - depth)
+    assert max(heights) < side
+    ran_in = (1 - density / 1000) * side**dimension / wide ** (dimension - 1)  # where it had been
+    assert np.mean(heights[-60:]) == pytest.approx(side * (0.5 - density / 1000) - ran_in, abs=0.02)  # half a cell
+
+
+@pytest.mark.parametrize("higher", range(3))
+def test_a_raft_lies_still(higher: int) -> None:
+    """It falls by a cell onto water. It does not bounce, and it does not shake: its spin changes by little from step to step. Before it did by 1 rad/s, and tilted by 15 degrees."""
+    cell, width, depth, long, high = 0.02, 1.6, 0.4, 0.6, 0.1
+    with pbmpm.World(2, cell, gravity=(0, -9.81), domain=((0, 0), (width, 1.0)), iterations=5) as world:
+        world.fill(pbmpm.Box((width / 2, depth / 2), (width / 2, depth / 2)), world.add_material(pbmpm.Liquid()))
+        middle = depth + cell + high / 2 + 0.002 * higher
+        raft = pbmpm.RigidBody(world.add_collider(pbmpm.Box((width / 2, middle), (long / 2, high / 2)), kinematic=True, measures_impulse=True), density=400)
+        tilts, spins, heights = [], [], []
+        for _ in range(150):
+            raft.advance(DT)
+            world.step(DT)
+            _, _, z, w = raft.rotation
+            tilts.append(abs(2 * math.degrees(math.atan2(z, w))))
+            spins.append(raft.angular_velocity[2])
+            heights.append(raft.position[1])
+    hit = int(np.argmin(np.array(heights[:20]) > middle - 0.9 * cell))
+    assert max(heights[hit : hit + 30]) < middle
+    assert max(tilts) < 2
+    assert np.abs(np.diff(spins, 2))[60:].mean() < 0.1
+
+
 def test_a_slider_in_water_keeps_its_line() -> None:
     places, _ = _float(pbmpm.Box((0.5, 1.1), (0.2, 0.2)), 500, 3.0, moves=pbmpm.Freedom.AXIS, move_axis=(0, 1), turns=pbmpm.Freedom.NONE)
     assert max(abs(x - 0.5) for x, _ in places) < 1e-5
