@@ -72,7 +72,7 @@ typedef enum pbmpm_field {
     PBMPM_PARTICLE = 6,        /**< 2 uint32: pbmpm_particle_id */
     PBMPM_MASS = 7,            /**< 1 float [kg] (2D: per metre of depth); read-only */
     PBMPM_PRESSURE = 8,        /**< 1 float [Pa] (2D: N/m): of a liquid particle, or of sand with the dual or the convergent solver, as last solved for; 0 for elastic
-                                    ones. Take the mean
+                                    ones. Of a compressed liquid it is the pressure K (1 - J) times J. Take the mean
                                     over a few cells: differences between neighbouring particles cause no motion. */
     PBMPM_USER_VALUE = 9,      /**< 1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
                                     that is not 0 was given, or any was set: before, it takes no memory. */

@@ -232,7 +232,7 @@ namespace Pbmpm
         /// <summary>1 float [kg] (2D: per metre of depth); read-only</summary>
         Mass = 7,
         /// <summary>1 float [Pa] (2D: N/m): of a liquid particle, or of sand with the dual or the convergent solver, as last solved for; 0 for elastic
-        /// ones. Take the mean
+        /// ones. Of a compressed liquid it is the pressure K (1 - J) times J. Take the mean
         /// over a few cells: differences between neighbouring particles cause no motion.</summary>
         Pressure = 8,
         /// <summary>1 uint32: the host's own, which goes with the particle (a colour, an owner); 0 unless it was given. Only once one
