@@ -13,14 +13,17 @@
  * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so no spin grows by itself. A step is turned in up to 64 parts
  * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
  *
- * Light bodies. Matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that
- * moves along would oscillate more and more, at any dt. So each change of velocity is smoothed:
+ * Light bodies. With the dual, the explicit and the convergent solver liquid follows a body's walls. The body yields to it within the step. So it may weigh far less
+ * than the liquid that it moves (docs/method.md, Walls). To what friction and contacts with solids give it beside that, it yields one step later.
+ *
+ * All other matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that moves along would
+ * oscillate more and more, at any dt. So where no liquid follows its walls each change of velocity is smoothed:
  *
  *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume * share,
  *
  * with the density, volume and share of its pbmpm_submersion. V is a virtual mass; in equilibrium it changes nothing. Matter
  * whose added mass is A needs V above (A - mass) / 2. A body that turns about its pivot turns with the same b. A free body turns without b: the matter that
- * turns with it has less inertia than itself, and b would keep it rocking (`tests/field/run.py rigid_box`). */
+ * turns with it has less inertia than itself, and b would keep it rocking. */
 #ifndef PBMPM_RIGID_H
 #define PBMPM_RIGID_H
 
@@ -108,7 +111,7 @@ typedef struct pbmpm_rigid_state {
     double velocity_change[3];         /**< by which the last call changed `velocity` [m/s]; the virtual mass needs it in the next one */
     double angular_velocity_change[3]; /**< the same of `angular_velocity` [rad/s] */
     double point[3];                   /**< as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
-    double virtual_mass;               /**< V of the last call [kg]; for information: the library never reads it */
+    double virtual_mass;               /**< V of the last call [kg], 0 where liquid followed its walls; for information: the library never reads it */
 } pbmpm_rigid_state;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */
