@@ -488,7 +488,7 @@ static void add_follower(Builder *b, uint32_t index)
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    const bool weighs = !bound->both && !sticks && count == 1; /* see walls_weigh() */
+    const bool weighs = !bound->both && !sticks && count == 1 && !owner[0]->moves; /* see walls_weigh() */
     if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
