@@ -44,7 +44,7 @@ double guess_density(const World *world)
 static float least_softness(const World *world)
 {
     const double root = slowest_pressure(world);
-    return (float)(0.1 * root * root);
+    return (float)(0.1 * root * root / materials_density_contrast(&world->materials, &world->particles));
 }
 
 /* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GUESS_GROWTH_MAX per substep: the guess acts on all of a body at
