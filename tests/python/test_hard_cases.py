@@ -500,11 +500,15 @@ def test_a_heavy_liquid_does_not_rebound_by_the_volume_that_a_light_one_lost(rat
     assert all(check.passed for check in others if check.kind is Kind.BOUND), others
 
 
-@pytest.mark.parametrize(("rate_hz", "iterations", "variant"), [(60, 2, "1:10"), (60, 5, "1:10"), (60, 20, "1:10000"), (240, 5, "1:10000")])
+@pytest.mark.parametrize(
+    ("rate_hz", "iterations", "variant"),
+    [(60, 2, "1:10"), (60, 5, "1:10"), (60, 10, "1:10000"), (120, 5, "1:10000"), (240, 2, "1:10000"), (60, 20, "1:10000"), (240, 5, "1:10000")],
+)
 def test_heavy_and_light_liquid_change_places_without_a_bounce(rate_hz: int, iterations: int, variant: str) -> None:
     """With the dual solver. When the guess gives both the same multiplier, a tenth of the pressure to the light one at 1:10, that one is crushed,
     and throws the heavy one up (1.003 of the energy at 60 Hz x 2) or stays below (1:10,000). When it gives back what is missing in 1/60 s however far
-    that is, the heavy one leaps at the start (1.005 at 60 Hz x 5)."""
+    that is, the heavy one leaps at the start (1.005 at 60 Hz x 5). When pressures yield in the guess as if all were light, none bears the heavy one, and the
+    light one stays crushed below (1:10,000 at 60 Hz x 10, 120 Hz x 5, 240 Hz x 2)."""
     checks = find_case("H09").function(Setting("liquid", 2, variant, rate_hz, iterations, solver="dual"))
     assert [check for check in checks if not check.passed] == []
     assert any(check.kind is Kind.GOAL for check in checks)
