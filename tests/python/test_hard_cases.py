@@ -192,8 +192,8 @@ def test_a_block_between_walls_does_not_creep_round_their_corners(dimension: int
 
 
 def test_what_stirs_evenly_does_not_warm() -> None:
-    """Bursts that last for a tenth of a run: its second half is the livelier one in every other run, which is no sign of anything. Were halves alone asked, nine
-    of these would be told."""
+    """Bursts that last for a tenth of a run: its second half is the livelier one in every other run, which is no sign of anything. Of halves alone nine of these
+    would be told."""
     told = []
     for seed in range(200):
         random = np.random.default_rng(seed)
