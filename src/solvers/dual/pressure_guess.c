@@ -40,11 +40,14 @@ double guess_density(const World *world)
 }
 
 /* All pressures yield a little, a tenth as much as the slowest mode: a guess that is exact there answers the errors of the last substep with
- * its full weight, and so they may grow. */
+ * its full weight, and so they may grow. Where liquids differ in density the slowest mode moves the densest: by their ratio less, for a pressure that is measured
+ * by the lightest. If pressures yielded as among the lightest alone, none would bear a heavy liquid: at 1:10,000 the guess would find a thousandth of it, and light
+ * liquid below would stay crushed. */
 static float least_softness(const World *world)
 {
     const double root = slowest_pressure(world);
-    return (float)(0.1 * root * root);
+    const double contrast = guess_density(world) > 0.0 ? materials_density_contrast(&world->materials, &world->particles) : 1.0;
+    return (float)(0.1 * root * root / contrast);
 }
 
 /* Volume that is missing is given back in 1/60 s, and crushed matter grows by no more than GUESS_GROWTH_MAX per substep: the guess acts on all of a body at

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable
 
 import numpy as np
@@ -28,6 +29,9 @@ ENERGY_SHARE = 1e-6  # of m g H
 LONGEST_TO_REST = 4
 LONGEST_TO_TELL = 32
 BURSTS = 10  # parts of a run; the liveliest tells how far bursts get
+#: Of the 45 pairs of such parts, in which the later is the livelier: what stirs evenly has so many in one run of 900 (H. Mann, "Nonparametric tests
+#: against trend", Econometrica 13, 1945), and the map has a hundred runs with liquid.
+RISING_PAIRS = 39
 
 
 def _height(world: pbmpm.World) -> float:
@@ -78,7 +82,7 @@ def look_until_it_tells(look: Callable[[], float]) -> list[float]:
     energies = [look() for _ in range(LOOKS)]
     while len(energies) < LONGEST_TO_TELL * LOOKS:
         comes_to_rest = len(energies) < LONGEST_TO_REST * LOOKS and not _is_at_rest(energies)
-        if not comes_to_rest and warming(energies) <= 1.0:
+        if not comes_to_rest and _livelier_halves(energies) <= 1.0:
             break
         energies += [look() for _ in range(len(energies))]
     return energies
@@ -94,6 +98,15 @@ def _is_at_rest(energies: list[float]) -> bool:
 
 
 def warming(energies: list[float]) -> float:
+    """By how much the second half is livelier than the first, see _livelier_halves(); 0 when what was last is rest, and when the parts of the run rise no more
+    often than what stirs evenly has it by chance.
+
+    Halves alone told of a pool that it warmed (the dual, 30 Hz x 1): by 9 % in 12,800 looks. In four times as many each sixteenth had as much as the first.
+    """
+    return _livelier_halves(energies) if _rises(energies) else 0.0
+
+
+def _livelier_halves(energies: list[float]) -> float:
     """The mean of the second half over that of the first, of the run, its first half, the first quarter and so on, wherever it is least; 0 when what was
     last is rest.
 
@@ -111,10 +124,17 @@ def warming(energies: list[float]) -> float:
     return min(ratios)
 
 
+def _means_of_parts(energies: list[float]) -> list[float]:
+    return [float(np.mean(part)) for part in np.array_split(np.array(energies), BURSTS)]
+
+
+def _rises(energies: list[float]) -> bool:
+    return sum(later > earlier for earlier, later in itertools.combinations(_means_of_parts(energies), 2)) >= RISING_PAIRS
+
+
 def bound_of_bursts(energies: list[float], fall: float) -> Check:
     """Of the mean energy of the liveliest part of a run."""
-    most = max(float(np.mean(part)) for part in np.array_split(np.array(energies), BURSTS))
-    return Check("kinetic energy of a burst over that of a step's fall", most / fall, 1.0)
+    return Check("kinetic energy of a burst over that of a step's fall", max(_means_of_parts(energies)) / fall, 1.0)
 
 
 CASES = (
