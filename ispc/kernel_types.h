@@ -69,7 +69,10 @@ struct KernelMaterial {
     float strain_min;
     float strain_max;
     float condition_max; /* 0: clamp the strain instead of deleting */
-    float rebound_max;  /* the paper's solver; elastic: strain per iteration; liquid: strain per substep */
+    /* Of the paper's solver: */
+    float rebound_max;  /* elastic: strain per iteration */
+    float growth_max;   /* how far corrections may drive the strain of a substep; liquid: its trace */
+    float head;         /* liquid: the square of the way per substep [cells^2] that all of its head drives */
     float pressure_max; /* liquid: bound of the pressure, as a multiple of the stiffness */
     float volume_share; /* liquid: by which its J is brought back per substep, see volume_control.isph; 0: not, and it does not shift either */
     float even_share;   /* liquid of the paper's solver: by which J moves to the mean of its cell per substep */
