@@ -125,7 +125,7 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .condition_max = def->strain_policy == PBMPM_STRAIN_DELETE ? def->condition_max : 0.0f,
         .rebound_max = def->rebound_max,
         .growth_max = FLT_MAX, /* this and the next: the paper's solver sets them anew for each substep */
-        .head = FLT_MAX,
+        .head2 = FLT_MAX,
         .inverse_density = 1.0f / def->density,
         .elastic_model = def->elastic_model == PBMPM_NEO_HOOKEAN ? K_NEO_HOOKEAN : K_FIXED_COROTATED,
         .yields = yield_of(def->kind),

@@ -169,7 +169,7 @@ double reference_strain(int n, const double D[9])
 /* ---- Materials ---- */
 
 /* J (1 + tr D) = 1. A compression that goes on is stopped in full; growth is driven by no more than growth_max, nor by more than
- * what the motion d leaves of the head, and it presses with no more than pressure_max. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
+ * what the motion d leaves of the pressure, and it presses with no more than pressure_max. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
 static void project_liquid(int n, const RefParticle *p, const double d[3], double D[9])
 {
     const KernelMaterial *material = &p->material;
@@ -183,7 +183,7 @@ static void project_liquid(int n, const RefParticle *p, const double d[3], doubl
         }
     double motion2 = 0.0;
     for (int a = 0; a < n; a++) motion2 += d[a] * d[a];
-    const double driven = fmin(sqrt(fmax((double)material->head - motion2, 0.0)), (double)material->growth_max);
+    const double driven = fmin(sqrt(fmax((double)material->head2 - motion2, 0.0) / (double)K_HEADS), (double)material->growth_max);
     const double growth = fmin(1.0 / p->volume_ratio - 1.0, driven) - fmax(trace, 0.0);
     const double correction = fmin(growth, (double)material->pressure_max * p->volume_ratio) - fmin(trace, 0.0);
     for (int r = 0; r < n; r++) D[r * 4] += (double)material->relaxation / n * correction;
@@ -198,7 +198,7 @@ static void advance(int n, const double *D, const double *F, double *o)
 
 /* F* = (I + D) F should be A = beta R + (1 - beta) F* / det(F*)^(1/d): D gets the symmetric part of the difference
  * X = (A - F*) F^-1, no longer than rebound_max. The root's argument stays within [0.1, 1000]; a singular F waits.
- * The strain of D is not driven beyond growth_max. */
+ * Growth is not driven beyond growth_max, in the norm of the strain of D. */
 static void project_elastic(int n, const RefParticle *p, double D[9])
 {
     const KernelMaterial *material = &p->material;
@@ -218,7 +218,7 @@ static void project_elastic(int n, const RefParticle *p, double D[9])
     for (int r = 0; r < n; r++)
         for (int c = 0; c < n; c++) D[r * 3 + c] += size > limit ? difference[r * 3 + c] * limit / size : difference[r * 3 + c];
     const double reached = reference_strain(n, D), most = fmax(given, (double)material->growth_max);
-    if (reached <= most) return;
+    if (reached <= most || !(matrix_trace(n, D) > 0.0)) return;
     memcpy(difference, D, sizeof difference);
     for (int r = 0; r < n; r++)
         for (int c = 0; c < n; c++) D[r * 3 + c] -= 0.5 * (1.0 - most / reached) * (difference[r * 3 + c] + difference[c * 3 + r]);

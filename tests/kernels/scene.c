@@ -137,7 +137,7 @@ static float or_none(float bound) { return bound > 0.0f ? bound : FLT_MAX; }
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
 {
     pbmpm_world_def def = world_def_defaults();
-    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = or_none(spec->pressure_max), .growth_max = or_none(spec->growth_max), .head = or_none(spec->head)};
+    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = or_none(spec->pressure_max), .growth_max = or_none(spec->growth_max), .head2 = or_none(spec->head2)};
     def.dimension = dimension;
     def.cell_size = CELL_SIZE;
     def.particle_capacity = spec->pool ? cells_of_a_pool(spec, dimension) << dimension : spec->cells * spec->most_per_cell + 1;
@@ -172,7 +172,7 @@ static void set_materials(Scene *scene)
         materials_set(materials, slot, &materials->def[slot]);
         materials->kernel[slot].pressure_max = scene->pressure_max;
         materials->kernel[slot].growth_max = scene->growth_max;
-        materials->kernel[slot].head = scene->head;
+        materials->kernel[slot].head2 = scene->head2;
         if (materials->kernel[slot].kind == K_LIQUID) materials->kernel[slot].volume_share = 0.5f * materials->def[slot].volume_feedback;
         materials->kernel[slot].even_share = 0.5f * materials->def[slot].volume_feedback;
     }

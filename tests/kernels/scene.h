@@ -27,7 +27,7 @@ typedef struct SceneSpec {
     MakeDeformation *deform; /* null: the identity with entries up to 0.3 added */
     float max_displacement; /* 0: the default */
     float pressure_max;     /* this and the next two: see KernelMaterial; 0: none */
-    float growth_max, head;
+    float growth_max, head2;
     bool check_strain, weightless;
     pbmpm_solver solver; /* default: the paper's */
     float flip;
@@ -40,7 +40,7 @@ typedef struct SceneSpec {
 typedef struct Scene {
     World *world;
     const Kernels *kernels;
-    float pressure_max, growth_max, head;
+    float pressure_max, growth_max, head2;
     RefStep step;
     float *affine_kept, *node_gap; /* see KernelArgs; null without */
     double gap;

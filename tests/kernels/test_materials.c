@@ -38,8 +38,8 @@ static void test_viscosity(void)
     }
 }
 
-/* From crushed to torn: J over all of its range, with bounds on growth and pressure that cut in and with none that does, and with a head that
- * some of it has used up. */
+/* From crushed to torn: J over all of its range, with bounds on growth and pressure that cut in and with none that does, and with a pressure that
+ * the motion of some has used up. */
 static void test_liquid_at_all_densities(void)
 {
     for (int i = 0; i < 4; i++) {
@@ -48,7 +48,7 @@ static void test_liquid_at_all_densities(void)
         spec.ratio_max = 2.0;
         spec.gradient = 0.8;
         spec.growth_max = i == 1 ? 0.3f : 0.0f;
-        spec.head = i == 3 ? 0.1f : 0.0f;
+        spec.head2 = i == 3 ? 0.1f : 0.0f;
         spec.pressure_max = i == 2 ? 0.8f : 0.0f;
         stages_check_spec(&spec, 1);
     }

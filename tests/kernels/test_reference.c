@@ -18,7 +18,7 @@ static RefParticle random_particle(Random *random)
     random_array(random, p.fraction, 3, -0.5, 0.5);
     random_array(random, p.deformation, 9, -0.3, 0.3);
     for (int a = 0; a < 3; a++) p.deformation[a * 4] += 1.0;
-    p.material = (KernelMaterial){.relaxation = 1.0f, .elasticity_ratio = 1.0f, .rebound_max = 10.0f, .growth_max = 10.0f, .head = 1e6f, .pressure_max = 1e6f,
+    p.material = (KernelMaterial){.relaxation = 1.0f, .elasticity_ratio = 1.0f, .rebound_max = 10.0f, .growth_max = 10.0f, .head2 = 1e6f, .pressure_max = 1e6f,
                                   .strain_min = 0.1f, .strain_max = 20.0f, .inverse_density = 0.5f};
     return p;
 }
