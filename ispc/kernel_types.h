@@ -50,6 +50,8 @@ typedef int32 int32_t;
 #define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
 #define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
 
+#define K_HEADS 3.0f /* crushed liquid grows with the pressure of so many times its weight, see src/solvers/paper.c */
+
 #define K_INCREMENT_MAX 1e4f /* larger displacements [cells] and gradients are senseless, and their sums could overflow */
 
 #define K_ALIVE 0
@@ -69,7 +71,10 @@ struct KernelMaterial {
     float strain_min;
     float strain_max;
     float condition_max; /* 0: clamp the strain instead of deleting */
-    float rebound_max;  /* the paper's solver; elastic: strain per iteration; liquid: strain per substep */
+    /* Of the paper's solver: */
+    float rebound_max;  /* elastic: strain per iteration */
+    float growth_max;   /* how far corrections may drive the strain of a substep; liquid: its trace */
+    float head2;        /* liquid: the square of the way per substep [cells^2] that all its pressure drives, K_HEADS heads */
     float pressure_max; /* liquid: bound of the pressure, as a multiple of the stiffness */
     float volume_share; /* liquid: by which its J is brought back per substep, see volume_control.isph; 0: not, and it does not shift either */
     float even_share;   /* liquid of the paper's solver: by which J moves to the mean of its cell per substep */

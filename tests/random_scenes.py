@@ -1,6 +1,6 @@
 """Closed scenes that are drawn at random: nothing may be lost, and energy may only fall.
 
-    build/venv/bin/python tests/random_scenes.py [--count 5000] [--seed 1] [--only SEED]
+    build/venv/bin/python tests/random_scenes.py [--count 5000] [--seed 1] [--only SEED] [--solver NAME]
 
 A box of 2D or 3D with one or two bodies in it, at rest or thrown: matter, shape, place, modulus, density, gravity, walls and their friction, obstacle, solver,
 rate and iterations are drawn from the seed. Energy is that of motion and height, and what springs hold cannot be more than what they took from these: at no
@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import argparse
 import collections
+import functools
 import multiprocessing
 import random
 from typing import Any
@@ -43,12 +44,13 @@ def energy_of(world: World) -> float:
     return float(stats.kinetic_energy + stats.potential_energy)
 
 
-def run(seed: int) -> dict[str, Any]:
-    """One scene: its gain of energy over what it can turn over, and whether anything is lost."""
+def run(seed: int, forced: str | None = None) -> dict[str, Any]:
+    """One scene: its gain of energy over what it can turn over, and whether anything is lost. A solver that is named takes the place of the one drawn."""
     draw = random.Random(seed)
     dimension, cell = draw.choice((2, 2, 2, 3)), 10 ** draw.uniform(-2, 0)
     size = draw.randint(8, 24 if dimension == 2 else 12) * cell
     solver = draw.choice((Solver.PAPER, Solver.DUAL, Solver.PRIMAL, Solver.CONVERGENT, Solver.CONVERGENT))
+    solver = Solver[forced.upper()] if forced else solver
     rate, iterations = draw.choice((30, 60, 60, 120, 240)), draw.choice((1, 2, 5, 5, 10, 20))
     pull = draw.choice((0.0, 9.81, 9.81, 1.62)) * cell / 0.05
     gravity = [0.0, -pull] + [0.0] * (dimension - 2)
@@ -87,12 +89,13 @@ def main() -> None:
     parser.add_argument("--count", type=int, default=5000)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int)
+    parser.add_argument("--solver", choices=[solver.name.lower() for solver in Solver], help="for all scenes, instead of the one drawn")
     parser.add_argument("--jobs", type=int, default=max(1, multiprocessing.cpu_count() - 1))
     arguments = parser.parse_args()
     seeds = [arguments.only] if arguments.only is not None else range(arguments.seed, arguments.seed + arguments.count)
     failed, solvers, worst = [], collections.Counter(), {"gain": 0.0}
     with multiprocessing.Pool(arguments.jobs, maxtasksperchild=50) as pool:
-        for result in pool.imap_unordered(run, seeds, chunksize=4):
+        for result in pool.imap_unordered(functools.partial(run, forced=arguments.solver), seeds, chunksize=4):
             solvers[result["solver"]] += 1
             worst = max(worst, result, key=lambda r: r["gain"])
             if result["gain"] > ALLOWED or not result["whole"]:

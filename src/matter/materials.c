@@ -1,5 +1,6 @@
 #include "matter/materials.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/numbers.h"
@@ -122,7 +123,9 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
         .strain_min = def->strain_min,
         .strain_max = def->strain_max,
         .condition_max = def->strain_policy == PBMPM_STRAIN_DELETE ? def->condition_max : 0.0f,
-        .rebound_max = def->rebound_max, /* of a liquid: the paper's solver sets it anew for each substep */
+        .rebound_max = def->rebound_max,
+        .growth_max = FLT_MAX, /* this and the next: the paper's solver sets them anew for each substep */
+        .head2 = FLT_MAX,
         .inverse_density = 1.0f / def->density,
         .elastic_model = def->elastic_model == PBMPM_NEO_HOOKEAN ? K_NEO_HOOKEAN : K_FIXED_COROTATED,
         .yields = yield_of(def->kind),

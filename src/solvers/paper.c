@@ -54,20 +54,21 @@ static double weight_head(const World *world, const LiquidState *liquid)
     return fmax(stands, strength * pow(liquid->volume, 1.0 / world->def.dimension));
 }
 
-/* The pressure over density that crushed liquid may grow with [m^2/s^2]: three times that of its weight, and that of its motion when it is
+/* The pressure over density that crushed liquid may grow with [m^2/s^2]: K_HEADS times that of its weight, and that of its motion when it is
  * stopped, once: more would feed on the speed that it makes. */
-static double pressure_head(double weight, const LiquidState *liquid) { return 3.0 * weight + 0.5 * liquid->speed2; }
+static double pressure_head(double weight, const LiquidState *liquid) { return (double)K_HEADS * weight + 0.5 * liquid->speed2; }
 
-/* What crushed liquid may grow by in a substep. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; what weighs g h leaves
- * an opening at sqrt(2 g h) (Torricelli), faster where the weight is that of something heavier. Where matter is faster than that, growth may be, too;
- * but the two do not add: it is the weight that moves what grows, and growth that its own motion quickens feeds on itself. The pressure alone does
- * not bound the speed: a sheet that is thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so
- * its J does not follow and it would be pressed on as if it had not moved, up to tr D = 1/J - 1. At rest nothing is lost: tr D is the motion, and a
- * lower J bears the same pressure. */
-static double growth_bound(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight)
+/* What drives crushed liquid when it grows, as the square of a way per substep [cells^2]. The pressure alone does not bound the speed: a sheet that is
+ * thinner than a cell, as between walls that have closed, is as dense on the grid when it is twice as wide, so its J does not follow and it would be
+ * pressed on as if it had not moved, up to tr D = 1/J - 1. Matter at a cell from the middle of what grows by tr D moves at tr D dx / dt; the weight of
+ * g h, of something heavier where that presses, makes of rest sqrt(2 g h) (Torricelli). Where all is faster than that, growth may be, too; but the two
+ * do not add: it is the weight that moves what grows, and growth that its own motion quickens feeds on itself. The pressure is that of K_HEADS such
+ * heads, and by Bernoulli's law v^2 / 2 less where matter moves at v: else each of several cells in a row adds its growth to the speed of the last.
+ * At rest nothing is lost: tr D is the motion, and a lower J bears the same pressure. */
+static double growth_head2(const World *world, const LiquidState *liquid, const KernelMaterial *material, double weight)
 {
-    const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density);
-    return sqrt(fmax(2.0 * weight * heavier, liquid->speed2)) * world->substep.dt / (double)world->def.cell_size;
+    const double heavier = fmax(1.0, liquid->densest * (double)material->inverse_density), cells = world->substep.to_cells;
+    return (double)K_HEADS * fmax(2.0 * weight * heavier, liquid->speed2) * cells * cells;
 }
 
 /* The same at any rate and number of iterations: as a multiple of the stiffness K/rho = w N dx^2 / (4 d dt^2). A light liquid may have to bear
@@ -79,6 +80,28 @@ static double pressure_bound(const World *world, const KernelMaterial *material,
     const double stiffness = (double)material->relaxation * world->settings.iterations / (4.0 * world->def.dimension * cells * cells);
     const double own = head / stiffness, heavier = densest * (double)material->inverse_density;
     return heavier > 1.0 + SUM_ROUNDING ? fmin(own * heavier, fmax(own, BEARS)) : own;
+}
+
+/* ---- The growth of solids ---- */
+
+/* What elastic matter stores that is pressed as flat as strain_min lets it, over Young's modulus. An iteration changes D by w X, X = 1/s - 1 at the
+ * stretch s, which acts as that multiple of E and works over dD = ds/s: 1/s + ln s - 1. From w X = rebound_max on it stays the same. */
+static double stored_when_flat(const KernelMaterial *material)
+{
+    const double flat = material->condition_max > 0.0f ? 1.0 / (double)material->condition_max : (double)material->strain_min;
+    const double most = (double)material->rebound_max / (double)material->relaxation;
+    const double softens = fmax(flat, 1.0 / (1.0 + most));
+    return 1.0 / softens + log(softens) - 1.0 + most * log(softens / flat);
+}
+
+/* How far growth may be driven in a substep, beyond what one iteration asks for. Iterations press on matter as if it had not moved: what is thinner than a
+ * cell has the inertia of one, and each has its own growth. So a few particles that were pressed flat beside others left faster than by all that these
+ * stored. Matter at a cell from the middle of what grows by D moves at D dx / dt, and what it stores makes of rest sqrt(2 e E / rho), with
+ * E / rho = w N dx^2 / (4 dt^2). */
+static double driven_growth(const World *world, const KernelMaterial *material)
+{
+    const double stored = sqrt(0.5 * (double)material->relaxation * world->settings.iterations * stored_when_flat(material));
+    return fmax(stored, (double)material->rebound_max);
 }
 
 /* ---- Locking ---- */
@@ -136,13 +159,17 @@ void paper_set_materials(World *world)
         if (material->yields == K_SAND) material->volume_feedback = 0.0f;
         if (def->kind == PBMPM_VISCO) material->volume_feedback = solver_feedback_share(world, def);
         /* It answers a volume strain in full and a deviator by the share beta: 2 mu = beta (2 mu + d lambda), which needs no Poisson effect. */
-        if (material->kind != K_LIQUID) plastic_set(world, slot, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
-        if (material->kind != K_LIQUID) continue;
+        if (material->kind != K_LIQUID) {
+            plastic_set(world, slot, 1.0 / fmax((double)def->elasticity_ratio, 1e-3));
+            material->growth_max = (float)driven_growth(world, material);
+            continue;
+        }
         material->volume_feedback = def->volume_feedback;
         material->even_share = even_share(world, material);
         material->viscosity = (float)paper_viscous_share(world, def, &world->substep);
         const bool weightless = weight == 0.0;
-        material->rebound_max = weightless ? WEIGHTLESS_REBOUND : (float)growth_bound(world, &liquid, material, weight);
+        material->growth_max = weightless ? WEIGHTLESS_REBOUND : FLT_MAX;
+        material->head2 = weightless ? FLT_MAX : (float)growth_head2(world, &liquid, material, weight);
         material->pressure_max = weightless ? FLT_MAX : (float)pressure_bound(world, material, head, liquid.densest);
     }
 }

@@ -1,7 +1,9 @@
 #include "bounds.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "matrices.h"
 
@@ -20,14 +22,25 @@ BoundParticle bound_gather(const RefGrid *grid, const RefParticle *p)
     return (BoundParticle){each * fmax(d[0], fmax(d[1], d[2])) + FLUSHED, each * matrix_largest(grid->dimension, D) + FLUSHED};
 }
 
+/* Error of the root of (head2 - |d|^2) / K_HEADS: that of its argument over the sum of both roots, which are no farther apart than the root of it. */
+static double bound_driven(int n, const KernelMaterial *material, const double d[3], double error)
+{
+    double motion2 = 0.0, off = 0.0;
+    for (int a = 0; a < n; a++) motion2 += d[a] * d[a], off += error * (2.0 * fabs(d[a]) + error);
+    const double left = fmax((double)material->head2 - motion2, 0.0) / (double)K_HEADS;
+    off = (off + 4.0 * UNIT_ROUNDOFF * ((double)material->head2 + motion2)) / (double)K_HEADS;
+    return left > 0.0 ? fmin(off / sqrt(left), sqrt(off)) + UNIT_ROUNDOFF * sqrt(left) : sqrt(off);
+}
+
 /* The update is linear in D. In the largest entry: viscosity changes D by at most 2 nu |D|, the correction by relaxation
  * times |D|. 1/J - 1 is computed with an error of U (1/J + 1), and all of it with a few roundings of its terms. */
-static double bound_liquid(const RefParticle *p, double largest, double error)
+static double bound_liquid(int n, const RefParticle *p, const double d[3], double largest, BoundParticle error)
 {
     const KernelMaterial *material = &p->material;
     const double gain = 1.0 + 2.0 * (double)material->viscosity + (double)material->relaxation;
-    const double wanted = fmin(1.0 / p->volume_ratio + 1.0, (double)material->rebound_max + 2.0);
-    return gain * error + 8.0 * UNIT_ROUNDOFF * (gain * largest + (double)material->relaxation * wanted);
+    const double wanted = fmin(1.0 / p->volume_ratio + 1.0, (double)material->growth_max + 2.0);
+    const double driven = (double)material->head2 < FLT_MAX ? bound_driven(n, material, d, error.d) : 0.0;
+    return gain * error.D + (double)material->relaxation * (8.0 * UNIT_ROUNDOFF * wanted + driven) + 8.0 * UNIT_ROUNDOFF * gain * largest;
 }
 
 /* Frobenius norm of the rotation's error. The rotation that maximises tr(R^T A) turns by |dA| times 2 over the smallest sum of
@@ -51,8 +64,20 @@ static double bound_root(int n, const double *A, double error)
     return 2.0 * det_error / (n * fmax(det, 0.1)) + 8.0 * UNIT_ROUNDOFF;
 }
 
+static bool growth_is_unclear(int n, const RefParticle *p, const double D[9], double error)
+{
+    static const double still[3];
+    RefParticle unbound = *p;
+    double driven[9];
+    memcpy(driven, D, sizeof driven);
+    unbound.material.growth_max = FLT_MAX;
+    reference_project(n, &unbound, still, driven);
+    return fabs(matrix_trace(n, driven)) <= error;
+}
+
 /* X = (A - F*) cof(F)^T / det F. Errors of A, of F* and of the inverse are multiplied by the size of the other factor; taking
- * the symmetric part and bounding the length never enlarge a difference. Two corrections differ by 2 rebound_max at most. */
+ * the symmetric part and bounding the length never enlarge a difference. Two corrections differ by 2 rebound_max at most. So it is where growth is not
+ * driven beyond growth_max, but what was given differs, too: by up to d times as much as its entries. Where it is unclear what grows either may be. */
 static double bound_elastic(int n, const RefParticle *p, const double D[9], double error)
 {
     const KernelMaterial *material = &p->material;
@@ -75,13 +100,16 @@ static double bound_elastic(int n, const RefParticle *p, const double D[9], doub
     const double inverse_error = 8.0 * UNIT_ROUNDOFF * pow(norm, n - 1) / det + 2.0 * inverse_norm * (det_share + 4.0 * UNIT_ROUNDOFF);
     const double change = (double)material->relaxation * (inverse_norm * difference_error + (target + size) * inverse_error);
     const double correction = fmin((double)material->relaxation * (target + size) * inverse_norm, limit);
-    return error + fmin(change + 8.0 * UNIT_ROUNDOFF * correction, 2.0 * limit) + 2.0 * UNIT_ROUNDOFF * (matrix_largest(n, D) + limit);
+    const double reached = error + fmin(change + 8.0 * UNIT_ROUNDOFF * correction, 2.0 * limit) + 2.0 * UNIT_ROUNDOFF * (matrix_largest(n, D) + limit);
+    if (!(material->growth_max < FLT_MAX)) return reached;
+    const double bounded = n * (reached + error) + 16.0 * UNIT_ROUNDOFF * (matrix_norm(n, D) + limit);
+    return bounded + (growth_is_unclear(n, p, D, n * reached) ? matrix_norm(n, D) + limit : 0.0);
 }
 
-double bound_project(int dimension, const RefParticle *p, const double D[9], double error)
+double bound_project(int dimension, const RefParticle *p, const double d[3], const double D[9], BoundParticle error)
 {
-    if (p->material.kind == K_LIQUID) return bound_liquid(p, matrix_largest(dimension, D), error);
-    return bound_elastic(dimension, p, D, error);
+    if (p->material.kind == K_LIQUID) return bound_liquid(dimension, p, d, matrix_largest(dimension, D), error);
+    return bound_elastic(dimension, p, D, error.D);
 }
 
 void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double d[3], const double D[9],

@@ -34,8 +34,8 @@ BoundParticle bound_gather(const RefGrid *grid, const RefParticle *p);
 /* Error of the rotation of A in the Frobenius norm, given that of A. */
 double bound_rotation(int dimension, const double *A, double error);
 
-/* Error of D after reference_project(), given that of D before; D is the projected one's input. */
-double bound_project(int dimension, const RefParticle *p, const double D[9], double error);
+/* Error of D after reference_project(), given those of d and D before; D is the projected one's input. */
+double bound_project(int dimension, const RefParticle *p, const double d[3], const double D[9], BoundParticle error);
 
 /* Adds one particle's part, given the errors of its d and D. `bounds` is indexed like `grid`. */
 void bound_scatter(const RefGrid *grid, BoundNode *bounds, const RefParticle *p, const double d[3], const double D[9],

@@ -1,7 +1,7 @@
 /* The fields of the structures that C and ISPC share, in order; read by both languages. */
 #define KERNEL_MATERIAL_FIELDS(FIELD)                                                                                          \
     FIELD(kind) FIELD(relaxation) FIELD(viscosity) FIELD(volume_feedback) FIELD(elasticity_ratio) FIELD(strain_min)           \
-    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(pressure_max) FIELD(volume_share) FIELD(even_share) FIELD(inverse_density)  \
+    FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(growth_max) FIELD(head2) FIELD(pressure_max) FIELD(volume_share) FIELD(even_share) FIELD(inverse_density)  \
     FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(carried) FIELD(pascal) FIELD(lightness) FIELD(viscous_share) \
     FIELD(yields) FIELD(friction) FIELD(cohesion) FIELD(looseness) FIELD(bulk_over_shear) FIELD(yield_strain) FIELD(excess_kept)
 

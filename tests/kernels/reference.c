@@ -168,9 +168,9 @@ double reference_strain(int n, const double D[9])
 
 /* ---- Materials ---- */
 
-/* J (1 + tr D) = 1. A compression that goes on is stopped in full; of growth no more than rebound_max is asked for, and it presses
- * with no more than pressure_max. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
-static void project_liquid(int n, const RefParticle *p, double D[9])
+/* J (1 + tr D) = 1. A compression that goes on is stopped in full; growth is driven by no more than growth_max, nor by more than
+ * what the motion d leaves of the pressure, and it presses with no more than pressure_max. Viscosity takes a share of the deviator of the symmetric part; spin and volume change stay. */
+static void project_liquid(int n, const RefParticle *p, const double d[3], double D[9])
 {
     const KernelMaterial *material = &p->material;
     const double trace = matrix_trace(n, D);
@@ -181,7 +181,10 @@ static void project_liquid(int n, const RefParticle *p, double D[9])
             const double deviator = 0.5 * (old[r * 3 + c] + old[c * 3 + r]) - (r == c ? trace / n : 0.0);
             D[r * 3 + c] -= (double)material->viscosity * deviator;
         }
-    const double growth = fmin(1.0 / p->volume_ratio - 1.0, (double)material->rebound_max) - fmax(trace, 0.0);
+    double motion2 = 0.0;
+    for (int a = 0; a < n; a++) motion2 += d[a] * d[a];
+    const double driven = fmin(sqrt(fmax((double)material->head2 - motion2, 0.0) / (double)K_HEADS), (double)material->growth_max);
+    const double growth = fmin(1.0 / p->volume_ratio - 1.0, driven) - fmax(trace, 0.0);
     const double correction = fmin(growth, (double)material->pressure_max * p->volume_ratio) - fmin(trace, 0.0);
     for (int r = 0; r < n; r++) D[r * 4] += (double)material->relaxation / n * correction;
 }
@@ -194,7 +197,8 @@ static void advance(int n, const double *D, const double *F, double *o)
 }
 
 /* F* = (I + D) F should be A = beta R + (1 - beta) F* / det(F*)^(1/d): D gets the symmetric part of the difference
- * X = (A - F*) F^-1, no longer than rebound_max. The root's argument stays within [0.1, 1000]; a singular F waits. */
+ * X = (A - F*) F^-1, no longer than rebound_max. The root's argument stays within [0.1, 1000]; a singular F waits.
+ * Growth is not driven beyond growth_max, in the norm of the strain of D. */
 static void project_elastic(int n, const RefParticle *p, double D[9])
 {
     const KernelMaterial *material = &p->material;
@@ -210,14 +214,20 @@ static void project_elastic(int n, const RefParticle *p, double D[9])
     for (int r = 0; r < n; r++)
         for (int c = 0; c < n; c++) difference[r * 3 + c] = 0.5 * (double)material->relaxation * (X[r * 3 + c] + X[c * 3 + r]);
     size = matrix_norm(n, difference);
+    const double given = reference_strain(n, D);
     for (int r = 0; r < n; r++)
         for (int c = 0; c < n; c++) D[r * 3 + c] += size > limit ? difference[r * 3 + c] * limit / size : difference[r * 3 + c];
+    const double reached = reference_strain(n, D), most = fmax(given, (double)material->growth_max);
+    if (reached <= most || !(matrix_trace(n, D) > 0.0)) return;
+    memcpy(difference, D, sizeof difference);
+    for (int r = 0; r < n; r++)
+        for (int c = 0; c < n; c++) D[r * 3 + c] -= 0.5 * (1.0 - most / reached) * (difference[r * 3 + c] + difference[c * 3 + r]);
 }
 
-void reference_project(int dimension, const RefParticle *p, double D[9])
+void reference_project(int dimension, const RefParticle *p, const double d[3], double D[9])
 {
     if (p->material.kind == K_LIQUID)
-        project_liquid(dimension, p, D);
+        project_liquid(dimension, p, d, D);
     else
         project_elastic(dimension, p, D);
 }
@@ -262,8 +272,11 @@ double reference_control(const RefStep *step, const RefGrid *grid, const RefPart
 
 double reference_stale(const KernelMaterial *material) { return 0.9 - fmin((double)material->pressure_max, 0.1); }
 
+static bool is_weightless(const RefStep *step) { return step->gravity[0] == 0.0 && step->gravity[1] == 0.0 && step->gravity[2] == 0.0; }
+
 /* J follows tr D. With feedback, where the grid shows compression, it moves a share of the way to the room that the grid has if
- * it claims more or far less, and never exceeds that where matter is crowded. */
+ * it claims more or far less, and never exceeds that where matter is crowded. Without gravity it
+ * counts as wrong by no more than the strain. */
 static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefParticle *p, const double D[9])
 {
     const double feedback = (double)p->material.volume_feedback;
@@ -272,7 +285,8 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
         ratio *= reference_control(step, grid, p, D);
         const double held = reference_compression(grid, p);
         const double seen = fmin(REF_COMPRESSED / held, 1.0);
-        if ((seen < 1.0 && ratio > seen) || ratio < reference_stale(&p->material) * seen) ratio += feedback * (seen - ratio);
+        const double right = is_weightless(step) ? fmax(seen, ratio - reference_strain(step->dimension, D)) : seen;
+        if ((seen < 1.0 && ratio > seen) || ratio < reference_stale(&p->material) * seen) ratio += feedback * (right - ratio);
         if (held > REF_CROWDED) {
             ratio = fmin(ratio, REF_CROWDED / held);
             nudge(step, p);
@@ -284,8 +298,7 @@ static void integrate_liquid(const RefStep *step, const RefGrid *grid, RefPartic
 /* Of volume, that is left alone: without gravity, where J would fall, what fillings have. */
 double reference_noise(const RefStep *step, double missing)
 {
-    const bool pressed = step->gravity[0] != 0.0 || step->gravity[1] != 0.0 || step->gravity[2] != 0.0;
-    return pressed || missing >= 0.0 ? REF_WRONG_MIN : 1.0 - 1.0 / REF_CRUSHED;
+    return !is_weightless(step) || missing >= 0.0 ? REF_WRONG_MIN : 1.0 - 1.0 / REF_CRUSHED;
 }
 
 /* Feedback is for matter that moves or whose J is wrong; the noise of a pool at rest is left alone. */

@@ -105,7 +105,7 @@ double reference_strain(int n, const double D[9]);
 double reference_shift(const RefGrid *grid, const RefParticle *p, const double D[9], double shift[3]);
 
 /* Moves D towards what the particle's material allows. */
-void reference_project(int dimension, const RefParticle *p, double D[9]);
+void reference_project(int dimension, const RefParticle *p, const double d[3], double D[9]);
 
 /* Brings F into the material's range; false where the particle has to go instead. */
 bool reference_limit_strain(int dimension, const KernelMaterial *material, double F[9]);

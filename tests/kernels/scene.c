@@ -132,10 +132,12 @@ void spec_in_cell(SceneSpec *spec, int cell)
     spec->centre[2] = 4 + cell / (K_BLOCK_AXIS * K_BLOCK_AXIS);
 }
 
+static float or_none(float bound) { return bound > 0.0f ? bound : FLT_MAX; }
+
 Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t seed)
 {
     pbmpm_world_def def = world_def_defaults();
-    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = spec->pressure_max > 0.0f ? spec->pressure_max : FLT_MAX};
+    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = or_none(spec->pressure_max), .growth_max = or_none(spec->growth_max), .head2 = or_none(spec->head2)};
     def.dimension = dimension;
     def.cell_size = CELL_SIZE;
     def.particle_capacity = spec->pool ? cells_of_a_pool(spec, dimension) << dimension : spec->cells * spec->most_per_cell + 1;
@@ -144,7 +146,7 @@ Scene scene_open(const SceneSpec *spec, pbmpm_isa isa, int dimension, uint32_t s
     scene.world->settings.solver = spec->solver;
     scene.world->settings.flip = spec->flip;
     if (spec->max_displacement > 0.0f) scene.world->settings.max_displacement = spec->max_displacement;
-    for (int a = 0; a < dimension; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
+    for (int a = 0; a < dimension && !spec->weightless; a++) scene.world->settings.gravity[a] = 3.0f - 6.0f * (float)a;
     add_materials(scene.world, spec);
     scene.step = (RefStep){.dimension = dimension, .edged = spec->edged, .affine_lost = (double)spec->affine_lost, .dt = (double)TIME_STEP, .cells_per_metre = 1.0 / (double)CELL_SIZE};
     scene.gap = spec->gap;
@@ -169,6 +171,8 @@ static void set_materials(Scene *scene)
         if (!materials->generation[slot]) continue;
         materials_set(materials, slot, &materials->def[slot]);
         materials->kernel[slot].pressure_max = scene->pressure_max;
+        materials->kernel[slot].growth_max = scene->growth_max;
+        materials->kernel[slot].head2 = scene->head2;
         if (materials->kernel[slot].kind == K_LIQUID) materials->kernel[slot].volume_share = 0.5f * materials->def[slot].volume_feedback;
         materials->kernel[slot].even_share = 0.5f * materials->def[slot].volume_feedback;
     }

@@ -26,8 +26,9 @@ typedef struct SceneSpec {
     double ratio_min, ratio_max; /* of J */
     MakeDeformation *deform; /* null: the identity with entries up to 0.3 added */
     float max_displacement; /* 0: the default */
-    float pressure_max;     /* of liquids, see KernelMaterial; 0: none */
-    bool check_strain;
+    float pressure_max;     /* this and the next two: see KernelMaterial; 0: none */
+    float growth_max, head2;
+    bool check_strain, weightless;
     pbmpm_solver solver; /* default: the paper's */
     float flip;
     float affine_lost; /* 1 - KernelArgs.dual.affine_kept, of all blocks */
@@ -39,7 +40,7 @@ typedef struct SceneSpec {
 typedef struct Scene {
     World *world;
     const Kernels *kernels;
-    float pressure_max;
+    float pressure_max, growth_max, head2;
     RefStep step;
     float *affine_kept, *node_gap; /* see KernelArgs; null without */
     double gap;

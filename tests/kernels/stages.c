@@ -169,8 +169,8 @@ void stages_check_iterate(Scene *scene)
         BoundParticle error = bound_gather(&nodes, &p);
         double d[3], D[9];
         reference_gather(&nodes, &p, d, D);
-        error.D = bound_project(n, &p, D, error.D);
-        reference_project(n, &p, D);
+        error.D = bound_project(n, &p, d, D, error);
+        reference_project(n, &p, d, D);
         expected_add(&expected, &p, d, D, error);
     }
     scene_run_particles(scene, scene->kernels->iterate);
@@ -256,7 +256,7 @@ static double volume_error(const Scene *scene, const RefGrid *nodes, const RefPa
                                                     : fmin(REF_CROWDED / reference_compression(nodes, before), claimed);
         bound += (TRANSFER_ROUNDINGS + 8.0) * UNIT_ROUNDOFF * (most + fabs(expected->volume_ratio));
         if (scene->step.tensionless) bound += share_error(scene, before, most + fabs(expected->volume_ratio), gathered, bound);
-        if (!scene->step.tensionless) bound += unclear_feedback(scene, nodes, before, trace, error);
+        if (!scene->step.tensionless) bound += unclear_feedback(scene, nodes, before, trace, error) + n * error; /* the last: of the strain */
     }
     return bound;
 }

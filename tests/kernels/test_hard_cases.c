@@ -24,6 +24,7 @@ static SceneSpec hard_scene(const char *name, MakeDeformation *deform)
                       .gradient = 0.3,
                       .ratio_min = 0.05,
                       .ratio_max = 1.2,
+                      .growth_max = 1.0f,
                       .deform = deform};
     spec.material[0].elasticity_ratio = 0.5f;
     spec.material[2].strain_policy = PBMPM_STRAIN_DELETE;

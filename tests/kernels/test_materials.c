@@ -38,15 +38,17 @@ static void test_viscosity(void)
     }
 }
 
-/* From crushed to torn: J over all of its range, with bounds on rebound and pressure that cut in and with none that does. */
+/* From crushed to torn: J over all of its range, with bounds on growth and pressure that cut in and with none that does, and with a pressure that
+ * the motion of some has used up. */
 static void test_liquid_at_all_densities(void)
 {
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 4; i++) {
         SceneSpec spec = scene_of("liquid at all densities", PBMPM_LIQUID);
         spec.ratio_min = 0.05;
         spec.ratio_max = 2.0;
         spec.gradient = 0.8;
-        spec.material[0].rebound_max = i == 1 ? 0.3f : 10.0f;
+        spec.growth_max = i == 1 ? 0.3f : 0.0f;
+        spec.head2 = i == 3 ? 0.1f : 0.0f;
         spec.pressure_max = i == 2 ? 0.8f : 0.0f;
         stages_check_spec(&spec, 1);
     }
@@ -66,6 +68,9 @@ static void test_volume_feedback(void)
         spec.pressure_max = i == 1 ? 0.03f : 0.0f; /* stiff: stale below 0.87 of what the grid shows, not 0.8 */
         stages_check_spec(&spec, 1);
         spec.edged = true;
+        stages_check_spec(&spec, 1);
+        spec.weightless = true;
+        spec.speed = spec.gradient = 0.01; /* a strain that bounds by how much J falls */
         stages_check_spec(&spec, 1);
     }
 }
@@ -251,6 +256,8 @@ static void test_large_strain(void)
         spec.gradient = 0.4;
         spec.material[0].elasticity_ratio = 0.7f;
         spec.material[0].rebound_max = rebounds[i];
+        stages_check_spec(&spec, 1);
+        spec.growth_max = 0.5f;
         stages_check_spec(&spec, 1);
     }
 }

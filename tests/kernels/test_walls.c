@@ -126,7 +126,7 @@ static void fill(World *world, int per_axis)
 static Scene full_box(pbmpm_isa isa, int dimension, double shift, int per_axis)
 {
     pbmpm_world_def def = world_def_defaults();
-    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = FLT_MAX};
+    Scene scene = {.kernels = kernels_for(isa, dimension), .pressure_max = FLT_MAX, .growth_max = FLT_MAX, .head2 = FLT_MAX};
     const pbmpm_material_def liquid = scene_material(PBMPM_LIQUID);
     pbmpm_material_id id;
     def.dimension = dimension;

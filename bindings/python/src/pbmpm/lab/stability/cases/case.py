@@ -19,6 +19,8 @@ from typing import Any
 import pbmpm
 from pbmpm.materials import Parameters
 
+from ...accuracy import laws
+
 LIQUID = "liquid"
 ELASTIC = "elastic"
 SAND = "sand"
@@ -82,13 +84,27 @@ class Setting:
         """What squeezed matter may gain by expanding [m/s]: the speed of its pressure wave.
 
         Squeezed by a strain of nearly 1 it holds almost M/2 of energy per volume, M = rho c^2 the modulus of the pressure
-        wave. What is incompressible stores none, nor does the matter of the paper's solver, whose rebound is bounded.
+        wave. What is incompressible stores none, nor does the paper's liquid, whose growth is bounded by its weight and motion.
+        What the paper's elastic matter stores is not counted here: see `stored_speed`.
         """
         if self.solver == PAPER:
             return 0.0
         matter = self.parameters(cell_size)
         modulus = matter.bulk_modulus if isinstance(matter, pbmpm.Liquid) else _wave_modulus(matter)
         return math.sqrt(modulus / matter.density)
+
+    def stored_speed(self, cell_size: float) -> float:
+        """What elastic matter that was pressed flat may reach by the law of the paper's solver [m/s], which makes motion of all that it stores.
+
+        That law stores more than Hooke's when it is pressed, and softens when it is stretched by more than 2, where its force (1 - 1/s) / s is the
+        largest: what is squeezed out tears off and takes along what it stores. (So it does in an explicit simulation of the same energy,
+        1/s + ln s - 1, without any iteration.)
+        """
+        matter = self.parameters(cell_size)
+        if self.solver != PAPER or not isinstance(matter, pbmpm.Elastic):
+            return 0.0
+        stored = laws.stored_when_flattened(matter.strain_min, matter.relaxation, matter.rebound_max)
+        return math.sqrt(2.0 * stored * laws.young_modulus_over_density(cell_size, self.dt, self.iterations, matter.relaxation))
 
     def __str__(self) -> str:
         return f"{self.variant}, {self.solver}, {self.material}, {self.dimension}D, {self.rate_hz:g} Hz x {self.iterations}"
