@@ -20,7 +20,7 @@ typedef struct BodySum {
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
-    double liquid;            /* energy of the liquid particles */
+    double pressed, pressed_rest; /* energy of the joint solver's liquid, and at D = 0 */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
