@@ -116,6 +116,8 @@ double eddy_damping_settle(World *world, const EddyGains *gains)
     return gains->gained > 0.0 ? 1.0 + fmax(0.0, account->debt) / (unit * gains->gained) : 1.0;
 }
 
+double eddy_damping_owed(const World *world) { return fmax(0.0, world->dual.eddy_damping.account[islands_kinds(world)].debt) / solver_joule(world); }
+
 void eddy_damping_forget(World *world) { memset(world->dual.eddy_damping.account, 0, sizeof world->dual.eddy_damping.account); }
 
 /* ---- The dual's bodies ---- */

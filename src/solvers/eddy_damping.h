@@ -48,6 +48,9 @@ typedef struct EddyGains {
 /* Settles the account of the group. Returns what has to be paid over what was gained, at least 1. */
 double eddy_damping_settle(World *world, const EddyGains *gains);
 
+/* The debt that the group's last substep left [kg cell^2 / substep^2]; none where there is credit. */
+double eddy_damping_owed(const World *world);
+
 /* Somebody else changed the motion of particles: debts are forgotten. */
 void eddy_damping_forget(World *world);
 

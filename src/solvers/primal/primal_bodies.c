@@ -62,13 +62,28 @@ static double rounding_of(const BodySum *body)
     return PRIMAL_ENERGY_ROUNDING * (body->before + body->still + body->pressed_rest) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
 }
 
+/* Kinetic energy beside the mean motion. */
+static double own_motion(const BodySum *body)
+{
+    double own = body->kinetic;
+    for (int c = 0; c < 3 && body->mass > 0.0; c++) own -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
+    return own;
+}
+
+/* Whether primal_find_kept() will make up for the gain, and for what is owed. */
+static bool eddies_pay(const Primal *p, const BodySum *body)
+{
+    const double gain = body->after - body->before - body->work + eddy_damping_owed(p->world);
+    return p->joint && body->with_liquid && body->meets && eddy_damping_share(gain, own_motion(body)) > 0.0f;
+}
+
 /* Whether more energy came out than went in, or than the joint solver's liquid gave. The primal alone judges the elastic energy of matter with liquid: what a truncated
  * solution leaves in the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that: of a
  * body that starts at rest and without strain nothing else could. */
 static bool gained(const Primal *p, const BodySum *body)
 {
     const double after = body->with_liquid && !p->joint ? body->elastic - body->fallen : body->after + body->pressed;
-    return after > body->before + body->pressed_rest + body->work + rounding_of(body);
+    return after > body->before + body->pressed_rest + body->work + rounding_of(body) && !eddies_pay(p, body);
 }
 
 void primal_note_stiffness(Primal *p)
@@ -155,7 +170,7 @@ void primal_pull_back_to(Primal *p, float share)
 }
 
 /* A body that gained little goes where the solution leads, and pays with its velocities: they keep the share s of what they differ from its mean, with
- * 1 - s^2 the gain over that kinetic energy. In the joint solver the eddies of a body with liquid pay, see primal_liquid.c. Returns how many failed bodies are left. */
+ * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
 static uint32_t let_pay(Primal *p)
 {
     static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead */
@@ -166,17 +181,14 @@ static uint32_t let_pay(Primal *p)
     for (int32_t i = 0; i < state->bodies.count; i++) {
         const BodySum *b = &body[i];
         if (!b->failed) continue;
-        const double gain = b->after - b->before - b->work;
-        double own = b->kinetic;
-        for (int c = 0; c < 3; c++) own -= 0.5 * b->moved[c] * b->moved[c] / b->mass;
-        const bool eddies_pay = p->joint && b->with_liquid && b->meets && eddy_damping_share(gain, own) > 0.0f;
+        const double gain = b->after - b->before - b->work, own = own_motion(b);
         const bool pays = rigid[i].turns && gain <= MOST * own;
         if (pays) {
             rigid[i].kept = sqrt(1.0 - gain / own);
             for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;
         }
-        body[i].failed = !pays && !eddies_pay;
-        failed += body[i].failed;
+        body[i].failed = !pays;
+        failed += !pays;
     }
     return failed;
 }
