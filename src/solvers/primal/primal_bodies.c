@@ -62,28 +62,13 @@ static double rounding_of(const BodySum *body)
     return PRIMAL_ENERGY_ROUNDING * (body->before + body->still + body->pressed_rest) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
 }
 
-/* Kinetic energy beside the mean motion. */
-static double own_motion(const BodySum *body)
-{
-    double own = body->kinetic;
-    for (int c = 0; c < 3 && body->mass > 0.0; c++) own -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
-    return own;
-}
-
-/* Whether primal_find_kept() will make up for the gain, and for what is owed. */
-static bool eddies_pay(const Primal *p, const BodySum *body)
-{
-    const double gain = body->after - body->before - body->work + eddy_damping_owed(p->world);
-    return p->joint && body->with_liquid && body->meets && eddy_damping_share(gain, own_motion(body)) > 0.0f;
-}
-
 /* Whether more energy came out than went in, or than the joint solver's liquid gave. The primal alone judges the elastic energy of matter with liquid: what a truncated
  * solution leaves in the pressure of a liquid is an error of its volume, and no energy that anything can be driven with. What it fell may have gone into that: of a
  * body that starts at rest and without strain nothing else could. */
 static bool gained(const Primal *p, const BodySum *body)
 {
     const double after = body->with_liquid && !p->joint ? body->elastic - body->fallen : body->after + body->pressed;
-    return after > body->before + body->pressed_rest + body->work + rounding_of(body) && !eddies_pay(p, body);
+    return after > body->before + body->pressed_rest + body->work + rounding_of(body);
 }
 
 void primal_note_stiffness(Primal *p)
@@ -169,8 +154,21 @@ void primal_pull_back_to(Primal *p, float share)
     primal_accept(p, false);
 }
 
+double primal_own_motion(const BodySum *body)
+{
+    double own = body->kinetic;
+    for (int c = 0; c < 3 && body->mass > 0.0; c++) own -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
+    return own;
+}
+
+/* Whether eddies can make up for what a body with liquid gained, and for what is owed: primal_find_kept() takes it. */
+static bool eddies_pay(const Primal *p, const BodySum *body, double gain)
+{
+    return p->joint && body->with_liquid && body->meets && eddy_damping_share(gain + eddy_damping_owed(p->world), primal_own_motion(body)) > 0.0f;
+}
+
 /* A body that gained little goes where the solution leads, and pays with its velocities: they keep the share s of what they differ from its mean, with
- * 1 - s^2 the gain over that kinetic energy. Returns how many failed bodies are left. */
+ * 1 - s^2 the gain over that kinetic energy. In the joint solver eddies pay. Returns how many failed bodies are left. */
 static uint32_t let_pay(Primal *p)
 {
     static const double MOST = 0.5; /* of that kinetic energy: more would take most of its speed: then it starts again instead */
@@ -181,14 +179,14 @@ static uint32_t let_pay(Primal *p)
     for (int32_t i = 0; i < state->bodies.count; i++) {
         const BodySum *b = &body[i];
         if (!b->failed) continue;
-        const double gain = b->after - b->before - b->work, own = own_motion(b);
+        const double gain = b->after - b->before - b->work, own = primal_own_motion(b);
         const bool pays = rigid[i].turns && gain <= MOST * own;
         if (pays) {
             rigid[i].kept = sqrt(1.0 - gain / own);
             for (int c = 0; c < 3; c++) rigid[i].mean[c] = b->moved[c] / b->mass;
         }
-        body[i].failed = !pays;
-        failed += !pays;
+        body[i].failed = !pays && !eddies_pay(p, b, gain);
+        failed += body[i].failed;
     }
     return failed;
 }

@@ -124,6 +124,9 @@ void primal_find_leaning(Primal *p);
 /* After weigh_nodes(), which sums it. */
 void primal_note_stiffness(Primal *p);
 
+/* Kinetic energy beside the mean motion. */
+double primal_own_motion(const BodySum *body);
+
 /* Compares energies at p->best. Returns the number of bodies that gained. */
 uint32_t primal_check_bodies(Primal *p);
 
