@@ -17,7 +17,7 @@
  *     debt' = debt + K(w) - left,
  *
  * what matter has more than gravity, fields and obstacles gave it. Bodies that gain pay it with what they gain, in the same proportion. A debt below zero is credit: where a wave
- * rises and falls, what one substep loses another brings back. Credit is forgotten, by 1/e in the time in which matter falls through its depth and rises again; a splash does not pay for what
+ * rises and falls, what one substep loses another brings back. Credit is forgotten, by 1/e in the time in which matter falls through its depth and rises again, without gravity at once; a splash does not pay for what
  * stirs later. With 1/20 of a second instead waves of a tank kept 0.63 of their height over nine periods, with half a second 0.94, and forgetting nothing lets pools over a ridge stir as
  * if there were no account (tests/field, standing_wave and creased_floor). The account is of one group of islands; where particles come to it or leave, it begins anew.
  *
@@ -47,6 +47,9 @@ typedef struct EddyGains {
 
 /* Settles the account of the group. Returns what has to be paid over what was gained, at least 1. */
 double eddy_damping_settle(World *world, const EddyGains *gains);
+
+/* The debt that the group's last substep left [kg cell^2 / substep^2]; none where there is credit. */
+double eddy_damping_owed(const World *world);
 
 /* Somebody else changed the motion of particles: debts are forgotten. */
 void eddy_damping_forget(World *world);

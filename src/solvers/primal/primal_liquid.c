@@ -141,9 +141,7 @@ static void damp_eddies(Primal *p)
     const double factor = eddy_damping_settle(p->world, &gains);
     for (int32_t block = 0; kept && block < p->world->grid.particle_blocks; block++) {
         const BodySum *body = primal_body_of(p, block);
-        double kinetic = body->kinetic;
-        for (int c = 0; c < 3 && body->mass > 0.0; c++) kinetic -= 0.5 * body->moved[c] * body->moved[c] / body->mass;
-        kept[block] = body->meets ? eddy_damping_share(factor * gain_of(body), kinetic) : 1.0f;
+        kept[block] = body->meets ? eddy_damping_share(factor * gain_of(body), primal_own_motion(body)) : 1.0f;
     }
 }
 

@@ -20,7 +20,7 @@ typedef struct BodySum {
     double mass, momentum[3]; /* of the predictor */
     double start[3];          /* its mean displacement, as far as obstacles allow: a motion without strain */
     double elastic;           /* energy of the elastic particles */
-    double liquid;            /* energy of the liquid particles */
+    double pressed, pressed_rest; /* energy of the joint solver's liquid, and at D = 0 */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
@@ -123,6 +123,9 @@ void primal_find_leaning(Primal *p);
 
 /* After weigh_nodes(), which sums it. */
 void primal_note_stiffness(Primal *p);
+
+/* Kinetic energy beside the mean motion. */
+double primal_own_motion(const BodySum *body);
 
 /* Compares energies at p->best. Returns the number of bodies that gained. */
 uint32_t primal_check_bodies(Primal *p);
