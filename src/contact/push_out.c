@@ -209,6 +209,42 @@ static bool push_particle(const ContactFrame *frame, const Near *close, const do
     return true;
 }
 
+/* The distance from a convex solid is at least that from the plane through its place that is nearest to some point, with the normal there. In cells, of places from a
+ * block's first node. */
+typedef struct LeastDistance {
+    float normal[3], at_node;
+} LeastDistance;
+
+/* Seen from the middle of a block; false: one of the obstacles is not convex. */
+static bool find_least(const ContactFrame *frame, const Near *near, const double centre[3], LeastDistance *least)
+{
+    static const double MIDDLE = 0.5 * (K_BLOCK_AXIS - 1);
+    for (int i = 0; i < near->count; i++) {
+        const Solid *solid = field_solid(near, near->obstacle[i]);
+        double normal[3], distance;
+        if (solid->grid) return false;
+        distance = solid_distance(solid, centre, normal) / frame->cell_size;
+        least[i] = (LeastDistance){{0.0f}, 0.0f};
+        for (int a = 0; a < frame->grid->dimension; a++) {
+            least[i].normal[a] = (float)normal[a];
+            distance -= MIDDLE * normal[a];
+        }
+        least[i].at_node = (float)distance;
+    }
+    return true;
+}
+
+/* Whether a place is clear of all of them: by more than rounds off in single precision, within as many cells as a step may take, and in doubt not. */
+static bool is_clear(const LeastDistance *least, int count, const float place[3])
+{
+    static const float ROUNDED = 1e-3f;
+    for (int i = 0; i < count; i++) {
+        const float *n = least[i].normal;
+        if (!(least[i].at_node + n[0] * place[0] + n[1] * place[1] + n[2] * place[2] > ROUNDED)) return false;
+    }
+    return true;
+}
+
 /* ---- Particles that passed an obstacle ---- */
 
 static const double AT_SURFACE = 1e-3; /* [cells] before a surface: there a way that is followed ends, and rounding does not reach back */
@@ -373,8 +409,12 @@ static void push_block(const ContactFrame *frame, Particles *particles, int32_t 
     centre_of(frame, block, centre);
     const double reach = 0.5 * K_BLOCK_AXIS * sqrt((double)particles->dimension) + (double)((const float *)frame->grid->travel.data)[block];
     field_near(&near, frame, centre, reach, true); /* what particles can be in; what else bounds the way out is looked for where one is */
+    LeastDistance least[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS];
+    const bool convex = find_least(frame, &near, centre, least);
     for (; row < begin[block + 1] && near.count > 0; row++) {
-        if (particles->status[row] != K_ALIVE) continue;
+        float place[3] = {0.0f};
+        for (int a = 0; a < particles->dimension; a++) place[a] = place_in_block(frame, particles, block, row, a);
+        if (particles->status[row] != K_ALIVE || (convex && is_clear(least, near.count, place))) continue;
         const Near *meeting = field_meeting(&near, contacts_row_groups(frame, particles, row), &some);
         const Pushed one = {particles, block, row};
         if (push_particle(frame, meeting, centre, reach, &one, book)) continue;

@@ -366,30 +366,65 @@ static uint32_t run_key_of(const SortJob *job, uint32_t i)
 enum { BUCKETS = 256 };
 _Static_assert((int)BUCKETS >= (int)PBMPM_MAX_MATERIALS && BUCKETS > K_RUN_CELL_MASK, "one bucket per material or cell");
 
-/* One stable counting pass over `count` entries of `from`; the key is the material slot or the cell in the block. */
-static void counting_pass(const SortJob *job, const uint32_t *from, uint32_t *to, uint32_t count, bool by_material)
+/* One stable counting pass over `count` entries of `from` with these keys: material slots, or cells in the block. Returns how many keys there are. */
+static uint32_t counting_pass(const uint32_t *key, const uint32_t *from, uint32_t *to, uint32_t count)
 {
-    const uint32_t *material = job->particles->material;
-    uint32_t start[BUCKETS + 1] = {0};
-    for (uint32_t i = 0; i < count; i++) start[(by_material ? material[from[i]] : cell_in_block(job, from[i])) + 1]++;
-    for (int k = 0; k < BUCKETS; k++) start[k + 1] += start[k];
-    for (uint32_t i = 0; i < count; i++) to[start[by_material ? material[from[i]] : cell_in_block(job, from[i])]++] = from[i];
+    uint32_t start[BUCKETS + 1] = {0}, keys = 0;
+    for (uint32_t i = 0; i < count; i++) start[key[i] + 1]++;
+    for (int k = 0; k < BUCKETS; k++) {
+        keys += start[k + 1] > 0;
+        start[k + 1] += start[k];
+    }
+    for (uint32_t i = 0; i < count; i++) to[start[key[i]]++] = from[i];
+    return keys;
 }
 
+/* Where keys are kept while particles are sorted: no run is listed yet. */
+static uint32_t *keys_from(const Grid *grid, uint32_t row) { return grid->run_key + (row - grid->first_row); }
+
+static uint32_t sort_by_material(const SortJob *job, uint32_t first, const uint32_t *from, uint32_t *to, uint32_t count)
+{
+    uint32_t *key = keys_from(job->grid, first);
+    for (uint32_t i = 0; i < count; i++) key[i] = job->particles->material[from[i]];
+    return counting_pass(key, from, to, count);
+}
+
+static uint32_t sort_by_cell(const SortJob *job, uint32_t first, const uint32_t *from, uint32_t *to, uint32_t count)
+{
+    uint32_t *key = keys_from(job->grid, first);
+    for (uint32_t i = 0; i < count; i++) key[i] = cell_in_block(job, from[i]);
+    return counting_pass(key, from, to, count);
+}
+
+/* Of particles in the order of their cells, each of which has them in the order of their materials. */
+static uint32_t count_mixed_runs(const SortJob *job, const uint32_t *order, uint32_t count)
+{
+    const uint32_t *material = job->particles->material;
+    uint32_t runs = 1;
+    for (uint32_t i = 1; i < count; i++)
+        runs += material[order[i]] != material[order[i - 1]] || cell_in_block(job, order[i]) != cell_in_block(job, order[i - 1]);
+    return runs;
+}
+
+/* Leaves in block_run how many runs each block has. */
 static void sort_inside_blocks(void *context, int32_t begin, int32_t end)
 {
     const SortJob *job = context;
-    const uint32_t *block_begin = job->grid->block_begin.data;
+    const uint32_t *block_begin = job->grid->block_begin.data, *material = job->particles->material;
+    uint32_t *runs = (uint32_t *)job->grid->block_run.data + 1;
     for (int32_t b = begin; b < end; b++) {
         const uint32_t first = block_begin[b], count = block_begin[b + 1] - first;
         uint32_t *order = job->grid->order + first, *scratch = job->grid->order_scratch + first;
         bool mixed = false;
-        for (uint32_t i = 1; i < count; i++) mixed |= job->particles->material[order[i]] != job->particles->material[order[0]];
-        counting_pass(job, order, scratch, count, mixed);
-        if (mixed)
-            counting_pass(job, scratch, order, count, false);
-        else
+        for (uint32_t i = 1; i < count; i++) mixed |= material[order[i]] != material[order[0]];
+        if (mixed) {
+            sort_by_material(job, first, order, scratch, count);
+            sort_by_cell(job, first, scratch, order, count);
+            runs[b] = count_mixed_runs(job, order, count);
+        } else {
+            runs[b] = sort_by_cell(job, first, order, scratch, count);
             memcpy(order, scratch, count * sizeof *order);
+        }
     }
 }
 
@@ -397,17 +432,17 @@ static void sort_flying(const SortJob *job)
 {
     const uint32_t first = job->grid->flight_row, count = job->grid->end_row - first;
     uint32_t *order = job->grid->order + first, *scratch = job->grid->order_scratch + first;
-    counting_pass(job, order, scratch, count, true);
+    sort_by_material(job, first, order, scratch, count);
     memcpy(order, scratch, count * sizeof *order);
 }
 
 /* Particles are in order: a run ends where the key changes. */
-static void count_runs(void *context, int32_t begin, int32_t end)
+static void count_flying_runs(void *context, int32_t begin, int32_t end)
 {
     const SortJob *job = context;
     const uint32_t *block_begin = job->grid->block_begin.data;
     uint32_t *block_run = job->grid->block_run.data;
-    for (int32_t b = begin; b < end; b++) {
+    for (int32_t b = job->grid->particle_blocks + begin; b < job->grid->particle_blocks + end; b++) {
         uint32_t runs = 1;
         for (uint32_t i = block_begin[b] + 1; i < block_begin[b + 1]; i++)
             runs += run_key_of(job, i) != run_key_of(job, i - 1);
@@ -547,7 +582,8 @@ static pbmpm_result arrange(Grid *grid, Memory *memory, Particles *p, Loops *loo
 static void link_all(Grid *grid, Particles *p, Loops *loops)
 {
     const SortJob job = {grid, p};
-    LOOPS_ADD(loops, grid_rows_and_flights(grid, BLOCK_GRAIN), count_runs, &job);
+    const Span flights = {grid->flights, BLOCK_GRAIN, (int64_t)(grid->end_row - grid->flight_row) * PARTICLE_NS};
+    if (grid->flights > 0) LOOPS_ADD(loops, flights, count_flying_runs, &job);
     LOOPS_ADD(loops, span_once(), place_runs, &job);
     LOOPS_ADD(loops, grid_rows_and_flights(grid, BLOCK_GRAIN), write_runs, &job);
     LOOPS_ADD(loops, grid_nodes(grid, BLOCK_GRAIN), link_neighbours, &job);
