@@ -5,6 +5,7 @@
 
 #include "api/api_call.h"
 #include "base/numbers.h"
+#include "base/result.h"
 #include "services/rigid.h"
 #include "services/submerged.h"
 #include "shape/mass.h"
@@ -79,12 +80,13 @@ pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider,
 }
 
 /* What matter gave in the last step, gravity, and the virtual mass by the law that the header states. */
-static pbmpm_result find_push(World *world, pbmpm_collider_id id, const Collider *collider, RigidPush *push)
+static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *collider, RigidPush *push)
 {
+    const FreeBody *body = collider_body(collider, &world->memory);
     double point[3] = {0};
+    if (!body) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     pbmpm_submersion under = {.volume = 0.0};
     const int dimension = world->def.dimension;
-    const FreeBody *body = &collider->body;
     const pbmpm_result result = body->walled ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
     if (result != PBMPM_OK) return result;
     for (int a = 0; a < dimension; a++) point[a] = (double)collider->shape.position[a];
@@ -135,8 +137,8 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
-    found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
-    memcpy(found->body.delayed, push.later, sizeof push.later);
+    *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
+    memcpy(found->body->delayed, push.later, sizeof push.later);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

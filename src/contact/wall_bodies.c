@@ -57,14 +57,13 @@ bool wall_bodies_list(Walls *walls, const ContactFrame *frame, Memory *memory)
     return true;
 }
 
-bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, uint32_t follower, const Obstacle *obstacle, const double foot[3],
-                      const float share[6], float moved[3])
+bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, const WallFoot *at, float moved[3])
 {
     if (!array_grow(memory, &walls->grip, (size_t)walls->grips + 1, sizeof(WallGrip), (size_t)walls->grips * sizeof(WallGrip))) return false;
     WallBody *body = walls->body.data;
-    WallGrip grip = {.share = symmetric_columns(share), .follower = follower};
-    while (body[grip.body].obstacle != obstacle - frame->colliders->obstacle) grip.body++;
-    for (int a = 0; a < frame->grid->dimension; a++) grip.arm[a] = (float)((foot[a] - obstacle->body->centre[a]) / frame->cell_size);
+    WallGrip grip = {.share = symmetric_columns(at->share), .follower = at->follower};
+    while (body[grip.body].obstacle != at->obstacle - frame->colliders->obstacle) grip.body++;
+    for (int a = 0; a < frame->grid->dimension; a++) grip.arm[a] = (float)((at->foot[a] - at->obstacle->body->centre[a]) / frame->cell_size);
     ((WallGrip *)walls->grip.data)[walls->grips++] = grip;
     body[grip.body].gripped = true;
     const Four motion = grip_motion(&grip, body[grip.body].before);

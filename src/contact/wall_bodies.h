@@ -18,9 +18,16 @@
 /* Lists the obstacles that are rigid bodies. False: out of memory, here and below. */
 bool wall_bodies_list(Walls *walls, const ContactFrame *frame, Memory *memory);
 
-/* Node `follower` of the list follows the wall of a listed body, whose foot is there [m], with the part `share` of its motion. `moved`: w there. */
-bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, uint32_t follower, const Obstacle *obstacle, const double foot[3],
-                      const float share[6], float moved[3]);
+/* A node of the list that follows a wall of an obstacle: with the part `share` of the motion of the wall's foot [m]. */
+typedef struct WallFoot {
+    const Obstacle *obstacle;
+    uint32_t follower;
+    const double *foot;
+    const float *share; /* a symmetric matrix, the upper triangle row by row */
+} WallFoot;
+
+/* The obstacle is a listed body. `moved`: w there. */
+bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, const WallFoot *at, float moved[3]);
 
 /* Finds S, once all nodes are listed. */
 bool wall_bodies_bind(Walls *walls, const ContactFrame *frame, Memory *memory);

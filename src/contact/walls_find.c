@@ -104,6 +104,7 @@ typedef struct Profile {
     double bend, rounded;      /* see turn_of() */
     float surface[3];
     double foot[3];
+    const Obstacle *owner;
 } Profile;
 
 /* Sine of the least angle between planes that do not count as one, see field_same_way(). */
@@ -229,7 +230,7 @@ static bool make_upright(Profile *profile, int i)
 }
 
 /* The nearest face and others that the node is near to. One by itself has the normal that turns. */
-static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX], const Obstacle *owner[NORMALS_MAX])
+static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NORMALS_MAX])
 {
     const Face *own[NORMALS_MAX];
     int used = 0;
@@ -254,7 +255,7 @@ static int profiles_of(const Builder *b, const Bound *bound, Profile profile[NOR
         p->share = fmin(fmax(0.5 - 0.5 * p->distance, 0.0), 1.0);
         obstacle_motion(own[i]->obstacle, own[i]->foot, b->frame->cell_size, b->frame->max_displacement, p->surface);
         memcpy(p->foot, own[i]->foot, sizeof p->foot);
-        owner[i] = own[i]->obstacle;
+        p->owner = own[i]->obstacle;
     }
     return used;
 }
@@ -400,31 +401,32 @@ static void way_out(const Profile *profile, int count, double way[3])
 }
 
 /* The node follows the wall with the part `share` of its motion, which is more where that is a rigid body's. */
-static void add_grip(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, const float share[6])
+static void add_grip(Builder *b, uint32_t index, const Profile *profile, const float share[6])
 {
+    if (!profile->owner->body) return;
+    const WallFoot at = {profile->owner, index, profile->foot, share};
     float moved[3];
-    if (!owner->body) return;
-    if (wall_bodies_grip(b->walls, b->frame, b->memory, index, owner, profile->foot, share, moved))
+    if (wall_bodies_grip(b->walls, b->frame, b->memory, &at, moved))
         for (int a = 0; a < 3; a++) ((WallNode *)b->walls->node.data)[index].shift[a] += moved[a];
     else
         b->failed = true;
 }
 
-static void add_grip_along(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, double scale)
+static void add_grip_along(Builder *b, uint32_t index, const Profile *profile, double scale)
 {
     float share[6] = {0};
     add_product(share, scale, profile->axis);
-    add_grip(b, index, profile, owner, share);
+    add_grip(b, index, profile, share);
 }
 
-static void add_grip_whole(Builder *b, uint32_t index, const Profile *profile, const Obstacle *owner, double scale)
+static void add_grip_whole(Builder *b, uint32_t index, const Profile *profile, double scale)
 {
     const float s = (float)scale, share[6] = {s, 0.0f, 0.0f, s, 0.0f, b->frame->grid->dimension == 3 ? s : 0.0f};
-    add_grip(b, index, profile, owner, share);
+    add_grip(b, index, profile, share);
 }
 
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
-static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, const Obstacle *const *owner, int count, bool sticks, const float rest[6])
+static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
     Image image = {.weight = 1.0, .before = true};
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
@@ -450,8 +452,8 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         for (int a = 0; a < 3; a++) node->shift[a] = (float)(1.0 - scale[0]) * profile[0].surface[a];
         memset(node->own, 0, sizeof node->own);
     }
-    if (sticks) add_grip_whole(b, index, &profile[0], owner[0], 1.0 - scale[0]);
-    for (int j = 0; j < count && !sticks; j++) add_grip_along(b, index, &profile[j], owner[j], 1.0 - scale[j]);
+    if (sticks) add_grip_whole(b, index, &profile[0], 1.0 - scale[0]);
+    for (int j = 0; j < count && !sticks; j++) add_grip_along(b, index, &profile[j], 1.0 - scale[j]);
     if (!found) return;
     node->entry = b->walls->entries++;
     ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
@@ -480,25 +482,25 @@ static void add_follower(Builder *b, uint32_t index)
     Walls *walls = b->walls;
     const Bound *bound = b->bound[index];
     Profile profile[NORMALS_MAX];
-    const Obstacle *owner[NORMALS_MAX];
-    int count = profiles_of(b, bound, profile, owner);
-    const bool sticks = owner[0]->friction == PBMPM_FRICTION_STICK;
+    int count = profiles_of(b, bound, profile);
+    const Obstacle *owner = profile[0].owner;
+    const bool sticks = owner->friction == PBMPM_FRICTION_STICK;
     if (sticks) count = 1;
     WallNode *node = (WallNode *)walls->node.data + index;
     node->own_mirror = 0.0f;
     node->follows = bound->both;
     node->open = bound->open;
-    const bool weighs = !bound->both && !sticks && count == 1 && !owner[0]->moves; /* see walls_weigh() */
+    const bool weighs = !bound->both && !sticks && count == 1 && !owner->moves; /* see walls_weigh() */
     if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
-    node->coefficient = owner[0]->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner[0]->coefficient : 0.0f;
+    node->coefficient = owner->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
     walls->rubs = walls->rubs || node->coefficient > 0.0f;
     float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, b->frame->grid->dimension == 3 ? 1.0f : 0.0f};
     for (int j = 0; j < count; j++) {
         for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
-        node->obstacle[j] = (uint16_t)(owner[j] - b->frame->colliders->obstacle);
+        node->obstacle[j] = (uint16_t)(profile[j].owner - b->frame->colliders->obstacle);
         node->follows = node->follows || profile[j].distance < WET_CLEAR;
         add_product(rest, -1.0, profile[j].axis);
     }
@@ -510,12 +512,12 @@ static void add_follower(Builder *b, uint32_t index)
         for (int a = 0; a < 3; a++) along += (double)profile[0].surface[a] * profile[0].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] = sticks ? profile[0].surface[a] : (float)(along * profile[0].axis[a]);
         if (!sticks) memcpy(node->own, rest, sizeof rest);
-        if (sticks) add_grip_whole(b, index, &profile[0], owner[0], 1.0);
-        else add_grip_along(b, index, &profile[0], owner[0], 1.0);
+        if (sticks) add_grip_whole(b, index, &profile[0], 1.0);
+        else add_grip_along(b, index, &profile[0], 1.0);
         node->own_mirror = 1.0f;
         return;
     }
-    if (node->follows) add_motion(b, bound, index, profile, owner, count, sticks, rest);
+    if (node->follows) add_motion(b, bound, index, profile, count, sticks, rest);
     add_mirrors(b, bound, index, profile, count);
     ((WallNode *)walls->node.data)[index].mirror_end = walls->mirrors; /* the list may have moved */
 }
@@ -785,13 +787,13 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
              array_reserve(memory, &walls->free, walls->nodes, sizeof(WallFree)) && array_reserve(memory, &walls->moved, walls->nodes, sizeof(uint32_t)) &&
-             array_reserve(memory, &walls->vector, (VECTORS + (walls->bodies > 0)) * (size_t)walls->nodes + walls->entries, sizeof(Four));
+             array_reserve(memory, &walls->vector, (WALL_VECTORS + (walls->bodies > 0)) * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
         walls_clear(walls);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the nodes at walls of %d blocks", grid->node_blocks);
     }
-    if (walls->nodes > 0) memset(walls->vector.data, 0, VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
+    if (walls->nodes > 0) memset(walls->vector.data, 0, WALL_VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
     lump(walls, grid->dimension);
     if (!wall_bodies_bind(walls, frame, memory)) {

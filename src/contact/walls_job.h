@@ -2,7 +2,6 @@
 #ifndef PBMPM_SRC_CONTACT_WALLS_JOB_H
 #define PBMPM_SRC_CONTACT_WALLS_JOB_H
 
-#include "contact/walls.h"
 #include "contact/walls_list.h"
 
 /* Vectors of 4 floats: per node momentum, u~, u, and the normal impulse; per entry what goes back through it. */
@@ -14,7 +13,7 @@ static inline Vectors vectors_of(const Walls *walls)
 {
     Four *first = walls->vector.data;
     if (walls->nodes == 0) return (Vectors){0};
-    return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + VECTORS * (size_t)walls->nodes};
+    return (Vectors){first, first + walls->nodes, first + 2 * (size_t)walls->nodes, first + WALL_VECTORS * (size_t)walls->nodes};
 }
 
 typedef struct ApplyJob {

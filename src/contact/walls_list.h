@@ -2,14 +2,13 @@
 #ifndef PBMPM_SRC_CONTACT_WALLS_LIST_H
 #define PBMPM_SRC_CONTACT_WALLS_LIST_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "contact/contacts.h"
 
 enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
 
 #define NO_ENTRY UINT32_MAX
 
-enum { VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */
+enum { WALL_VECTORS = 3 }; /* of four floats per node in Walls.vector; behind them one per entry */
 
 /* Four floats that the CPU works on at once: a vector and one more, which means nothing. */
 typedef float Four __attribute__((vector_size(16)));
@@ -101,6 +100,29 @@ typedef struct WallLink {
     uint32_t from;
     float weight;
 } WallLink;
+
+typedef struct Walls {
+    Array node;       /* WallNode: nodes at walls, then those that they follow */
+    Array motion;     /* WallMotion of each */
+    Array free;       /* WallFree of those that are free */
+    Array moved;      /* uint32_t: the places of those that do not move as they are free to */
+    Array entry;      /* WallEntry, in the order of the nodes that follow */
+    Array mirror;     /* WallMirror, likewise */
+    Array corner;     /* WallCorner of both */
+    Array link;       /* WallLink: per node that is followed, who follows */
+    Array place;      /* uint32_t per node of the grid: which of the nodes it is + 1, or 0 */
+    Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
+    Array begin;      /* uint32_t per node block: how many such nodes are in blocks before */
+    Array bound;      /* per such node: its faces */
+    Array faced;      /* Bound * of those that have any */
+    Array vector;     /* per node: what is passed between loops */
+    Array grip;       /* WallGrip, in the order of the nodes that follow */
+    Array body;       /* WallBody */
+    Array scratch;    /* while S is found */
+    Array beside_body; /* uint32_t: which of the free nodes rigid bodies move */
+    uint32_t nodes, frees, moves, entries, mirrors, corners, grips, bodies, beside;
+    bool rubs;        /* a wall has friction */
+} Walls;
 
 static inline Four times(const Columns *m, Four v) { return m->column[0] * v[0] + m->column[1] * v[1] + m->column[2] * v[2]; }
 

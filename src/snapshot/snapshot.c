@@ -268,7 +268,7 @@ static void save_colliders(const World *world, SnapshotOut *out)
     for (uint32_t slot = 0; slot < world->colliders.used; slot++) {
         const Collider *collider = &world->colliders.slot[slot];
         if (collider->generation == 0) continue;
-        ColliderMotion motion = {.moving = collider->moving, .body = collider->body};
+        ColliderMotion motion = {.moving = collider->moving, .body = collider->body ? *collider->body : (FreeBody){.ways = 0}};
         memcpy(motion.target_position, collider->target_position, sizeof motion.target_position);
         memcpy(motion.target_rotation, collider->target_rotation, sizeof motion.target_rotation);
         if (collider->def.measures_impulse) motion.impulse = world->colliders.impulses.sum[slot];
@@ -329,11 +329,13 @@ static pbmpm_result check_colliders(World *world, SnapshotIn in)
         if (result != PBMPM_OK) return result;
         if (!take_collider(&in, &saved)) return snapshot_malformed();
         if (place < 0) continue;
-        const Collider *own = &world->colliders.slot[place];
+        Collider *own = &world->colliders.slot[place];
         if (!in.restoring->keeps && !same_collider(own, &saved))
             return fail(PBMPM_ERROR_FOREIGN, "collider %d has another shape, friction or kind than in the snapshot; PBMPM_RESTORE_KEEP_PARAMETERS keeps its own",
                         place);
         if (!poses_fit(world, own, &saved)) return snapshot_malformed();
+        if ((saved.motion.body.ways > 0 || saved.motion.body.walled) && !collider_body(own, &world->memory))
+            return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     }
     return snapshot_all_matched(world, &in, KEYED_COLLIDERS, &matched);
 }
@@ -354,7 +356,7 @@ static void load_colliders(World *world, SnapshotIn in)
         memcpy(collider->target_rotation, saved.motion.target_rotation, sizeof saved.motion.target_rotation);
         if (!collider->def.measures_impulse) continue;
         world->colliders.impulses.sum[place] = saved.motion.impulse;
-        collider->body = saved.motion.body;
+        if (collider->body) *collider->body = saved.motion.body; /* check_colliders() took the memory */
     }
 }
 

@@ -34,6 +34,7 @@ pbmpm_result colliders_init(Colliders *colliders, Memory *memory)
 
 void colliders_free(Colliders *colliders, Memory *memory)
 {
+    for (uint32_t slot = 0; slot < colliders->used; slot++) memory_give(memory, colliders->slot[slot].body, sizeof(FreeBody));
     memory_give(memory, colliders->slot, colliders->room * sizeof(Collider));
     memory_give(memory, colliders->obstacle, obstacle_bytes(colliders->room));
     array_free(memory, &colliders->contact);
@@ -75,7 +76,9 @@ pbmpm_result colliders_add(Colliders *colliders, Memory *memory, const pbmpm_col
     pbmpm_result result = def->measures_impulse ? impulses_enable(&colliders->impulses, memory) : PBMPM_OK;
     if (result == PBMPM_OK && slot == colliders->room) result = make_room(colliders, memory, 2 * slot);
     if (result != PBMPM_OK) return result;
-    colliders->slot[slot] = (Collider){.generation = generation, .def = *def, .shape = *shape, .grid = grid};
+    FreeBody *body = slot < colliders->used ? colliders->slot[slot].body : NULL; /* of who stood there before */
+    if (body) *body = (FreeBody){.ways = 0};
+    colliders->slot[slot] = (Collider){.generation = generation, .def = *def, .shape = *shape, .grid = grid, .body = body};
     collider_place(&colliders->slot[slot], shape->position, shape->rotation, true);
     if (slot >= colliders->used) colliders->used = slot + 1;
     if (colliders->impulses.sum) colliders->impulses.sum[slot] = (ImpulseSum){{0}, {0}};
@@ -119,6 +122,14 @@ Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id)
     return collider->generation == id.generation ? collider : NULL;
 }
 
+FreeBody *collider_body(Collider *collider, Memory *memory)
+{
+    if (!collider->body) collider->body = memory_take(memory, sizeof *collider->body);
+    return collider->body;
+}
+
+static bool collider_yields(const Collider *collider) { return collider->body && collider->body->ways > 0; }
+
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once)
 {
     pbmpm_shape *shape = &collider->shape;
@@ -126,7 +137,7 @@ void collider_place(Collider *collider, const float position[3], const float *ro
     memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
     normalise_quaternion(collider->target_rotation); /* so that poses between two are evenly spaced */
     collider->moving = !at_once;
-    collider->body.ways = 0;
+    if (collider->body) collider->body->ways = 0;
     if (!at_once) return;
     memcpy(shape->position, collider->target_position, sizeof shape->position);
     memcpy(shape->rotation, collider->target_rotation, sizeof shape->rotation);
@@ -195,7 +206,7 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         Obstacle *o = &colliders->obstacle[count++];
         *o = collider_obstacle(&colliders->slot[slot], dimension, part, parts);
         o->place = (uint16_t)slot;
-        o->body = colliders->slot[slot].body.ways > 0 ? &colliders->slot[slot].body : NULL;
+        o->body = collider_yields(&colliders->slot[slot]) ? colliders->slot[slot].body : NULL;
         o->part = part;
         o->parts = parts;
         colliders->measures = colliders->measures || o->measures;
@@ -209,7 +220,7 @@ void colliders_end_step(Colliders *colliders)
 {
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         Collider *collider = &colliders->slot[slot];
-        collider->body.ways = 0;
+        if (collider->body) collider->body->ways = 0;
         if (collider->generation != 0 && collider->moving)
             collider_place(collider, collider->target_position, collider->target_rotation, true);
     }

@@ -11,7 +11,7 @@ struct Collider {
     float target_position[3]; /* where the next step takes it */
     float target_rotation[4];
     bool moving;
-    FreeBody body; /* of the next step, if the host advanced it as a rigid body */
+    FreeBody *body; /* its motion as a rigid body; null: the host never advanced it as one */
     const DistanceGrid *grid; /* of a baked shape; else null */
     /* Bit n: material n touches it, as collider_touches_find() finds now, and as it told last. */
     uint64_t touching[PBMPM_MAX_MATERIALS / 64], touched[PBMPM_MAX_MATERIALS / 64];
@@ -32,6 +32,8 @@ pbmpm_result colliders_set(Colliders *colliders, Memory *memory, Collider *colli
 void colliders_forget_material(Colliders *colliders, uint32_t material);
 bool colliders_use(const Colliders *colliders, const DistanceGrid *grid);
 Collider *colliders_find(const Colliders *colliders, pbmpm_collider_id id); /* null if not live */
+/* Its motion as a rigid body; null: out of memory. */
+FreeBody *collider_body(Collider *collider, Memory *memory);
 void collider_place(Collider *collider, const float position[3], const float *rotation, bool at_once);
 
 /* Whether it is there and an obstacle. */

@@ -570,12 +570,14 @@ static void set_free(World *world)
     const double side = 4.0 * CELL, mass = 100.0 * pow(side, dimension), inertia = mass * side * side / 6.0;
     Collider *box = &world->colliders.slot[0];
     box->def.friction = PBMPM_FRICTION_SLIP;
-    box->body = (FreeBody){.ways = dimension == 3 ? 6 : 3};
+    FreeBody *body = collider_body(box, &world->memory);
+    TEST_ASSERT_NOT_NULL(body);
+    body->ways = dimension == 3 ? 6 : 3;
     for (int a = 0; a < dimension; a++) {
-        box->body.way[a][a] = 1.0 / sqrt(mass);
-        box->body.centre[a] = (double)box->shape.position[a];
+        body->way[a][a] = 1.0 / sqrt(mass);
+        body->centre[a] = (double)box->shape.position[a];
     }
-    for (int k = dimension; k < box->body.ways; k++) box->body.way[k][dimension == 3 ? k : 5] = 1.0 / sqrt(inertia);
+    for (int k = dimension; k < body->ways; k++) body->way[k][dimension == 3 ? k : 5] = 1.0 / sqrt(inertia);
 }
 
 typedef enum WallScene { UPRIGHT, SLOPED, EDGED, FREE } WallScene;
@@ -723,11 +725,11 @@ static void test_a_body_yields_to_what_its_walls_give(void)
             Random random = {11};
             Scene scene = box_in_a_box(dimension, 0.1 * shift);
             World *world = scene.world;
-            FreeBody *body = &world->colliders.slot[0].body;
             world->colliders.slot[0].def.measures_impulse = 1;
             TEST_ASSERT_EQUAL_INT(PBMPM_OK, impulses_enable(&world->colliders.impulses, &world->memory));
             impulses_clear(&world->colliders.impulses);
             set_free(world);
+            const FreeBody *body = world->colliders.slot[0].body;
             ContactFrame frame = find_walls(&scene);
             shake(&scene, &random);
             walls_apply(&world->walls, &frame, world->pool, true, NULL);
