@@ -41,6 +41,7 @@ bool wall_bodies_list(Walls *walls, const ContactFrame *frame, Memory *memory)
     const Colliders *colliders = frame->colliders;
     uint32_t count = 0;
     for (int i = 0; i < colliders->obstacle_count; i++) count += colliders->obstacle[i].body != NULL;
+    if (count == 0) return true;
     if (!array_reserve(memory, &walls->body, count, sizeof(WallBody))) return false;
     /* nodes count a momentum J as J / scale and moments in cells, motions in cells: with a^2 = scale dt / dx and b^2 = scale dt dx all of B B^T has its unit */
     const double momentum = contacts_momentum_scale(frame) * frame->substep->dt;

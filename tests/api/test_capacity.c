@@ -99,11 +99,11 @@ static void test_worlds_stop_at_their_limit(void)
 
 /* ---- what a small world holds ---- */
 
-/* Materials as they are defined and as kernels take them, which is as much; the events that it keeps; itself and the only block, of 36 KiB. What else there is
+/* Materials as they are defined, and as kernels take them: two numbers more each. The events that it keeps; itself and the only block, of 36 KiB. What else there is
  * follows its particles, colliders and blocks. */
 static void test_a_small_world_is_small(void)
 {
-    enum { TABLES = 2 * PBMPM_MAX_MATERIALS * sizeof(pbmpm_material_def) + PBMPM_MAX_EVENTS * sizeof(pbmpm_event) + 36 * 1024, COLLIDER = 1000 };
+    enum { TABLES = PBMPM_MAX_MATERIALS * (2 * sizeof(pbmpm_material_def) + 2 * sizeof(float)) + PBMPM_MAX_EVENTS * sizeof(pbmpm_event) + 36 * 1024, COLLIDER = 1000 };
     static const float positions[3];
     for (int32_t dimension = 2; dimension <= 3; dimension++) {
         const pbmpm_world_def def = default_world(dimension, 0.1f, 1);
