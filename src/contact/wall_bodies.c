@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/cholesky.h"
+
 enum { WAYS = FREE_BODY_WAYS, WORDS = (PBMPM_MAX_COLLIDERS + 63) / 64 };
 
 /* ---- Nodes that follow ---- */
@@ -73,6 +75,9 @@ bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, c
 }
 
 /* ---- S ---- */
+
+/* S is a difference of sums of floats. Where less is left of it than this share, a body that weighs next to nothing would answer to rounding. */
+static const double S_ROUNDING = 1e-6;
 
 /* A free node that a body moves: E^T m C of each of the body's ways. */
 typedef struct Trace {
@@ -172,41 +177,18 @@ static int neighbours(const Binder *b, uint32_t body)
     return count;
 }
 
-/* L L^T = m (A.-L. Cholesky). */
-static void factorise(double m[WAYS][WAYS], int count, double l[WAYS][WAYS])
-{
-    for (int c = 0; c < count; c++)
-        for (int r = c; r < count; r++) {
-            double rest = m[r][c];
-            for (int k = 0; k < c; k++) rest -= l[r][k] * l[c][k];
-            l[r][c] = r == c ? sqrt(fmax(rest, 1.0)) : rest / l[c][c]; /* 1 + what is positive: less is rounding */
-        }
-}
-
-static void solve_factored(const double l[WAYS][WAYS], double x[WAYS], int count)
-{
-    for (int i = 0; i < count; i++) {
-        for (int k = 0; k < i; k++) x[i] -= l[i][k] * x[k];
-        x[i] /= l[i][i];
-    }
-    for (int i = count - 1; i >= 0; i--) {
-        for (int k = i + 1; k < count; k++) x[i] -= l[k][i] * x[k];
-        x[i] /= l[i][i];
-    }
-}
-
 static void bind_all(Binder *b)
 {
     const Walls *walls = b->job->walls;
     WallBody *body = walls->body.data;
     for (uint32_t i = 0; i < walls->bodies; i++) find_s(b, i, body[i].factor); /* S for now */
     for (uint32_t i = 0; i < walls->bodies; i++) {
-        double m[WAYS][WAYS];
         const double times_s = 1.0 + neighbours(b, i);
+        double most = 0.0;
         for (int r = 0; r < WAYS; r++)
-            for (int c = 0; c < WAYS; c++) m[r][c] = times_s * body[i].factor[r][c] + (r == c ? 1.0 : 0.0);
-        memset(body[i].factor, 0, sizeof body[i].factor);
-        factorise(m, body[i].free->ways, body[i].factor);
+            for (int c = 0; c < WAYS; c++) body[i].factor[r][c] = times_s * body[i].factor[r][c] + (r == c ? 1.0 : 0.0);
+        for (int k = 0; k < WAYS; k++) most = fmax(most, body[i].factor[k][k]);
+        cholesky_factor(body[i].factor, body[i].free->ways, fmax(1.0, S_ROUNDING * most));
     }
 }
 
@@ -261,7 +243,8 @@ static void find_yield(WallBody *body, double yield[6])
     double q[WAYS] = {0};
     for (int k = 0; k < body->free->ways; k++)
         for (int a = 0; a < 6; a++) q[k] += body->way[k][a] * body->given[a];
-    solve_factored(body->factor, q, body->free->ways);
+    cholesky_forward(body->factor, q, body->free->ways);
+    cholesky_backward(body->factor, q, body->free->ways);
     memset(yield, 0, 6 * sizeof *yield);
     for (int k = 0; k < body->free->ways; k++)
         for (int a = 0; a < 6; a++) yield[a] += q[k] * body->way[k][a];

@@ -2,6 +2,7 @@
 #ifndef PBMPM_SRC_CONTACT_WALLS_LIST_H
 #define PBMPM_SRC_CONTACT_WALLS_LIST_H
 
+#include "base/cholesky.h"
 #include "contact/contacts.h"
 
 enum { CORNERS_MAX = 8, NORMALS_MAX = 3 };
@@ -88,7 +89,7 @@ typedef struct WallBody {
     int obstacle;
     bool gripped;       /* a node follows it */
     double way[6][6];   /* the columns of B, for momenta as the nodes count them */
-    double factor[6][6]; /* L, with L L^T = 1 + B^T S B */
+    SmallMatrix factor; /* L, with L L^T = 1 + B^T S B */
     double before[6];   /* its motion in this substep beside the obstacle's own, but for */
     double given[6];    /* G, of the last walls_apply() */
     double yield[6];    /* y, likewise, and */

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/cholesky.h"
 #include "base/numbers.h"
 #include "base/vector.h"
 
@@ -184,21 +185,6 @@ static void whole_inertia(const pbmpm_rigid_def *def, int dimension, double iner
         for (int c = 0; c < 3; c++) inertia[r][c] += def->mass * ((r == c ? dot3(lever, lever) : 0.0) - lever[r] * lever[c]);
 }
 
-/* Solves a positive system of up to three equations in place. */
-static void solve(double m[3][3], double x[3], int count)
-{
-    for (int i = 0; i < count; i++)
-        for (int r = i + 1; r < count; r++) {
-            const double factor = m[r][i] / m[i][i];
-            for (int c = i; c < count; c++) m[r][c] -= factor * m[i][c];
-            x[r] -= factor * x[i];
-        }
-    for (int r = count - 1; r >= 0; r--) {
-        for (int c = r + 1; c < count; c++) x[r] -= m[r][c] * x[c];
-        x[r] /= m[r][r];
-    }
-}
-
 /* The body as it turns: what is the same all through a step. */
 typedef struct Spinner {
     Ways ways;
@@ -213,7 +199,7 @@ static Spinner spinner_of(const pbmpm_rigid_def *def, int dimension)
 }
 
 /* The inertia along the ways, of a body turned by `turn`. */
-static void inertia_along_ways(const Spinner *spinner, const double turn[9], double m[3][3])
+static void inertia_along_ways(const Spinner *spinner, const double turn[9], SmallMatrix m)
 {
     double own[3][3];
     for (int i = 0; i < spinner->ways.count; i++)
@@ -231,11 +217,14 @@ static void inertia_along_ways(const Spinner *spinner, const double turn[9], dou
 /* The velocity that a body with this angular momentum along its ways turns with. */
 static void spin_of(const Spinner *spinner, const double rotation[4], const double momentum[3], double spin[3])
 {
-    double turn[9], m[3][3], x[3];
+    double turn[9], x[3];
+    SmallMatrix m;
     rotation_from_quaternion(rotation, turn);
     inertia_along_ways(spinner, turn, m);
     memcpy(x, momentum, sizeof x);
-    solve(m, x, spinner->ways.count);
+    cholesky_factor(m, spinner->ways.count, 0.0);
+    cholesky_forward(m, x, spinner->ways.count);
+    cholesky_backward(m, x, spinner->ways.count);
     for (int a = 0; a < 3; a++) {
         spin[a] = 0.0;
         for (int i = 0; i < spinner->ways.count; i++) spin[a] += x[i] * spinner->ways.way[i][a];
@@ -245,7 +234,8 @@ static void spin_of(const Spinner *spinner, const double rotation[4], const doub
 /* The angular momentum along the ways. */
 static void momentum_of(const Spinner *spinner, const double rotation[4], const double spin[3], double momentum[3])
 {
-    double turn[9], m[3][3];
+    double turn[9];
+    SmallMatrix m;
     rotation_from_quaternion(rotation, turn);
     inertia_along_ways(spinner, turn, m);
     for (int i = 0; i < spinner->ways.count; i++) {
@@ -260,24 +250,15 @@ static void momentum_of(const Spinner *spinner, const double rotation[4], const 
 static void add_turns(const Spinner *spinner, const double turn[9], FreeBody *body)
 {
     const int count = spinner->ways.count;
-    double m[3][3], l[3][3] = {{0}};
-    inertia_along_ways(spinner, turn, m);
-    for (int c = 0; c < count; c++)
-        for (int r = c; r < count; r++) { /* A.-L. Cholesky */
-            double rest = m[r][c];
-            for (int k = 0; k < c; k++) rest -= l[r][k] * l[c][k];
-            l[r][c] = r == c ? sqrt(rest) : rest / l[c][c];
-        }
-    for (int c = 0; c < count; c++) {
+    SmallMatrix l;
+    inertia_along_ways(spinner, turn, l);
+    cholesky_factor(l, count, 0.0);
+    for (int c = 0; c < count; c++, body->ways++) {
         double x[3] = {0};
         x[c] = 1.0;
-        for (int i = c; i >= 0; i--) { /* L^T x = e_c */
-            for (int k = i + 1; k <= c; k++) x[i] -= l[k][i] * x[k];
-            x[i] /= l[i][i];
-        }
+        cholesky_backward(l, x, count);
         for (int a = 0; a < 3; a++)
             for (int i = 0; i < count; i++) body->way[body->ways][3 + a] += x[i] * spinner->ways.way[i][a];
-        body->ways++;
     }
 }
 
