@@ -207,6 +207,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
+                               .liquid = islands_kinds(world) == KIND_LIQUID,
                                .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);

@@ -62,7 +62,7 @@ def test_a_convex_hull_floats() -> None:
 @pytest.mark.parametrize("density", [30, 100])
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_light_body_rises_and_stays(dimension: int, density: float) -> None:
-    """Let go under water it comes up, leaps by less than its own height, and floats. It yields to the water while that is solved for: one step later it flew 2 m high."""
+    """Let go under water it comes up, leaps by less than two of its heights, and floats. It yields to the water while that is solved for: one step later it flew 2 m high."""
     wide, side, depth = 0.64, 0.24, 0.48
     others = [wide / 2] * (dimension - 2)
     with pbmpm.World(dimension, 0.04, gravity=[0, -9.81, 0][:dimension], domain=([0.0] * dimension, [wide, 3.0, wide][:dimension]), iterations=5, capacity=25000) as world:
@@ -75,9 +75,27 @@ def test_a_light_body_rises_and_stays(dimension: int, density: float) -> None:
             body.advance(DT)
             world.step(DT)
             heights.append(body.position[1] - depth)
-    assert max(heights) < side
+    assert max(heights) < 2 * side
     ran_in = (1 - density / 1000) * side**dimension / wide ** (dimension - 1)  # where it had been
     assert np.mean(heights[-60:]) == pytest.approx(side * (0.5 - density / 1000) - ran_in, abs=0.02)  # half a cell
+
+
+def test_a_ball_does_not_spin_up_in_water() -> None:
+    """Liquid does not rub on it. It did, felt one step late: a ball of 100 kg/m^3 spun at 22,000 rad/s and threw the water about at 100 m/s."""
+    wide, cell, radius = 1.6, 0.04, 0.16
+    with pbmpm.World(2, cell, gravity=(0, -9.81), domain=((0, 0), (wide, 3)), iterations=5) as world:
+        collider = world.add_collider(pbmpm.Sphere((wide / 2, 0.5), radius), kinematic=True, measures_impulse=True)
+        world.fill(pbmpm.Box((wide / 2, 0.4), (wide / 2, 0.4)), world.add_material(pbmpm.Liquid()))
+        body = pbmpm.RigidBody(collider, density=100)
+        spins, speeds = [], []
+        for _ in range(240):
+            body.advance(DT)
+            world.step(DT)
+            spins.append(abs(body.angular_velocity[2]))
+            speeds.append(world.stats.max_speed)
+    assert max(spins) < 10
+    assert max(speeds) < math.sqrt(2 * 9.81 * 0.8)  # what falls from the level to the floor
+    assert body.position[1] > 0.8
 
 
 @pytest.mark.parametrize("higher", range(3))
