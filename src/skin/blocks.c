@@ -44,6 +44,7 @@ static int32_t want_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
     SkinBlock *block = blocks_at(blocks, blocks->count);
     *block = (SkinBlock){.cells = cells_none(), .splatted = cells_none()};
     memcpy(block->place, place, sizeof block->place);
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) block->neighbour[n] = GRID_NOWHERE;
     *slot_of(blocks, place) = ++blocks->count;
     return blocks->count - 1;
 }
@@ -56,12 +57,14 @@ static uint32_t bound_rows(const SkinBlocks *blocks, SkinBlock *block, const Ski
     const Particles *p = matter->particles;
     const uint32_t cells = (uint32_t)blocks_cells(blocks);
     CellBox box = block->cells; /* a copy: nobody else writes to it */
-    int32_t first[3];
+    int32_t first[3], last[3] = {-1, -1, -1};
     for (int a = 0; a < 3; a++) first[a] = blocks->anchor[a] + block->place[a] * (int32_t)cells;
     for (; row < p->count && matter_has(matter, row); row++) {
         const int32_t cell[3] = {p->cell[0][row] - first[0], p->cell[1][row] - first[1], p->cell[2][row] - first[2]};
+        if (cell[0] == last[0] && cell[1] == last[1] && cell[2] == last[2]) continue; /* as most are */
         if ((uint32_t)cell[0] >= cells || (uint32_t)cell[1] >= cells || (uint32_t)cell[2] >= cells) break;
         cells_add(&box, cell);
+        memcpy(last, cell, sizeof last);
     }
     block->cells = box;
     return row;
@@ -196,17 +199,21 @@ bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
     return sort_runs(blocks, memory) && find_touched(blocks, memory);
 }
 
+/* Each looks for half of its neighbours, and tells them. */
 static void link_blocks(void *context, int32_t begin, int32_t end)
 {
     const SkinBlocks *blocks = context;
-    for (int32_t b = begin; b < end; b++)
-        for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-            SkinBlock *block = blocks_at(blocks, b);
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(blocks, b);
+        block->neighbour[BLOCK_NEIGHBOURS / 2] = b;
+        for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
             int32_t place[3];
             grid_neighbour_offset(n, 3, place);
             for (int a = 0; a < 3; a++) place[a] += block->place[a];
-            block->neighbour[n] = block_at(blocks, place);
+            const int32_t other = block->neighbour[n] = block_at(blocks, place);
+            if (other != GRID_NOWHERE) blocks_at(blocks, other)->neighbour[BLOCK_NEIGHBOURS - 1 - n] = b;
         }
+    }
 }
 
 void blocks_link(SkinBlocks *blocks, Pool *pool) { pool_for(pool, blocks->count, LINK_GRAIN, link_blocks, blocks); }

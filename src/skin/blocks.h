@@ -45,6 +45,7 @@ typedef struct SkinBlock {
     int32_t kept_as;                     /* its number once spray is left out */
     float least, most;       /* of the field */
     float spray, thin, enclosed[THICKENINGS + 1], thickening; /* see thin.h */
+    uint64_t inside[BLOCK_AXIS], cut[BLOCK_AXIS]; /* per plane across z, bit 8 y + x: the point is inside; the cube above it is cut */
     uint32_t first_vertex, vertices, first_triangle, triangles;
 } SkinBlock;
 

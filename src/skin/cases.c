@@ -81,5 +81,8 @@ static void make_case(Cases *cases, int inside)
 void cases_make(Cases *cases)
 {
     *cases = (Cases){0};
-    for (int inside = 0; inside < CUBE_CASES; inside++) make_case(cases, inside);
+    for (int inside = 0; inside < CUBE_CASES; inside++) {
+        make_case(cases, inside);
+        for (int axis = 1; axis < 3; axis++) cases->before[inside][axis] = (uint8_t)(cases->before[inside][axis - 1] + (case_cuts(inside) >> (axis - 1) & 1));
+    }
 }

@@ -18,6 +18,7 @@ enum { CUBE_CORNERS = 8, CUBE_EDGES = 12, CUBE_CASES = 256, CASE_TRIANGLES = 5 }
 typedef struct Cases {
     uint8_t triangles[CUBE_CASES];              /* per set of inside corners, bit k: corner k */
     uint8_t edge[CUBE_CASES][CASE_TRIANGLES * 3]; /* three per triangle, counterclockwise from outside */
+    uint8_t before[CUBE_CASES][3];                /* per axis: how many edges from corner 0 are cut along the axes before */
 } Cases;
 
 static inline int case_axis(int edge) { return edge / 4; }
@@ -26,6 +27,13 @@ static inline int case_corner(int edge)
 {
     const int axis = case_axis(edge);
     return (edge & 1) << (axis + 1) % 3 | (edge >> 1 & 1) << (axis + 2) % 3;
+}
+
+/* Bit a: the edge along axis a from corner 0 is cut. Corners 1, 2 and 4 are the ends of those. */
+static inline int case_cuts(int inside)
+{
+    const int ends = (inside >> 1 & 3) | (inside >> 2 & 4);
+    return inside & 1 ? ends ^ 7 : ends;
 }
 
 void cases_make(Cases *cases);

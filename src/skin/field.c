@@ -12,37 +12,17 @@ float field_volume(const SkinMatter *matter, uint32_t row, int channel)
 
 /* ---- Particles to points ---- */
 
-/* Four numbers that are worked on at once; gcc and clang have them on any machine. */
-typedef float Four __attribute__((vector_size(16)));
-
-/* The quadratic spline at three points, the middle one of which is at -r. */
-static Four spline(float r)
+void field_splat_rest(const FieldWork *work, FieldSplat *splat)
 {
-    const float low = 0.5f - r, high = 0.5f + r;
-    return (Four){0.5f * low * low, 0.75f - r * r, 0.5f * high * high, 0.0f};
+    if (splat->count > 0) work->kernels->splat(splat->place[0], splat->place[1], splat->place[2], splat->amount, splat->count, splat->box);
+    splat->count = 0;
 }
 
-/* Four at a time along x, where the last gets 0. */
-void field_splat(float *box, const float local[3], float amount)
+void field_splat(const FieldWork *work, FieldSplat *splat, const float local[3], float amount)
 {
-    Four w[3];
-    int first[3];
-    for (int a = 0; a < 3; a++) {
-        first[a] = (int)(local[a] + (float)BOX_MARGIN + 0.5f) - 1;
-        w[a] = spline(local[a] + (float)(BOX_MARGIN - 1) - (float)first[a]);
-    }
-    float *corner = &box[(first[2] * BOX_AXIS + first[1]) * BOX_AXIS + first[0]];
-    const Four beside[3] = {w[0] * w[1][0], w[0] * w[1][1], w[0] * w[1][2]};
-    for (int k = 0; k < 3; k++) {
-        const float share = amount * w[2][k];
-        for (int j = 0; j < 3; j++) {
-            float *row = &corner[(k * BOX_AXIS + j) * BOX_AXIS];
-            Four sum;
-            memcpy(&sum, row, sizeof sum);
-            sum += share * beside[j];
-            memcpy(row, &sum, sizeof sum);
-        }
-    }
+    for (int a = 0; a < 3; a++) splat->place[a][splat->count] = local[a];
+    splat->amount[splat->count++] = amount;
+    if (splat->count == SPLAT_MOST) field_splat_rest(work, splat);
 }
 
 typedef struct SplatJob {
@@ -70,6 +50,7 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(work->blocks, b);
         float *box = work->boxes + (size_t)b * BOX_POINTS;
         block->splatted = !job->at_surface || blocks_near_surface(work->blocks, block) ? block->cells : cells_none();
+        FieldSplat splat = {.box = box, .count = 0};
         if (!cells_any(&block->splatted)) continue;
         memset(box, 0, BOX_POINTS * sizeof *box);
         for (uint32_t r = 0; r < block->runs; r++) {
@@ -77,9 +58,10 @@ static void splat_blocks(void *context, int32_t begin, int32_t end)
             for (uint32_t row = run->begin; row < run->end; row++) {
                 float local[3];
                 blocks_locate(work->blocks, block, work->matter->particles, row, local);
-                field_splat(box, local, scale * job->amount(work->matter, row, job->channel));
+                field_splat(work, &splat, local, scale * job->amount(work->matter, row, job->channel));
             }
         }
+        field_splat_rest(work, &splat);
     }
 }
 
@@ -117,42 +99,28 @@ static const float *points_beside(const SplatJob *job, const SkinBlock *block, i
     return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : nothing;
 }
 
-/* Eight sums at once: of what the pointers point to, for each tap. */
-static inline void add_pair(const Filter *filter, int pair, const float *low, const float *high, float sum[BLOCK_AXIS])
-{
-    for (int i = 0; i < BLOCK_AXIS; i++) sum[i] += filter->tap[pair] * (low[i] + high[i]);
-}
-
 /* Lines are laid out first: what has just been written cannot be read at another offset without waiting. */
-static void filter_along_x(const Filter *filter, const CellBox *within, const float *const beside[3], float out[BLOCK_POINTS])
+static void filter_along_x(const SkinKernels *kernels, const Filter *filter, const CellBox *within, const float *const beside[3], float out[BLOCK_POINTS])
 {
     enum { ROWS = BLOCK_AXIS * BLOCK_AXIS };
     float line[ROWS][LINE];
     for (int row = within->low[2] * BLOCK_AXIS; row < (within->high[2] + 1) * BLOCK_AXIS; row++)
         for (int side = 0; side < 3; side++) memcpy(line[row] + side * BLOCK_AXIS, beside[side] + row * BLOCK_AXIS, BLOCK_AXIS * sizeof **line);
     for (int z = within->low[2]; z <= within->high[2]; z++)
-        for (int y = within->low[1]; y <= within->high[1]; y++) {
-            const float *own = line[z * BLOCK_AXIS + y] + BLOCK_AXIS;
-            float sum[BLOCK_AXIS] = {0};
-            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, own + filter->first + p, own + filter->last - p, sum);
-            memcpy(out + (z * BLOCK_AXIS + y) * BLOCK_AXIS, sum, sizeof sum);
-        }
+        for (int y = within->low[1]; y <= within->high[1]; y++)
+            kernels->filter_row(line[z * BLOCK_AXIS + y], filter->tap, filter->pairs, filter->first, filter->last, out + (z * BLOCK_AXIS + y) * BLOCK_AXIS);
 }
 
 /* Along the axis 1 or 2; rows along x at once. */
-static void filter_across_x(const Filter *filter, const CellBox *within, int axis, const float *const beside[3], float out[BLOCK_POINTS])
+static void filter_across_x(const SkinKernels *kernels, const Filter *filter, const CellBox *within, int axis, const float *const beside[3], float out[BLOCK_POINTS])
 {
     static const int step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
     const int third = 3 - axis;
     for (int plane = within->low[third]; plane <= within->high[third]; plane++) {
         const float *line[LINE];
         for (int i = 0; i < LINE; i++) line[i] = beside[i / BLOCK_AXIS] + plane * step[third] + i % BLOCK_AXIS * step[axis];
-        for (int at = within->low[axis]; at <= within->high[axis]; at++) {
-            float sum[BLOCK_AXIS] = {0};
-            const float *const *low = &line[BLOCK_AXIS + at + filter->first], *const *high = &line[BLOCK_AXIS + at + filter->last];
-            for (int p = 0; p < filter->pairs; p++) add_pair(filter, p, low[p], high[-p], sum);
-            memcpy(out + plane * step[third] + at * step[axis], sum, sizeof sum);
-        }
+        kernels->filter(line + BLOCK_AXIS, filter->tap, filter->pairs, filter->first, filter->last, within->low[axis], within->high[axis] + 1, out + plane * step[third],
+                        step[axis]);
     }
 }
 
@@ -193,9 +161,9 @@ static void filter_line(const SplatJob *job, const SkinBlock *block, float out[B
     for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
     memset(out, 0, BLOCK_POINTS * sizeof *out);
     if (job->axis == 0)
-        filter_along_x(filter, &block->reached, beside, out);
+        filter_along_x(job->work->kernels, filter, &block->reached, beside, out);
     else
-        filter_across_x(filter, &block->reached, job->axis, beside, out);
+        filter_across_x(job->work->kernels, filter, &block->reached, job->axis, beside, out);
 }
 
 static void filter_blocks(void *context, int32_t begin, int32_t end)

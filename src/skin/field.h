@@ -16,6 +16,7 @@
 
 #include "skin/blocks.h"
 #include "skin/matter.h"
+#include "skin/skin_kernels.h"
 
 /* What a particle counts. */
 typedef float FieldAmount(const SkinMatter *matter, uint32_t row, int channel);
@@ -29,6 +30,7 @@ typedef struct FieldWork {
     SkinBlocks *blocks;
     const SkinMatter *matter;
     Pool *pool;
+    const SkinKernels *kernels;
     float *boxes;        /* BOX_POINTS per block with particles: scratch */
     float *sums, *lines; /* BLOCK_POINTS per block: scratch */
     float *gaps;         /* likewise, in bounded blocks: how far [cells] obstacles are, negative inside; infinite where that does not matter */
@@ -44,8 +46,18 @@ static inline float field_shift(const SkinBlocks *blocks) { return blocks->subdi
 /* Writes F to `values`, BLOCK_POINTS per block; with `at_surface` only where the surface needs it. Notes the least and the most of each block. */
 void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values);
 
-/* Its parts. Adds to the 27 points of a block's box around a place. */
-void field_splat(float *box, const float local[3], float amount);
+enum { SPLAT_MOST = 64 };
+
+/* Particles that are to be added to a block's box. */
+typedef struct FieldSplat {
+    float *box;
+    int count;
+    float place[3][SPLAT_MOST], amount[SPLAT_MOST];
+} FieldSplat;
+
+/* Its parts. Adds to the 27 points of a block's box around a place, and does what is left of that. */
+void field_splat(const FieldWork *work, FieldSplat *splat, const float local[3], float amount);
+void field_splat_rest(const FieldWork *work, FieldSplat *splat);
 /* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
 float field_points_per_cell(const SkinBlocks *blocks);
 /* Makes F of the boxes that are splatted, in the blocks that they reach: those are `wanted`. */

@@ -3,30 +3,57 @@
 #include <math.h>
 #include <string.h>
 
-enum { MESH_GRAIN = 2, CORNER_AXIS = BLOCK_AXIS + 1, CORNERS = CORNER_AXIS * CORNER_AXIS * CORNER_AXIS };
-
-static int point_at(int x, int y, int z) { return (z * BLOCK_AXIS + y) * BLOCK_AXIS + x; }
+enum { MESH_GRAIN = 2, OCTANTS = 8 };
 
 static const int box_step[3] = {1, BOX_AXIS, BOX_AXIS * BOX_AXIS};
 
 /* Point (x, y, z) of the block in its box. */
 static int box_at(int x, int y, int z) { return ((z + BOX_MARGIN) * BOX_AXIS + y + BOX_MARGIN) * BOX_AXIS + x + BOX_MARGIN; }
 
-/* Bit a: the edge along axis a from the first corner of a cube is cut. Corners 1, 2 and 4 are the ends of those. */
-static uint8_t cut_edges(uint8_t inside)
-{
-    const int ends = (inside >> 1 & 3) | (inside >> 2 & 4);
-    return (uint8_t)(inside & 1 ? ends ^ 7 : ends);
-}
-
 static const uint8_t ones[8] = {0, 1, 1, 2, 1, 2, 2, 3};
 
-/* Whether the surface passes all cubes of a row by: their corners are all inside, or all outside. */
-static bool row_is_whole(const uint8_t *inside)
+/* The block itself and those above it: bit a of the number tells of axis a. */
+static int32_t block_above(const SkinBlock *block, int octant)
+{
+    return block->neighbour[BLOCK_NEIGHBOURS / 2 + (octant & 1) + (octant >> 1 & 1) * 3 + (octant >> 2) * 9];
+}
+
+/* The number of the lowest bit that is set, which is taken away. */
+static int take_bit(uint64_t *bits)
+{
+    const int bit = __builtin_ctzll(*bits);
+    *bits &= *bits - 1;
+    return bit;
+}
+
+/* ---- Points inside ---- */
+
+/* From eight bytes that are 0 or 1, one bit each: byte i goes to bit 56 + i. */
+static uint64_t bits_of(const uint8_t *bytes)
 {
     uint64_t row;
-    memcpy(&row, inside, sizeof row);
-    return row == 0 || row == UINT64_MAX;
+    memcpy(&row, bytes, sizeof row);
+    return row * 0x0102040810204080u >> 56;
+}
+
+static void find_inside(const float values[BLOCK_POINTS], float level, uint64_t plane[BLOCK_AXIS])
+{
+    uint8_t inside[BLOCK_POINTS];
+    for (int i = 0; i < BLOCK_POINTS; i++) inside[i] = values[i] >= level;
+    memset(plane, 0, BLOCK_AXIS * sizeof *plane);
+    for (int row = 0; row < BLOCK_AXIS * BLOCK_AXIS; row++) plane[row / BLOCK_AXIS] |= bits_of(inside + row * BLOCK_AXIS) << row % BLOCK_AXIS * BLOCK_AXIS;
+}
+
+static void mark_blocks(void *context, int32_t begin, int32_t end)
+{
+    const SkinMesh *mesh = context;
+    for (int32_t b = begin; b < end; b++) {
+        SkinBlock *block = blocks_at(mesh->blocks, b);
+        if (block->least < mesh->level && block->most >= mesh->level)
+            find_inside(mesh->field + (size_t)b * BLOCK_POINTS, mesh->level, block->inside);
+        else
+            memset(block->inside, block->most >= mesh->level ? 0xFF : 0, sizeof block->inside);
+    }
 }
 
 /* ---- Counting ---- */
@@ -35,29 +62,64 @@ static bool row_is_whole(const uint8_t *inside)
 static bool may_cut(const SkinMesh *mesh, const SkinBlock *block)
 {
     bool below = false, above = false;
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        if (n % 3 == 0 || n / 3 % 3 == 0 || n / 9 == 0) continue;
-        const int32_t other = block->neighbour[n];
+    for (int octant = 0; octant < OCTANTS; octant++) {
+        const int32_t other = block_above(block, octant);
         below |= other == GRID_NOWHERE || blocks_at(mesh->blocks, other)->least < mesh->level;
         above |= other != GRID_NOWHERE && blocks_at(mesh->blocks, other)->most >= mesh->level;
     }
     return below && above;
 }
 
-/* Per cube of the block: its inside corners. */
-static void find_cases(const SkinMesh *mesh, const float box[BOX_POINTS], uint8_t cases[BLOCK_POINTS])
+/* A plane of points, moved by one along x: the last of a row is the first of the plane beside it. */
+static uint64_t one_along_x(uint64_t plane, uint64_t beside) { return (plane >> 1 & 0x7f7f7f7f7f7f7f7fu) | (beside << 7 & 0x8080808080808080u); }
+
+static uint64_t one_along_y(uint64_t plane, uint64_t beside) { return plane >> BLOCK_AXIS | beside << (BLOCK_POINTS / BLOCK_AXIS - BLOCK_AXIS); }
+
+/* Which are inside of the points of plane z, and of those one along x, along y and along both. */
+static void see_plane(const SkinMesh *mesh, const SkinBlock *block, int z, uint64_t corner[4])
 {
-    uint8_t inside[CORNERS];
-    for (int z = 0, at = 0; z < CORNER_AXIS; z++)
-        for (int y = 0; y < CORNER_AXIS; y++)
-            for (int x = 0; x < CORNER_AXIS; x++, at++) inside[at] = box[box_at(x, y, z)] >= mesh->level;
-    for (int z = 0; z < BLOCK_AXIS; z++)
-        for (int y = 0; y < BLOCK_AXIS; y++)
-            for (int x = 0; x < BLOCK_AXIS; x++) {
-                const uint8_t *low = &inside[(z * CORNER_AXIS + y) * CORNER_AXIS + x], *high = low + CORNER_AXIS * CORNER_AXIS;
-                cases[point_at(x, y, z)] = (uint8_t)(low[0] | low[1] << 1 | low[CORNER_AXIS] << 2 | low[CORNER_AXIS + 1] << 3 | high[0] << 4 |
-                                                     high[1] << 5 | high[CORNER_AXIS] << 6 | high[CORNER_AXIS + 1] << 7);
-            }
+    uint64_t beside[4];
+    for (int side = 0; side < 4; side++) {
+        const int32_t other = block_above(block, side + z / BLOCK_AXIS * 4);
+        beside[side] = other == GRID_NOWHERE ? 0 : blocks_at(mesh->blocks, other)->inside[z % BLOCK_AXIS];
+    }
+    corner[0] = beside[0];
+    corner[1] = one_along_x(beside[0], beside[1]);
+    corner[2] = one_along_y(beside[0], beside[2]);
+    corner[3] = one_along_y(corner[1], one_along_x(beside[2], beside[3]));
+}
+
+/* Of the cubes above the points of a plane: those that have corners on both sides. */
+static uint64_t cut_cubes(const uint64_t corner[CUBE_CORNERS])
+{
+    uint64_t any = 0, all = UINT64_MAX;
+    for (int c = 0; c < CUBE_CORNERS; c++) {
+        any |= corner[c];
+        all &= corner[c];
+    }
+    return any & ~all;
+}
+
+static void count_block(const SkinMesh *mesh, int32_t b)
+{
+    SkinBlock *block = blocks_at(mesh->blocks, b);
+    uint64_t corner[CUBE_CORNERS];
+    see_plane(mesh, block, 0, corner + 4);
+    for (int z = 0; z < BLOCK_AXIS; z++) {
+        memcpy(corner, corner + 4, 4 * sizeof *corner);
+        see_plane(mesh, block, z + 1, corner + 4);
+        block->cut[z] = cut_cubes(corner);
+        for (uint64_t cubes = block->cut[z]; cubes;) {
+            const int bit = take_bit(&cubes);
+            const size_t i = (size_t)b * BLOCK_POINTS + (size_t)(z * BLOCK_AXIS * BLOCK_AXIS + bit);
+            uint8_t inside = 0;
+            for (int c = 0; c < CUBE_CORNERS; c++) inside |= (uint8_t)((corner[c] >> bit & 1) << c);
+            mesh->inside[i] = inside;
+            mesh->start[i] = (uint16_t)block->vertices;
+            block->vertices += ones[case_cuts(inside)];
+            block->triangles += mesh->cases->triangles[inside];
+        }
+    }
 }
 
 static void count_blocks(void *context, int32_t begin, int32_t end)
@@ -65,25 +127,16 @@ static void count_blocks(void *context, int32_t begin, int32_t end)
     const SkinMesh *mesh = context;
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(mesh->blocks, b);
-        uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
-        uint16_t *start = mesh->start + (size_t)b * BLOCK_POINTS;
-        float box[BOX_POINTS];
         block->vertices = block->triangles = 0;
-        if (!may_cut(mesh, block)) continue;
-        blocks_gather(block, mesh->field, box);
-        find_cases(mesh, box, inside);
-        for (int row = 0; row < BLOCK_POINTS; row += BLOCK_AXIS)
-            for (int i = row; i < row + BLOCK_AXIS && !row_is_whole(inside + row); i++) {
-                start[i] = (uint16_t)block->vertices;
-                block->vertices += ones[cut_edges(inside[i])];
-                block->triangles += mesh->cases->triangles[inside[i]];
-            }
+        memset(block->cut, 0, sizeof block->cut);
+        if (may_cut(mesh, block)) count_block(mesh, b);
     }
 }
 
 void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
 {
     *vertices = *triangles = 0;
+    pool_for(mesh->pool, mesh->blocks->count, MESH_GRAIN, mark_blocks, (void *)mesh);
     pool_for(mesh->pool, mesh->blocks->count, MESH_GRAIN, count_blocks, (void *)mesh);
     for (int32_t b = 0; b < mesh->blocks->count; b++) {
         SkinBlock *block = blocks_at(mesh->blocks, b);
@@ -107,23 +160,20 @@ typedef void WithEdge(const CutEdge *edge, void *context);
 
 static void visit_edges(const SkinMesh *mesh, int32_t b, const float box[BOX_POINTS], WithEdge *with, void *context)
 {
-    uint32_t vertex = blocks_at(mesh->blocks, b)->first_vertex;
-    const uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
-    for (int i = 0; i < BLOCK_POINTS; i++) {
-        if (i % BLOCK_AXIS == 0 && row_is_whole(inside + i)) {
-            i += BLOCK_AXIS - 1;
-            continue;
+    const SkinBlock *block = blocks_at(mesh->blocks, b);
+    uint32_t vertex = block->first_vertex;
+    for (int z = 0; z < BLOCK_AXIS; z++)
+        for (uint64_t cubes = block->cut[z]; cubes;) {
+            const int bit = take_bit(&cubes), x = bit % BLOCK_AXIS, y = bit / BLOCK_AXIS;
+            const int cut = case_cuts(mesh->inside[(size_t)b * BLOCK_POINTS + (size_t)(z * BLOCK_AXIS * BLOCK_AXIS + bit)]);
+            for (int a = 0; a < 3 && cut >> a; a++) {
+                if (!(cut >> a & 1)) continue;
+                CutEdge edge = {.vertex = vertex++, .point = {x, y, z}, .axis = a, .from = box_at(x, y, z)};
+                edge.to = edge.from + box_step[a];
+                edge.share = (mesh->level - box[edge.from]) / (box[edge.to] - box[edge.from]);
+                with(&edge, context);
+            }
         }
-        const uint8_t cut = cut_edges(inside[i]);
-        for (int a = 0; a < 3 && cut >> a; a++) {
-            if (!(cut >> a & 1)) continue;
-            CutEdge edge = {.vertex = vertex++, .point = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)}, .axis = a};
-            edge.from = box_at(edge.point[0], edge.point[1], edge.point[2]);
-            edge.to = edge.from + box_step[a];
-            edge.share = (mesh->level - box[edge.from]) / (box[edge.to] - box[edge.from]);
-            with(&edge, context);
-        }
-    }
 }
 
 static float at_share(const CutEdge *edge, float from, float to) { return from + edge->share * (to - from); }
@@ -235,29 +285,35 @@ typedef struct IndicesJob {
     uint32_t index_bytes;
 } IndicesJob;
 
-/* How many edges of a point are cut before that along an edge's axis. */
-static uint32_t cut_before(uint8_t inside, int edge) { return ones[cut_edges(inside) & ((1 << case_axis(edge)) - 1)]; }
+/* Where the numbers of vertices come from: of a block and of those above it. */
+typedef struct Numbers {
+    uint32_t first[OCTANTS];
+    const uint16_t *start[OCTANTS];
+    const uint8_t *inside[OCTANTS];
+} Numbers;
 
-/* The number of the vertex on an edge of the cube above a point. */
-static uint32_t vertex_on(const SkinMesh *mesh, int32_t b, const int point[3], int edge)
+static void find_numbers(const SkinMesh *mesh, const SkinBlock *block, Numbers *numbers)
 {
-    int at[3], side[3];
-    for (int a = 0; a < 3; a++) {
-        at[a] = point[a] + (case_corner(edge) >> a & 1);
-        side[a] = at[a] == BLOCK_AXIS ? 2 : 1;
-        at[a] %= BLOCK_AXIS;
+    for (int octant = 0; octant < OCTANTS; octant++) {
+        const int32_t other = block_above(block, octant);
+        if (other == GRID_NOWHERE) continue; /* it has no vertices */
+        numbers->first[octant] = blocks_at(mesh->blocks, other)->first_vertex;
+        numbers->start[octant] = mesh->start + (size_t)other * BLOCK_POINTS;
+        numbers->inside[octant] = mesh->inside + (size_t)other * BLOCK_POINTS;
     }
-    const int32_t owner = blocks_at(mesh->blocks, b)->neighbour[(side[2] * 3 + side[1]) * 3 + side[0]];
-    const size_t i = (size_t)owner * BLOCK_POINTS + (size_t)point_at(at[0], at[1], at[2]);
-    return blocks_at(mesh->blocks, owner)->first_vertex + mesh->start[i] + cut_before(mesh->inside[i], edge);
 }
 
-/* The same where the cube has all its corners in the block. */
-static uint32_t vertex_within(const SkinMesh *mesh, int32_t b, int point, int edge)
+/* A point as a hexadecimal digit per axis. What is added goes on into its bit 3 where it leaves the block. */
+enum { DIGIT = 4 };
+
+static unsigned digits_of(unsigned x, unsigned y, unsigned z) { return x | y << DIGIT | z << 2 * DIGIT; }
+
+/* The number of the vertex on an edge of the cube above a point. */
+static uint32_t vertex_on(const Cases *cases, const Numbers *numbers, unsigned point, int edge)
 {
-    const int corner = case_corner(edge);
-    const size_t i = (size_t)b * BLOCK_POINTS + (size_t)(point + point_at(corner & 1, corner >> 1 & 1, corner >> 2));
-    return blocks_at(mesh->blocks, b)->first_vertex + mesh->start[i] + cut_before(mesh->inside[i], edge);
+    const unsigned corner = (unsigned)case_corner(edge), at = point + digits_of(corner & 1, corner >> 1 & 1, corner >> 2);
+    const unsigned octant = (at >> 3 & 1) | (at >> 6 & 2) | (at >> 9 & 4), i = (at & 7) | (at >> 1 & 7 * 8) | (at >> 2 & 7 * 64);
+    return numbers->first[octant] + numbers->start[octant][i] + cases->before[numbers->inside[octant][i]][case_axis(edge)];
 }
 
 static void put_index(const IndicesJob *job, size_t place, uint32_t index)
@@ -269,28 +325,27 @@ static void put_index(const IndicesJob *job, size_t place, uint32_t index)
         memcpy((char *)job->indices + place * 4, &index, sizeof index);
 }
 
+static void write_block(const IndicesJob *job, int32_t b)
+{
+    const SkinMesh *mesh = job->mesh;
+    const SkinBlock *block = blocks_at(mesh->blocks, b);
+    size_t place = (size_t)block->first_triangle * 3;
+    Numbers numbers = {0};
+    find_numbers(mesh, block, &numbers);
+    for (unsigned z = 0; z < BLOCK_AXIS; z++)
+        for (uint64_t cubes = block->cut[z]; cubes;) {
+            const unsigned bit = (unsigned)take_bit(&cubes), point = digits_of(bit % BLOCK_AXIS, bit / BLOCK_AXIS, z);
+            const uint8_t inside = numbers.inside[0][z * BLOCK_AXIS * BLOCK_AXIS + bit];
+            const uint8_t *edge = mesh->cases->edge[inside];
+            for (int e = 0; e < 3 * mesh->cases->triangles[inside]; e++) put_index(job, place++, vertex_on(mesh->cases, &numbers, point, edge[e]));
+        }
+}
+
 static void write_indices(void *context, int32_t begin, int32_t end)
 {
     const IndicesJob *job = context;
-    const SkinMesh *mesh = job->mesh;
-    for (int32_t b = begin; b < end; b++) {
-        const SkinBlock *block = blocks_at(mesh->blocks, b);
-        const uint8_t *inside = mesh->inside + (size_t)b * BLOCK_POINTS;
-        size_t place = (size_t)block->first_triangle * 3;
-        if (!block->triangles) continue;
-        for (int i = 0; i < BLOCK_POINTS; i++) {
-            if (i % BLOCK_AXIS == 0 && row_is_whole(inside + i)) {
-                i += BLOCK_AXIS - 1;
-                continue;
-            }
-            const int point[3] = {i % BLOCK_AXIS, i / BLOCK_AXIS % BLOCK_AXIS, i / (BLOCK_AXIS * BLOCK_AXIS)};
-            const bool within = point[0] < BLOCK_AXIS - 1 && point[1] < BLOCK_AXIS - 1 && point[2] < BLOCK_AXIS - 1;
-            for (int e = 0; e < 3 * mesh->cases->triangles[inside[i]]; e++) {
-                const int edge = mesh->cases->edge[inside[i]][e];
-                put_index(job, place++, within ? vertex_within(mesh, b, i, edge) : vertex_on(mesh, b, point, edge));
-            }
-        }
-    }
+    for (int32_t b = begin; b < end; b++)
+        if (blocks_at(job->mesh->blocks, b)->triangles) write_block(job, b);
 }
 
 void mesh_write_indices(const SkinMesh *mesh, void *indices, uint32_t index_bytes)

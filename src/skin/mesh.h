@@ -13,8 +13,8 @@ typedef struct SkinMesh {
     const Cases *cases;
     Pool *pool;
     const float *field; /* BLOCK_POINTS per block, and so are these */
-    uint8_t *inside;    /* of the cube above the point: its inside corners */
-    uint16_t *start;    /* vertices of the block before those of the point */
+    uint8_t *inside;    /* of the cube above the point, if it is cut: its inside corners */
+    uint16_t *start;    /* there too: vertices of the block before those of the point */
     float level;
     double spacing; /* of points [m] */
     double first;   /* of the lattice beside the grid's [points] */

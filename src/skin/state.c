@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "base/cpu.h"
 #include "base/result.h"
 #include "skin/thin.h"
 
@@ -10,7 +11,10 @@ Skin *state_take(World *world, pbmpm_result *result)
     pthread_mutex_lock(&world->making);
     if (!world->skin) {
         world->skin = memory_take(&world->memory, sizeof *world->skin);
-        if (world->skin) cases_make(&world->skin->cases);
+        if (world->skin) {
+            world->skin->kernels = skin_kernels_for(cpu_isa());
+            cases_make(&world->skin->cases);
+        }
     }
     Skin *skin = world->skin;
     const bool busy = skin && skin->busy;
@@ -96,6 +100,7 @@ FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
         .blocks = &skin->blocks,
         .matter = matter,
         .pool = world->pool,
+        .kernels = skin->kernels,
         .boxes = skin->boxes.data,
         .sums = skin->sums.data,
         .lines = skin->lines.data,

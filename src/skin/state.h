@@ -24,6 +24,7 @@ struct Skin {
     SkinKey key;
     SkinBlocks blocks;
     Cases cases;
+    const SkinKernels *kernels;
     Array boxes, sums, lines, field, inside, start; /* see field.h and mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
     Array gaps, spray;                    /* see field.h */

@@ -78,7 +78,7 @@ static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS
 }
 
 /* Notes who is spray, and adds what a row gives to T. */
-static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, const float local[3], float filling, float *box)
+static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, const float local[3], float filling, FieldSplat *splat)
 {
     const FieldWork *work = job->work;
     const float enough = THIN_SHARE * job->level, amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
@@ -89,8 +89,8 @@ static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, cons
         block->spray += amount;
         return;
     }
-    if (!cells_any(&block->splatted)) memset(box, 0, BOX_POINTS * sizeof *box);
-    field_splat(box, local, (times - 1.0f) * amount);
+    if (!cells_any(&block->splatted)) memset(splat->box, 0, BOX_POINTS * sizeof *splat->box);
+    field_splat(work, splat, local, (times - 1.0f) * amount);
     blocks_cell(work->blocks, block, work->matter->particles, row, cell);
     cells_add(&block->splatted, cell);
 }
@@ -99,6 +99,7 @@ static void thicken_block(const ThinJob *job, SkinBlock *block, float *box)
 {
     const FieldWork *work = job->work;
     const float enough = THIN_SHARE * job->level, shift = field_shift(work->blocks);
+    FieldSplat splat = {.box = box, .count = 0};
     float near[BOX_POINTS], least[BLOCK_POINTS];
     blocks_gather(block, job->values, near);
     least_of_cells(work->blocks, near, least);
@@ -111,9 +112,10 @@ static void thicken_block(const ThinJob *job, SkinBlock *block, float *box)
             if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
             blocks_locate(work->blocks, block, work->matter->particles, row, local);
             const float filling = between(near, local, shift);
-            if (filling < enough) thicken_row(job, block, row, local, filling, box);
+            if (filling < enough) thicken_row(job, block, row, local, filling, &splat);
         }
     }
+    field_splat_rest(work, &splat);
 }
 
 static void thicken_blocks(void *context, int32_t begin, int32_t end)
@@ -153,6 +155,9 @@ static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
 /* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
 static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
 
+/* Rounded up. */
+static int whole_steps(float steps) { return (int)steps + (steps > (float)(int)steps); }
+
 /* Of places where F and T have these values: what there is, and what each step of the share adds to what the surface encloses. `room`: what a place counts. T is
  * below 0 only by a ripple of S. */
 static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
@@ -164,7 +169,7 @@ static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_PO
         if (lacks <= 0.0f)
             block->enclosed[0] += room[i];
         else if (steps > 0.0f && steps <= THICKENINGS)
-            block->enclosed[(int)ceilf(steps)] += room[i];
+            block->enclosed[whole_steps(steps)] += room[i];
     }
 }
 

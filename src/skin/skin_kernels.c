@@ -1,0 +1,33 @@
+#include "skin/skin_kernels.h"
+
+#define DECLARE(suffix) SurfaceSplat surface_splat##suffix; SurfaceFilter surface_filter##suffix; SurfaceFilterRow surface_filter_row##suffix;
+#define TABLE(suffix) {surface_splat##suffix, surface_filter##suffix, surface_filter_row##suffix}
+
+#if defined(__aarch64__) || defined(__wasm__) /* with a single target ISPC puts nothing behind names */
+
+DECLARE()
+
+const SkinKernels *skin_kernels_for(pbmpm_isa isa)
+{
+    static const SkinKernels table = TABLE();
+    (void)isa;
+    return &table;
+}
+
+#else
+
+DECLARE(_sse4)
+DECLARE(_avx2)
+DECLARE(_avx512skx)
+
+const SkinKernels *skin_kernels_for(pbmpm_isa isa)
+{
+    static const SkinKernels table[] = {
+        [PBMPM_ISA_SSE4] = TABLE(_sse4),
+        [PBMPM_ISA_AVX2] = TABLE(_avx2),
+        [PBMPM_ISA_AVX512] = TABLE(_avx512skx),
+    };
+    return &table[isa];
+}
+
+#endif
