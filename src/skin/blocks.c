@@ -51,22 +51,21 @@ static int32_t want_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
 
 static int32_t floor_divide(int32_t a, int32_t b) { return a / b - (a % b < 0); }
 
-/* The end of the rows from one on that count and are in the block, whose bounds then hold them. */
-static uint32_t bound_rows(const SkinBlocks *blocks, SkinBlock *block, const SkinMatter *matter, uint32_t row)
+/* The end of the rows from one on that count and are in the block; bit k of `cells` tells for each axis that one is in cell k. */
+static uint32_t follow_rows(const SkinBlocks *blocks, SkinBlock *block, const SkinMatter *matter, uint32_t row)
 {
     const Particles *p = matter->particles;
     const uint32_t cells = (uint32_t)blocks_cells(blocks);
-    CellBox box = block->cells; /* a copy: nobody else writes to it */
-    int32_t first[3], last[3] = {-1, -1, -1};
-    for (int a = 0; a < 3; a++) first[a] = blocks->anchor[a] + block->place[a] * (int32_t)cells;
+    uint32_t found[3] = {0}, first[3];
+    for (int a = 0; a < 3; a++) first[a] = (uint32_t)(blocks->anchor[a] + block->place[a] * (int32_t)cells);
     for (; row < p->count && matter_has(matter, row); row++) {
-        const int32_t cell[3] = {p->cell[0][row] - first[0], p->cell[1][row] - first[1], p->cell[2][row] - first[2]};
-        if (cell[0] == last[0] && cell[1] == last[1] && cell[2] == last[2]) continue; /* as most are */
-        if ((uint32_t)cell[0] >= cells || (uint32_t)cell[1] >= cells || (uint32_t)cell[2] >= cells) break;
-        cells_add(&box, cell);
-        memcpy(last, cell, sizeof last);
+        const uint32_t x = (uint32_t)p->cell[0][row] - first[0], y = (uint32_t)p->cell[1][row] - first[1], z = (uint32_t)p->cell[2][row] - first[2];
+        if ((x | y | z) >= cells) break; /* cells is a power of two */
+        found[0] |= 1u << x;
+        found[1] |= 1u << y;
+        found[2] |= 1u << z;
     }
-    block->cells = box;
+    for (int a = 0; a < 3; a++) block->found[a] |= (uint8_t)found[a];
     return row;
 }
 
@@ -91,7 +90,7 @@ static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matt
         }
         if (!find_run(blocks, memory, p, row, &run)) return false;
         SkinBlock *block = blocks_at(blocks, run.block);
-        run.end = row = bound_rows(blocks, block, matter, row);
+        run.end = row = follow_rows(blocks, block, matter, row);
         block->runs++;
         block->volume += (float)(run.end - run.begin) * matter_volume(matter, run.begin);
         const size_t count = (size_t)blocks->runs++;
@@ -99,6 +98,17 @@ static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matt
         ((BlockRun *)blocks->found_run.data)[count] = run;
     }
     return true;
+}
+
+static void bound_cells(SkinBlocks *blocks)
+{
+    for (int32_t b = 0; b < blocks->count; b++) {
+        SkinBlock *block = blocks_at(blocks, b);
+        for (int a = 0; a < 3; a++) {
+            block->cells.low[a] = __builtin_ctz(block->found[a]);
+            block->cells.high[a] = 31 - __builtin_clz(block->found[a]);
+        }
+    }
 }
 
 /* What it takes for more than spray [cells]: drops of fewer particles are better drawn as points. */
@@ -195,6 +205,7 @@ bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
     blocks->count = blocks->with_rows = blocks->runs = blocks->slots = 0;
     grid_drop_anchor(matter->particles, blocks->anchor);
     if (!find_runs(blocks, memory, matter)) return false;
+    bound_cells(blocks);
     drop_spray(blocks);
     return sort_runs(blocks, memory) && find_touched(blocks, memory);
 }
@@ -277,15 +288,19 @@ static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, 
         }
 }
 
+static void add_box(const SkinBlocks *blocks, const SkinBlock *block, int n, const float *boxes, float sum[BLOCK_POINTS])
+{
+    const int32_t other = block->neighbour[n];
+    if (other == GRID_NOWHERE || !cells_any(&blocks_at(blocks, other)->splatted)) return;
+    /* The neighbour at `way` sees this block at -way. */
+    add_stretches(&seen[2 - n % 3], &seen[2 - n / 3 % 3], &seen[2 - n / 9], boxes + (size_t)other * BOX_POINTS, sum);
+}
+
 void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
 {
+    const SkinBlock *block = blocks_at(blocks, b);
     memset(sum, 0, BLOCK_POINTS * sizeof *sum);
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        const int32_t other = blocks_at(blocks, b)->neighbour[n];
-        if (other == GRID_NOWHERE || !cells_any(&blocks_at(blocks, other)->splatted)) continue;
-        /* The neighbour at `way` sees this block at -way. */
-        add_stretches(&seen[2 - n % 3], &seen[2 - n / 3 % 3], &seen[2 - n / 9], boxes + (size_t)other * BOX_POINTS, sum);
-    }
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) add_box(blocks, block, n, boxes, sum);
 }
 
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)

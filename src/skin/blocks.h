@@ -35,7 +35,8 @@ typedef struct CellBox {
 typedef struct SkinBlock {
     int32_t place[3]; /* in blocks, from the anchor */
     int32_t neighbour[BLOCK_NEIGHBOURS]; /* as grid_neighbour_offset() has them; GRID_NOWHERE: not there */
-    CellBox cells;                       /* with particles */
+    uint8_t found[3];                    /* per axis, bit k: a particle is in cell k */
+    CellBox cells;                       /* those with particles */
     CellBox splatted;                    /* those whose particles its box is of */
     uint32_t first_run, runs;
     float volume;                        /* of its particles [cells] */

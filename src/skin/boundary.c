@@ -9,6 +9,8 @@ enum { BOUNDARY_GRAIN = 2, PART_AXIS = 4 };
 
 /* So far [cells] outside of a flat surface F is 0 but for a ripple of S: what is farther from a wall has no image. */
 static const double IMAGE_REACH = 0.75;
+/* What is farther [cells] from a point does not change what it sees: a foot within reach of an image, and space before that; or an edge's other face. */
+static const double BESIDE_REACH = 1.0;
 /* Of F at a flat surface, per cell: S W at 0. */
 static const float FLAT_SLOPE = 29.0f / 32.0f;
 
@@ -44,25 +46,67 @@ typedef struct BoundaryJob {
     float level, *values;
 } BoundaryJob;
 
-/* A place in points from the first point of a block, in metres. */
-static void place_of(const FieldWork *work, const SkinBlock *block, const double local[3], double place[3])
+/* A block whose points are looked at. */
+typedef struct Part {
+    const FieldWork *work;
+    SkinBlock *block;
+    double origin[3], spacing; /* of its points [m] */
+    Near around;               /* the obstacles near the block */
+    Near beside;               /* those near a part of it */
+} Part;
+
+static void begin_part(Part *part, const FieldWork *work, SkinBlock *block)
 {
     const SkinBlocks *blocks = work->blocks;
+    part->work = work;
+    part->block = block;
+    part->spacing = work->cell_size / blocks->subdivision;
     for (int a = 0; a < 3; a++) {
         const int64_t first = (int64_t)blocks->anchor[a] * blocks->subdivision + (int64_t)block->place[a] * BLOCK_AXIS;
-        place[a] = ((double)first + local[a] - (double)field_shift(blocks)) * work->cell_size / blocks->subdivision;
+        part->origin[a] = ((double)first - (double)field_shift(blocks)) * part->spacing;
     }
 }
 
-static void near_block(const FieldWork *work, const SkinBlock *block, Near *near)
+/* A place in points from the first point of the block, in metres. */
+static void place_of(const Part *part, const double local[3], double place[3])
 {
-    const double middle[3] = {0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1), 0.5 * (BLOCK_AXIS - 1)};
+    for (int a = 0; a < 3; a++) place[a] = part->origin[a] + local[a] * part->spacing;
+}
+
+/* The middle of a cube of points, and how far its corners are [cells]. */
+static double middle_of(const Part *part, const int first[3], int axis, double middle[3])
+{
+    const double half = 0.5 * (axis - 1), local[3] = {first[0] + half, first[1] + half, first[2] + half};
+    place_of(part, local, middle);
+    return sqrt(3.0) * half / part->work->blocks->subdivision;
+}
+
+static void near_block(Part *part)
+{
+    static const int first[3] = {0, 0, 0};
     const Grid flat = {.dimension = 3};
-    ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&work->boundary->colliders, .grid = &flat, .cell_size = work->cell_size};
-    double place[3];
-    place_of(work, block, middle, place);
-    field_near(near, &frame, place, sqrt(3.0) * middle[0] / work->blocks->subdivision + IMAGE_REACH, false);
-    field_keep(near, work->groups);
+    ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&part->work->boundary->colliders, .grid = &flat, .cell_size = part->work->cell_size};
+    double middle[3];
+    const double half = middle_of(part, first, BLOCK_AXIS, middle);
+    field_near(&part->around, &frame, middle, half + IMAGE_REACH, false);
+    field_keep(&part->around, part->work->groups);
+}
+
+/* Of those near the block; false: none. */
+static bool near_part(Part *part, const int first[3])
+{
+    double middle[3];
+    const double reach = (middle_of(part, first, PART_AXIS, middle) + BESIDE_REACH) * part->work->cell_size;
+    Near *beside = &part->beside;
+    beside->cell_size = part->around.cell_size;
+    beside->dimension = part->around.dimension;
+    beside->at_end = part->around.at_end;
+    beside->count = 0;
+    for (int i = 0; i < part->around.count; i++) {
+        const Obstacle *o = part->around.obstacle[i];
+        if (solid_gap(field_solid(&part->around, o), middle) < reach) beside->obstacle[beside->count++] = o;
+    }
+    return beside->count > 0;
 }
 
 static void point_of(int i, double local[3])
@@ -72,41 +116,8 @@ static void point_of(int i, double local[3])
     local[2] = i / (BLOCK_AXIS * BLOCK_AXIS);
 }
 
-/* Whether a part of a block with these first points is near enough to an obstacle. */
-static bool part_is_near(const FieldWork *work, const SkinBlock *block, const Near *near, const int first[3])
-{
-    const double half = 0.5 * (PART_AXIS - 1);
-    double middle[3], place[3];
-    for (int a = 0; a < 3; a++) middle[a] = first[a] + half;
-    place_of(work, block, middle, place);
-    return field_distance(near, place) < sqrt(3.0) * half / work->blocks->subdivision + IMAGE_REACH;
-}
-
 /* What has less than this is outside whatever it is mirrored in: three planes make it 8 times as much. */
 static float least_that_counts(float level) { return 0.125f * level; }
-
-static void measure_part(const BoundaryJob *job, SkinBlock *block, const Near *near, const int first[3])
-{
-    const size_t b = (size_t)(block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
-    for (int n = 0; n < PART_AXIS * PART_AXIS * PART_AXIS; n++) {
-        const int x = first[0] + n % PART_AXIS, y = first[1] + n / PART_AXIS % PART_AXIS, z = first[2] + n / (PART_AXIS * PART_AXIS);
-        const int i = (z * BLOCK_AXIS + y) * BLOCK_AXIS + x;
-        double local[3], place[3];
-        if (job->values[b + (size_t)i] <= least_that_counts(job->level)) continue;
-        point_of(i, local);
-        place_of(job->work, block, local, place);
-        job->work->gaps[b + (size_t)i] = (float)field_distance(near, place);
-        block->bounded = true;
-    }
-}
-
-static void measure_block(const BoundaryJob *job, SkinBlock *block, const Near *near)
-{
-    for (int n = 0; n < 8; n++) {
-        const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
-        if (part_is_near(job->work, block, near, first)) measure_part(job, block, near, first);
-    }
-}
 
 /* ---- The mirror ---- */
 
@@ -145,39 +156,37 @@ static int planes_at(const Near *near, const double place[3], Face face[FIELD_FA
 }
 
 /* Reflects a place in points in a set of planes. */
-static void reflect(const FieldWork *work, const Face *face, int set, const double local[3], double image[3])
+static void reflect(const Part *part, const Face *face, int set, const double local[3], double image[3])
 {
     memcpy(image, local, 3 * sizeof *image);
     for (int f = 0; set >> f; f++)
-        for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * work->blocks->subdivision;
+        for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * part->work->blocks->subdivision;
 }
 
 /* The share of an image that lies in obstacles: beside the end of a wall is open space, whose matter is no image. */
-static float hidden_share(const FieldWork *work, const SkinBlock *block, const Near *near, const double image[3])
+static float hidden_share(const Part *part, const double image[3])
 {
     double place[3];
-    place_of(work, block, image, place);
-    const double share = 0.5 - field_distance(near, place) * work->blocks->subdivision;
+    place_of(part, image, place);
+    const double share = 0.5 - field_distance(&part->around, place) * part->work->blocks->subdivision;
     return share < 0.0 ? 0.0f : share > 1.0 ? 1.0f : (float)share;
 }
 
 /* F at a point and at all that it is reflected to. Of a point in an obstacle it is that of its reflection before it. */
-static float with_images(const BoundaryJob *job, const SkinBlock *block, const Near *near, int i, float at_point)
+static float with_images(const Part *part, const float *values, const double local[3], const double place[3], float at_point)
 {
-    double local[3], place[3], image[3];
+    double image[3];
     Face face[FIELD_FACES];
     int before = 0;
-    point_of(i, local);
-    place_of(job->work, block, local, place);
-    const int count = planes_at(near, place, face);
+    const int count = planes_at(&part->beside, place, face);
     for (int f = 0; f < count; f++) before |= (face[f].distance < 0.0) << f;
-    reflect(job->work, face, before, local, image);
-    const float own = before ? field_at(block, job->values, image) : at_point;
+    reflect(part, face, before, local, image);
+    const float own = before ? field_at(part->block, values, image) : at_point;
     float sum = own;
     for (int set = 0; set < 1 << count; set++) {
         if (set == before) continue;
-        reflect(job->work, face, set, local, image);
-        const float share = hidden_share(job->work, block, near, image), seen = share > 0.0f ? field_at(block, job->values, image) : 0.0f;
+        reflect(part, face, set, local, image);
+        const float share = hidden_share(part, image), seen = share > 0.0f ? field_at(part->block, values, image) : 0.0f;
         sum += share * (seen < own ? seen : own);
     }
     return sum;
@@ -188,39 +197,70 @@ static float flat_at(float gap) { return 0.5f + FLAT_SLOPE * gap; }
 
 static float cut_at(float level, float gap) { return level + FLAT_SLOPE * gap; }
 
+/* Measures how far the obstacles are from a point that counts, and writes what it has with its images. */
+static void mirror_point(const BoundaryJob *job, Part *part, int i, const float *own, float *gap, float *mirrored)
+{
+    const double deepest = 1.0 / job->work->blocks->subdivision; /* the points that cubes at the surface have in obstacles */
+    double local[3], place[3];
+    point_of(i, local);
+    place_of(part, local, place);
+    *gap = (float)field_distance(&part->beside, place);
+    part->block->bounded = true;
+    if ((double)*gap <= -deepest || (double)*gap >= IMAGE_REACH) return;
+    /* Whole matter has an image like itself. */
+    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, job->values, local, place, *own);
+}
+
+static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
+{
+    const size_t b = (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
+    const float least = least_that_counts(job->level);
+    for (int n = 0; n < PART_AXIS * PART_AXIS * PART_AXIS; n++) {
+        const int x = first[0] + n % PART_AXIS, y = first[1] + n / PART_AXIS % PART_AXIS, z = first[2] + n / (PART_AXIS * PART_AXIS);
+        const int i = (z * BLOCK_AXIS + y) * BLOCK_AXIS + x;
+        const size_t point = b + (size_t)i;
+        if (job->values[point] > least) mirror_point(job, part, i, &job->values[point], &job->work->gaps[point], &job->work->lines[point]);
+    }
+}
+
 static void mirror_blocks(void *context, int32_t begin, int32_t end)
 {
     const BoundaryJob *job = context;
-    const float deepest = 1.0f / (float)job->work->blocks->subdivision; /* the points that cubes at the surface have in obstacles */
     for (int32_t b = begin; b < end; b++) {
         SkinBlock *block = blocks_at(job->work->blocks, b);
-        const size_t first = (size_t)b * BLOCK_POINTS;
-        Near near;
+        const size_t point = (size_t)b * BLOCK_POINTS;
+        Part part;
         block->bounded = false;
-        for (int i = 0; i < BLOCK_POINTS; i++) job->work->gaps[first + (size_t)i] = INFINITY;
         if (block->most <= least_that_counts(job->level)) continue;
-        near_block(job->work, block, &near);
-        if (near.count == 0) continue;
-        measure_block(job, block, &near);
-        if (!block->bounded) continue;
-        memcpy(job->work->lines + first, job->values + first, BLOCK_POINTS * sizeof(float));
-        for (int i = 0; i < BLOCK_POINTS; i++) {
-            const float gap = job->work->gaps[first + (size_t)i], own = job->values[first + (size_t)i];
-            if (gap <= -deepest || gap >= (float)IMAGE_REACH) continue;
-            /* Whole matter has an image like itself. */
-            job->work->lines[first + (size_t)i] = own >= flat_at(gap) ? own + flat_at(-gap) : with_images(job, block, &near, i, own);
+        begin_part(&part, job->work, block);
+        near_block(&part);
+        if (part.around.count == 0) continue;
+        for (size_t i = point; i < point + BLOCK_POINTS; i++) job->work->gaps[i] = INFINITY;
+        memcpy(job->work->lines + point, job->values + point, BLOCK_POINTS * sizeof(float));
+        for (int n = 0; n < 8; n++) {
+            const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
+            if (near_part(&part, first)) mirror_part(job, &part, first);
         }
     }
+}
+
+static bool is_beside_bounded(const SkinBlocks *blocks, const SkinBlock *block)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
+        if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->bounded) return true;
+    return false;
 }
 
 static void take_mirrored(void *context, int32_t begin, int32_t end)
 {
     const BoundaryJob *job = context;
     for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        const size_t first = (size_t)b * BLOCK_POINTS;
-        if (!block->bounded) continue;
-        memcpy(job->values + first, job->work->lines + first, BLOCK_POINTS * sizeof(float)); /* it grew, so the least is no more than it is */
+        const SkinBlock *block = blocks_at(job->work->blocks, b);
+        const size_t point = (size_t)b * BLOCK_POINTS;
+        if (block->bounded)
+            memcpy(job->values + point, job->work->lines + point, BLOCK_POINTS * sizeof(float)); /* it grew, so the least is no more than it is */
+        else if (is_beside_bounded(job->work->blocks, block)) /* who reads gaps reads those of neighbours, too */
+            for (size_t i = point; i < point + BLOCK_POINTS; i++) job->work->gaps[i] = INFINITY;
     }
 }
 

@@ -81,6 +81,10 @@ static void make_case(Cases *cases, int inside)
 void cases_make(Cases *cases)
 {
     *cases = (Cases){0};
+    for (int edge = 0; edge < CUBE_EDGES; edge++) {
+        const unsigned corner = (unsigned)case_corner(edge);
+        cases->corner[edge] = (uint16_t)case_digits(corner & 1, corner >> 1 & 1, corner >> 2);
+    }
     for (int inside = 0; inside < CUBE_CASES; inside++) {
         make_case(cases, inside);
         for (int axis = 1; axis < 3; axis++) cases->before[inside][axis] = (uint8_t)(cases->before[inside][axis - 1] + (case_cuts(inside) >> (axis - 1) & 1));

@@ -18,6 +18,7 @@ enum { CUBE_CORNERS = 8, CUBE_EDGES = 12, CUBE_CASES = 256, CASE_TRIANGLES = 5 }
 typedef struct Cases {
     uint8_t triangles[CUBE_CASES];              /* per set of inside corners, bit k: corner k */
     uint8_t edge[CUBE_CASES][CASE_TRIANGLES * 3]; /* three per triangle, counterclockwise from outside */
+    uint16_t corner[CUBE_EDGES];                  /* case_corner() in digits */
     uint8_t before[CUBE_CASES][3];                /* per axis: how many edges from corner 0 are cut along the axes before */
 } Cases;
 
@@ -35,6 +36,9 @@ static inline int case_cuts(int inside)
     const int ends = (inside >> 1 & 3) | (inside >> 2 & 4);
     return inside & 1 ? ends ^ 7 : ends;
 }
+
+/* A place as a hexadecimal digit per axis: so places are added. */
+static inline unsigned case_digits(unsigned x, unsigned y, unsigned z) { return x | y << 4 | z << 8; }
 
 void cases_make(Cases *cases);
 

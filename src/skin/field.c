@@ -4,10 +4,10 @@
 
 enum { FIELD_GRAIN = 4 };
 
-float field_volume(const SkinMatter *matter, uint32_t row, int channel)
+void field_volume(const SkinMatter *matter, uint32_t row, uint32_t count, int channel, float *amount)
 {
     (void)channel;
-    return matter_volume(matter, row);
+    for (uint32_t i = 0; i < count; i++) amount[i] = matter_volume(matter, row + i);
 }
 
 /* ---- Particles to points ---- */
@@ -41,27 +41,37 @@ float field_points_per_cell(const SkinBlocks *blocks)
     return (float)(blocks->subdivision * blocks->subdivision * blocks->subdivision);
 }
 
+static void splat_rows(const SplatJob *job, const SkinBlock *block, uint32_t row, uint32_t count, FieldSplat *splat)
+{
+    const SkinBlocks *blocks = job->work->blocks;
+    const float scale = field_points_per_cell(blocks), spacing = (float)blocks->subdivision;
+    const Particles *p = job->work->matter->particles;
+    for (int a = 0; a < 3; a++) {
+        const int32_t first = blocks->anchor[a] + block->place[a] * blocks_cells(blocks), *cell = p->cell[a] + row;
+        const float *fraction = p->fraction[a] + row;
+        for (uint32_t i = 0; i < count; i++) splat->place[a][i] = spacing * ((float)(cell[i] - first) + fraction[i]);
+    }
+    job->amount(job->work->matter, row, count, job->channel, splat->amount);
+    for (uint32_t i = 0; i < count; i++) splat->amount[i] *= scale;
+    splat->count = (int)count;
+    field_splat_rest(job->work, splat);
+}
+
 static void splat_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
-    const FieldWork *work = job->work;
-    const float scale = field_points_per_cell(work->blocks);
+    const SkinBlocks *blocks = job->work->blocks;
     for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(work->blocks, b);
-        float *box = work->boxes + (size_t)b * BOX_POINTS;
-        block->splatted = !job->at_surface || blocks_near_surface(work->blocks, block) ? block->cells : cells_none();
-        FieldSplat splat = {.box = box, .count = 0};
+        SkinBlock *block = blocks_at(blocks, b);
+        FieldSplat splat = {.box = job->work->boxes + (size_t)b * BOX_POINTS, .count = 0};
+        block->splatted = !job->at_surface || blocks_near_surface(blocks, block) ? block->cells : cells_none();
         if (!cells_any(&block->splatted)) continue;
-        memset(box, 0, BOX_POINTS * sizeof *box);
+        memset(splat.box, 0, BOX_POINTS * sizeof *splat.box);
         for (uint32_t r = 0; r < block->runs; r++) {
-            const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
-            for (uint32_t row = run->begin; row < run->end; row++) {
-                float local[3];
-                blocks_locate(work->blocks, block, work->matter->particles, row, local);
-                field_splat(work, &splat, local, scale * job->amount(work->matter, row, job->channel));
-            }
+            const BlockRun *run = blocks_run(blocks, block->first_run + r);
+            for (uint32_t row = run->begin; row < run->end; row += SPLAT_MOST)
+                splat_rows(job, block, row, run->end - row < SPLAT_MOST ? run->end - row : SPLAT_MOST, &splat);
         }
-        field_splat_rest(work, &splat);
     }
 }
 

@@ -18,11 +18,11 @@
 #include "skin/matter.h"
 #include "skin/skin_kernels.h"
 
-/* What a particle counts. */
-typedef float FieldAmount(const SkinMatter *matter, uint32_t row, int channel);
+/* What particles count: `count` of them from a row on. */
+typedef void FieldAmount(const SkinMatter *matter, uint32_t row, uint32_t count, int channel, float *amount);
 
-/* Its volume. */
-float field_volume(const SkinMatter *matter, uint32_t row, int channel);
+/* Their volumes. */
+void field_volume(const SkinMatter *matter, uint32_t row, uint32_t count, int channel, float *amount);
 
 struct Boundary;
 

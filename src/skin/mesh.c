@@ -303,16 +303,11 @@ static void find_numbers(const SkinMesh *mesh, const SkinBlock *block, Numbers *
     }
 }
 
-/* A point as a hexadecimal digit per axis. What is added goes on into its bit 3 where it leaves the block. */
-enum { DIGIT = 4 };
-
-static unsigned digits_of(unsigned x, unsigned y, unsigned z) { return x | y << DIGIT | z << 2 * DIGIT; }
-
-/* The number of the vertex on an edge of the cube above a point. */
+/* The number of the vertex on an edge of the cube above a point, as case_digits() has it: bit 3 of a digit tells that it is in the next block. */
 static uint32_t vertex_on(const Cases *cases, const Numbers *numbers, unsigned point, int edge)
 {
-    const unsigned corner = (unsigned)case_corner(edge), at = point + digits_of(corner & 1, corner >> 1 & 1, corner >> 2);
-    const unsigned octant = (at >> 3 & 1) | (at >> 6 & 2) | (at >> 9 & 4), i = (at & 7) | (at >> 1 & 7 * 8) | (at >> 2 & 7 * 64);
+    const unsigned at = point + cases->corner[edge];
+    const unsigned octant = (at >> 3 & 1) | (at >> 6 & 2) | (at >> 9 & 4), i = (at & 7) | (at >> 1 & 070) | (at >> 2 & 0700);
     return numbers->first[octant] + numbers->start[octant][i] + cases->before[numbers->inside[octant][i]][case_axis(edge)];
 }
 
@@ -334,7 +329,7 @@ static void write_block(const IndicesJob *job, int32_t b)
     find_numbers(mesh, block, &numbers);
     for (unsigned z = 0; z < BLOCK_AXIS; z++)
         for (uint64_t cubes = block->cut[z]; cubes;) {
-            const unsigned bit = (unsigned)take_bit(&cubes), point = digits_of(bit % BLOCK_AXIS, bit / BLOCK_AXIS, z);
+            const unsigned bit = (unsigned)take_bit(&cubes), point = case_digits(bit % BLOCK_AXIS, bit / BLOCK_AXIS, z);
             const uint8_t inside = numbers.inside[0][z * BLOCK_AXIS * BLOCK_AXIS + bit];
             const uint8_t *edge = mesh->cases->edge[inside];
             for (int e = 0; e < 3 * mesh->cases->triangles[inside]; e++) put_index(job, place++, vertex_on(mesh->cases, &numbers, point, edge[e]));

@@ -45,14 +45,15 @@ static MeshStream component_of(MeshStream stream, size_t component)
     return (MeshStream){stream.base + component * sizeof(float), stream.stride};
 }
 
-static float motion_of(const SkinMatter *matter, uint32_t row, int axis)
+static void motion_of(const SkinMatter *matter, uint32_t row, uint32_t count, int axis, float *amount)
 {
-    return matter_volume(matter, row) * matter->particles->velocity[axis][row];
+    field_volume(matter, row, count, axis, amount);
+    for (uint32_t i = 0; i < count; i++) amount[i] *= matter->particles->velocity[axis][row + i];
 }
 
-static float share_of(const SkinMatter *matter, uint32_t row, int slot)
+static void share_of(const SkinMatter *matter, uint32_t row, uint32_t count, int slot, float *amount)
 {
-    return matter->particles->material[row] == (uint32_t)slot ? matter_volume(matter, row) : 0.0f;
+    for (uint32_t i = 0; i < count; i++) amount[i] = matter->particles->material[row + i] == (uint32_t)slot ? matter_volume(matter, row + i) : 0.0f;
 }
 
 /* Means of what particles have, over their volumes. */
