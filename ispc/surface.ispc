@@ -1,4 +1,7 @@
 // Surfaces: particles to points of the lattice, and filters along its lines; see src/skin/field.h.
+#include "lanes.isph"
+#include "surface_types.h"
+
 #define POINTS 8    // along an axis of a block
 #define BOX_AXIS 12 // of its box
 #define BOX_MARGIN 2
@@ -41,22 +44,68 @@ export void surface_splat(const uniform float x[], const uniform float y[], cons
     }
 }
 
-// Sums of rows of points: `line` has them in order; the taps are in pairs, the first of which is `first` rows before.
-export void surface_filter(const uniform float *uniform const uniform line[], const uniform float tap[], uniform int pairs, uniform int first, uniform int last,
-                           uniform int begin, uniform int end, uniform float out[], uniform int step) {
-    for (uniform int at = begin; at < end; at++)
-        for (uniform int x = 0; x < POINTS; x += programCount) {
-            float sum = 0.0f;
-            for (uniform int p = 0; p < pairs; p++) sum += tap[p] * (line[at + first + p][x + programIndex] + line[at + last - p][x + programIndex]);
-            out[at * step + x + programIndex] = sum;
+static const uniform int step_of[3] = {1, POINTS, POINTS * POINTS};
+
+// Along axis 1 or 2; rows along x at once.
+static inline void filter_across_x(const uniform struct SurfaceFilter &filter, const uniform struct SurfaceRange &within, uniform int axis, const uniform float *uniform const uniform beside[3],
+                                   uniform float out[]) {
+    const uniform int third = 3 - axis, step = step_of[axis];
+    const uniform float *uniform row[3 * POINTS];
+    for (uniform int i = 0; i < 3 * POINTS; i++) row[i] = beside[i / POINTS] + i % POINTS * step;
+    for (uniform int plane = within.low[third]; plane <= within.high[third]; plane++)
+        for (uniform int at = within.low[axis]; at <= within.high[axis]; at++)
+            for (uniform int x = 0; x < POINTS; x += programCount) {
+                const uniform int offset = plane * step_of[third] + x, low = POINTS + at + filter.first, high = POINTS + at + filter.last;
+                float sum = 0.0f;
+                for (uniform int p = 0; p < filter.pairs; p++) sum += filter.tap[p] * (row[low + p][offset + programIndex] + row[high - p][offset + programIndex]);
+                out[offset + at * step + programIndex] = sum;
+            }
+}
+
+// Lines are laid out first: what has just been written cannot be read at another offset without waiting.
+static inline void filter_along_x(const uniform struct SurfaceFilter &filter, const uniform struct SurfaceRange &within, const uniform float *uniform const uniform beside[3], uniform float out[]) {
+    uniform float line[POINTS * POINTS][3 * POINTS];
+    for (uniform int z = within.low[2]; z <= within.high[2]; z++)
+        for (uniform int y = within.low[1]; y <= within.high[1]; y++)
+            for (uniform int side = 0; side < 3; side++)
+                for (uniform int x = 0; x < POINTS; x += programCount)
+                    line[z * POINTS + y][side * POINTS + x + programIndex] = beside[side][(z * POINTS + y) * POINTS + x + programIndex];
+    for (uniform int z = within.low[2]; z <= within.high[2]; z++)
+        for (uniform int y = within.low[1]; y <= within.high[1]; y++) {
+            const uniform float *uniform own = line[z * POINTS + y] + POINTS;
+            for (uniform int x = 0; x < POINTS; x += programCount) {
+                float sum = 0.0f;
+                for (uniform int p = 0; p < filter.pairs; p++)
+                    sum += filter.tap[p] * (own[filter.first + p + x + programIndex] + own[filter.last - p + x + programIndex]);
+                out[(z * POINTS + y) * POINTS + x + programIndex] = sum;
+            }
         }
 }
 
-// Along rows: each has `POINTS` before and behind it.
-export void surface_filter_row(const uniform float line[], const uniform float tap[], uniform int pairs, uniform int first, uniform int last, uniform float out[]) {
-    for (uniform int x = 0; x < POINTS; x += programCount) {
-        float sum = 0.0f;
-        for (uniform int p = 0; p < pairs; p++) sum += tap[p] * (line[POINTS + x + first + p + programIndex] + line[POINTS + x + last - p + programIndex]);
-        out[x + programIndex] = sum;
+// Writes the points of a block that are `within`, made of those before and behind them along an axis. `beside`: the blocks before it, itself and behind it.
+export void surface_filter(const uniform struct SurfaceFilter *uniform filter, const uniform struct SurfaceRange *uniform within, uniform int axis,
+                           const uniform float *uniform const uniform beside[], uniform float out[]) {
+    if (axis == 0)
+        filter_along_x(*filter, *within, beside, out);
+    else
+        filter_across_x(*filter, *within, axis, beside, out);
+}
+
+// Of the points of a block where T (`more`) is not 0: adds to `enclosed`, for each share k, the room of those with F + k T >= level; and to `held` that of F.
+export void surface_weigh(const uniform float own[], const uniform float more[], const uniform float room[], uniform float level, uniform float share_step,
+                          uniform float enclosed[], uniform float *uniform held) {
+    float sum[K_THICKENINGS + 1], filled = 0.0f;
+#pragma unroll
+    for (uniform int k = 0; k <= K_THICKENINGS; k++) sum[k] = 0.0f;
+    for (uniform int i = 0; i < POINTS * POINTS * POINTS; i += programCount) {
+        const float step = share_step * more[i + programIndex], lacks = level - own[i + programIndex];
+        if (all(step == 0.0f)) continue;
+        const float counts = step == 0.0f ? 0.0f : room[i + programIndex];
+        add_to(filled, counts * own[i + programIndex]);
+#pragma unroll
+        for (uniform int k = 0; k <= K_THICKENINGS; k++) add_to(sum[k], lacks <= k * step ? counts : 0.0f);
     }
+#pragma unroll
+    for (uniform int k = 0; k <= K_THICKENINGS; k++) enclosed[k] += total(sum[k]);
+    *held += total(filled);
 }

@@ -4,6 +4,8 @@
 
 #include "kernel_types.h"
 
+#define K_THICKENINGS 8 /* shares of T that are tried, see src/skin/thin.h */
+
 /* A symmetric filter: the taps that lie as far from its ends, the outer ones first, and where it begins and ends beside the point [points]. */
 struct SurfaceFilter {
     int32_t pairs, first, last;

@@ -4,7 +4,19 @@
 
 enum { LINK_GRAIN = 64, SLOTS_LEAST = 256 };
 
+/* grid_neighbour_offset(), worked out once. */
+static const int32_t way_of[BLOCK_NEIGHBOURS][3] = {
+    {-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {-1, 1, -1}, {0, 1, -1}, {1, 1, -1},
+    {-1, -1, 0},  {0, -1, 0},  {1, -1, 0},  {-1, 0, 0},  {0, 0, 0},  {1, 0, 0},  {-1, 1, 0},  {0, 1, 0},  {1, 1, 0},
+    {-1, -1, 1},  {0, -1, 1},  {1, -1, 1},  {-1, 0, 1},  {0, 0, 1},  {1, 0, 1},  {-1, 1, 1},  {0, 1, 1},  {1, 1, 1},
+};
+
 /* ---- Finding ---- */
+
+static void place_beside(const SkinBlock *block, int n, int32_t place[3])
+{
+    for (int a = 0; a < 3; a++) place[a] = block->place[a] + way_of[n][a];
+}
 
 static int32_t *slot_of(const SkinBlocks *blocks, const int32_t place[3])
 {
@@ -120,8 +132,7 @@ static bool is_spray(const SkinBlocks *blocks, const SkinBlock *block)
     for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
         if (n == BLOCK_NEIGHBOURS / 2) continue; /* that is itself */
         int32_t place[3];
-        grid_neighbour_offset(n, 3, place);
-        for (int a = 0; a < 3; a++) place[a] += block->place[a];
+        place_beside(block, n, place);
         const int32_t other = block_at(blocks, place);
         if (other != GRID_NOWHERE) volume += blocks_at(blocks, other)->volume;
     }
@@ -192,10 +203,9 @@ static bool find_touched(SkinBlocks *blocks, Memory *memory)
     for (int32_t b = 0; b < blocks->with_rows; b++)
         for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
             const SkinBlock *block = blocks_at(blocks, b);
-            int32_t way[3], place[3];
-            grid_neighbour_offset(n, 3, way);
-            for (int a = 0; a < 3; a++) place[a] = block->place[a] + way[a];
-            if (leads_to(blocks, &block->cells, touched[blocks->subdivision], way) && want_block(blocks, memory, place) == GRID_NOWHERE) return false;
+            int32_t place[3];
+            place_beside(block, n, place);
+            if (leads_to(blocks, &block->cells, touched[blocks->subdivision], way_of[n]) && want_block(blocks, memory, place) == GRID_NOWHERE) return false;
         }
     return true;
 }
@@ -219,8 +229,7 @@ static void link_blocks(void *context, int32_t begin, int32_t end)
         block->neighbour[BLOCK_NEIGHBOURS / 2] = b;
         for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
             int32_t place[3];
-            grid_neighbour_offset(n, 3, place);
-            for (int a = 0; a < 3; a++) place[a] += block->place[a];
+            place_beside(block, n, place);
             const int32_t other = block->neighbour[n] = block_at(blocks, place);
             if (other != GRID_NOWHERE) blocks_at(blocks, other)->neighbour[BLOCK_NEIGHBOURS - 1 - n] = b;
         }
@@ -315,12 +324,11 @@ void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block)
     const Reach reach = changed[blocks->subdivision];
     block->reached = cells_none();
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        int32_t way[3], back[3], low[3], high[3];
+        const int32_t *way = way_of[n];
+        int32_t low[3], high[3];
         if (block->neighbour[n] == GRID_NOWHERE) continue;
         const CellBox *cells = &blocks_at(blocks, block->neighbour[n])->splatted;
-        grid_neighbour_offset(n, 3, way);
-        grid_neighbour_offset(BLOCK_NEIGHBOURS - 1 - n, 3, back);
-        if (!leads_to(blocks, cells, reach, back)) continue;
+        if (!leads_to(blocks, cells, reach, way_of[BLOCK_NEIGHBOURS - 1 - n])) continue;
         for (int a = 0; a < 3; a++) {
             low[a] = way[a] * BLOCK_AXIS + cells->low[a] * blocks->subdivision - reach.below;
             high[a] = way[a] * BLOCK_AXIS + cells->high[a] * blocks->subdivision + reach.above;

@@ -10,6 +10,7 @@
 #include "grid/grid.h"
 #include "matter/particles.h"
 #include "skin/matter.h"
+#include "surface_types.h"
 
 enum {
     BLOCK_AXIS = 8,
@@ -18,7 +19,7 @@ enum {
     BOX_AXIS = BLOCK_AXIS + 2 * BOX_MARGIN,
     BOX_POINTS = BOX_AXIS * BOX_AXIS * BOX_AXIS,
     BLOCK_NEIGHBOURS = 27,
-    THICKENINGS = 8
+    THICKENINGS = K_THICKENINGS
 };
 
 /* Rows of particles that follow one another in a block. */
@@ -27,10 +28,7 @@ typedef struct BlockRun {
     uint32_t begin, end;
 } BlockRun;
 
-/* Cells or points of a block, counted from its first; none if low is above high. */
-typedef struct CellBox {
-    int32_t low[3], high[3];
-} CellBox;
+typedef struct SurfaceRange CellBox;
 
 typedef struct SkinBlock {
     int32_t place[3]; /* in blocks, from the anchor */

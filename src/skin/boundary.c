@@ -211,15 +211,34 @@ static void mirror_point(const BoundaryJob *job, Part *part, int i, const float 
     *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, job->values, local, place, *own);
 }
 
+/* Whether a part of a row has a point that counts. */
+static bool counts(const float *values, float least)
+{
+    bool any = false;
+    for (int x = 0; x < PART_AXIS; x++) any |= values[x] > least;
+    return any;
+}
+
+/* From one point to the next the gap changes by no more than their distance. */
+static void mirror_row(const BoundaryJob *job, Part *part, int first)
+{
+    const double spacing = 1.0 / job->work->blocks->subdivision;
+    const size_t point = (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS + (size_t)first;
+    const float *own = job->values + point, least = least_that_counts(job->level);
+    double at_least = -INFINITY;
+    for (int x = 0; x < PART_AXIS; x++, at_least -= spacing) {
+        if (own[x] <= least || at_least >= IMAGE_REACH) continue;
+        mirror_point(job, part, first + x, &own[x], &job->work->gaps[point + (size_t)x], &job->work->lines[point + (size_t)x]);
+        at_least = (double)job->work->gaps[point + (size_t)x];
+    }
+}
+
 static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
 {
-    const size_t b = (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
-    const float least = least_that_counts(job->level);
-    for (int n = 0; n < PART_AXIS * PART_AXIS * PART_AXIS; n++) {
-        const int x = first[0] + n % PART_AXIS, y = first[1] + n / PART_AXIS % PART_AXIS, z = first[2] + n / (PART_AXIS * PART_AXIS);
-        const int i = (z * BLOCK_AXIS + y) * BLOCK_AXIS + x;
-        const size_t point = b + (size_t)i;
-        if (job->values[point] > least) mirror_point(job, part, i, &job->values[point], &job->work->gaps[point], &job->work->lines[point]);
+    const float *values = job->values + (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
+    for (int n = 0; n < PART_AXIS * PART_AXIS; n++) {
+        const int row = ((first[2] + n / PART_AXIS) * BLOCK_AXIS + first[1] + n % PART_AXIS) * BLOCK_AXIS + first[0];
+        if (counts(values + row, least_that_counts(job->level))) mirror_row(job, part, row);
     }
 }
 

@@ -89,16 +89,8 @@ static void sum_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-/* A symmetric filter: the taps that lie as far from its ends, the outer ones first, and where it begins. */
-typedef struct Filter {
-    int pairs, first, last;
-    float tap[4];
-} Filter;
-
 /* That of S; and (1, 3, 3, 1) / 8 and that of S in one. */
-static const Filter filter_of[3] = {{0}, {2, -1, 1, {-0.125f, 0.625f}}, {4, -4, 3, {-1 / 64.0f, -3 / 64.0f, 7 / 64.0f, 29 / 64.0f}}};
-
-enum { LINE = 3 * BLOCK_AXIS };
+static const SurfaceFilter filter_of[3] = {{0}, {2, -1, 1, {-0.125f, 0.625f}}, {4, -4, 3, {-1 / 64.0f, -3 / 64.0f, 7 / 64.0f, 29 / 64.0f}}};
 
 /* The points of a neighbour along an axis, -1, 0 or 1. */
 static const float *points_beside(const SplatJob *job, const SkinBlock *block, int side)
@@ -107,31 +99,6 @@ static const float *points_beside(const SplatJob *job, const SkinBlock *block, i
     static const float nothing[BLOCK_POINTS];
     const int32_t other = block->neighbour[BLOCK_NEIGHBOURS / 2 + side * step[job->axis]];
     return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : nothing;
-}
-
-/* Lines are laid out first: what has just been written cannot be read at another offset without waiting. */
-static void filter_along_x(const SkinKernels *kernels, const Filter *filter, const CellBox *within, const float *const beside[3], float out[BLOCK_POINTS])
-{
-    enum { ROWS = BLOCK_AXIS * BLOCK_AXIS };
-    float line[ROWS][LINE];
-    for (int row = within->low[2] * BLOCK_AXIS; row < (within->high[2] + 1) * BLOCK_AXIS; row++)
-        for (int side = 0; side < 3; side++) memcpy(line[row] + side * BLOCK_AXIS, beside[side] + row * BLOCK_AXIS, BLOCK_AXIS * sizeof **line);
-    for (int z = within->low[2]; z <= within->high[2]; z++)
-        for (int y = within->low[1]; y <= within->high[1]; y++)
-            kernels->filter_row(line[z * BLOCK_AXIS + y], filter->tap, filter->pairs, filter->first, filter->last, out + (z * BLOCK_AXIS + y) * BLOCK_AXIS);
-}
-
-/* Along the axis 1 or 2; rows along x at once. */
-static void filter_across_x(const SkinKernels *kernels, const Filter *filter, const CellBox *within, int axis, const float *const beside[3], float out[BLOCK_POINTS])
-{
-    static const int step[3] = {1, BLOCK_AXIS, BLOCK_AXIS * BLOCK_AXIS};
-    const int third = 3 - axis;
-    for (int plane = within->low[third]; plane <= within->high[third]; plane++) {
-        const float *line[LINE];
-        for (int i = 0; i < LINE; i++) line[i] = beside[i / BLOCK_AXIS] + plane * step[third] + i % BLOCK_AXIS * step[axis];
-        kernels->filter(line + BLOCK_AXIS, filter->tap, filter->pairs, filter->first, filter->last, within->low[axis], within->high[axis] + 1, out + plane * step[third],
-                        step[axis]);
-    }
 }
 
 void field_bound(SkinBlock *block, const float values[BLOCK_POINTS])
@@ -164,24 +131,16 @@ void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS])
     }
 }
 
-static void filter_line(const SplatJob *job, const SkinBlock *block, float out[BLOCK_POINTS])
-{
-    const Filter *filter = &filter_of[job->work->blocks->subdivision];
-    const float *beside[3];
-    for (int side = 0; side < 3; side++) beside[side] = points_beside(job, block, side - 1);
-    memset(out, 0, BLOCK_POINTS * sizeof *out);
-    if (job->axis == 0)
-        filter_along_x(job->work->kernels, filter, &block->reached, beside, out);
-    else
-        filter_across_x(job->work->kernels, filter, &block->reached, job->axis, beside, out);
-}
-
 static void filter_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
     for (int32_t b = begin; b < end; b++) {
         const SkinBlock *block = blocks_at(job->work->blocks, b);
-        if (block->wanted) filter_line(job, block, job->to + (size_t)b * BLOCK_POINTS);
+        const float *const beside[3] = {points_beside(job, block, -1), points_beside(job, block, 0), points_beside(job, block, 1)};
+        float *out = job->to + (size_t)b * BLOCK_POINTS;
+        if (!block->wanted) continue;
+        memset(out, 0, BLOCK_POINTS * sizeof *out);
+        job->work->kernels->filter(&filter_of[job->work->blocks->subdivision], &block->reached, job->axis, beside, out);
     }
 }
 

@@ -1,7 +1,10 @@
 #include "skin/skin_kernels.h"
 
-#define DECLARE(suffix) SurfaceSplat surface_splat##suffix; SurfaceFilter surface_filter##suffix; SurfaceFilterRow surface_filter_row##suffix;
-#define TABLE(suffix) {surface_splat##suffix, surface_filter##suffix, surface_filter_row##suffix}
+#define DECLARE(suffix) \
+    SurfaceSplat surface_splat##suffix;      \
+    SurfaceFiltering surface_filter##suffix; \
+    SurfaceWeigh surface_weigh##suffix;
+#define TABLE(suffix) {surface_splat##suffix, surface_filter##suffix, surface_weigh##suffix}
 
 #if defined(__aarch64__) || defined(__wasm__) /* with a single target ISPC puts nothing behind names */
 

@@ -2,24 +2,25 @@
 #ifndef PBMPM_SRC_SKIN_SKIN_KERNELS_H
 #define PBMPM_SRC_SKIN_SKIN_KERNELS_H
 
-#include <stdint.h>
-
 #include "pbmpm/base.h"
+#include "surface_types.h"
 
 /* Adds the amounts of particles at these places, in points from the first of a block, to the 27 points around each in the block's box. */
 typedef void SurfaceSplat(const float *x, const float *y, const float *z, const float *amount, int32_t count, float *box);
 
-/* Rows of points, made of those around them in the list: tap p counts the rows at `first` + p and `last` - p. Those from `begin` to `end` are written, `step` numbers
- * from one to the next. */
-typedef void SurfaceFilter(const float *const *line, const float *tap, int32_t pairs, int32_t first, int32_t last, int32_t begin, int32_t end, float *out, int32_t step);
+typedef struct SurfaceFilter SurfaceFilter;
+typedef struct SurfaceRange SurfaceRange;
 
-/* A row, made of the points around each of it: the middle one of three in `line`. */
-typedef void SurfaceFilterRow(const float *line, const float *tap, int32_t pairs, int32_t first, int32_t last, float *out);
+/* Writes the points of a block that are `within`, filtered along an axis. `beside`: the block before it, itself and the one behind. */
+typedef void SurfaceFiltering(const SurfaceFilter *filter, const SurfaceRange *within, int32_t axis, const float *const beside[3], float *out);
+
+/* Of the points of a block where T (`more`) is not 0: adds to `enclosed`, for each share k, the room of those with F + k T >= level; and to *held that of F. */
+typedef void SurfaceWeigh(const float *own, const float *more, const float *room, float level, float share_step, float *enclosed, float *held);
 
 typedef struct SkinKernels {
     SurfaceSplat *splat;
-    SurfaceFilter *filter;
-    SurfaceFilterRow *filter_row;
+    SurfaceFiltering *filter;
+    SurfaceWeigh *weigh;
 } SkinKernels;
 
 /* `isa` is supported. */

@@ -155,22 +155,10 @@ static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
 /* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
 static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
 
-/* Rounded up. */
-static int whole_steps(float steps) { return (int)steps + (steps > (float)(int)steps); }
-
-/* Of places where F and T have these values: what there is, and what each step of the share adds to what the surface encloses. `room`: what a place counts. T is
- * below 0 only by a ripple of S. */
-static void weigh_places(SkinBlock *block, float level, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
+/* Of places where F and T have these values: what there is, and what each share makes the surface enclose. `room`: what a place counts. */
+static void weigh_places(const ThinJob *job, SkinBlock *block, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
 {
-    for (int i = 0; i < BLOCK_POINTS; i++) {
-        if (more[i] == 0.0f) continue;
-        const float lacks = level - own[i], steps = lacks / (more[i] * share_at(1.0f));
-        block->thin += room[i] * own[i];
-        if (lacks <= 0.0f)
-            block->enclosed[0] += room[i];
-        else if (steps > 0.0f && steps <= THICKENINGS)
-            block->enclosed[whole_steps(steps)] += room[i];
-    }
+    job->work->kernels->weigh(own, more, room, job->level, share_at(1.0f), block->enclosed, &block->thin);
 }
 
 /* 1 in the open, 0 in obstacles. */
@@ -185,7 +173,7 @@ static void weigh_corners(const ThinJob *job, SkinBlock *block, const float *own
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
     if (block->bounded) find_open(job->work->gaps + (own - job->values), room, BLOCK_POINTS);
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= CORNER_WEIGHT;
-    weigh_places(block, job->level, own, more, room);
+    weigh_places(job, block, own, more, room);
 }
 
 static void weigh_middles(const ThinJob *job, SkinBlock *block)
@@ -202,7 +190,7 @@ static void weigh_middles(const ThinJob *job, SkinBlock *block)
     find_means(box, own);
     blocks_gather(block, job->more, box);
     find_means(box, more);
-    weigh_places(block, job->level, own, more, room);
+    weigh_places(job, block, own, more, room);
 }
 
 /* Where T reaches no block, it is 0. */
@@ -223,7 +211,6 @@ static void weigh_blocks(void *context, int32_t begin, int32_t end)
         if (!block->wanted) continue;
         weigh_corners(job, block, job->values + first_point(b), job->more + first_point(b));
         weigh_middles(job, block);
-        for (int k = 0; k < THICKENINGS; k++) block->enclosed[k + 1] += block->enclosed[k];
     }
 }
 
