@@ -109,3 +109,28 @@ export void surface_weigh(const uniform float own[], const uniform float more[],
     for (uniform int k = 0; k <= K_THICKENINGS; k++) enclosed[k] += total(sum[k]);
     *held += total(filled);
 }
+
+// Means over the corners of the cubes above a block's points; `box` has the block and what is around it.
+export void surface_means(const uniform float box[], uniform float mean[]) {
+    for (uniform int row = 0; row < POINTS * POINTS; row++)
+        for (uniform int x = 0; x < POINTS; x += programCount) {
+            const uniform float *uniform low = box + ((row / POINTS + BOX_MARGIN) * BOX_AXIS + row % POINTS + BOX_MARGIN) * BOX_AXIS + BOX_MARGIN + x;
+            float sum = 0.0f;
+#pragma unroll
+            for (uniform int c = 0; c < 4; c++) {
+                const uniform float *uniform pair = low + (c / 2 * BOX_AXIS + c % 2) * BOX_AXIS;
+                sum += pair[programIndex] + pair[1 + programIndex];
+            }
+            mean[row * POINTS + x + programIndex] = 0.125f * sum;
+        }
+}
+
+export void surface_bound(const uniform float values[], uniform float *uniform least, uniform float *uniform most) {
+    float lowest = values[programIndex], highest = values[programIndex];
+    for (uniform int i = programCount; i < POINTS * POINTS * POINTS; i += programCount) {
+        lowest = min(lowest, values[i + programIndex]);
+        highest = max(highest, values[i + programIndex]);
+    }
+    *least = reduce_min(lowest);
+    *most = reduce_max(highest);
+}

@@ -182,6 +182,8 @@ typedef struct Reach {
     int32_t below, above;
 } Reach;
 
+/* What particles give to: the narrow spline with subdivision 2. */
+static const Reach splatted[3] = {{0, 0}, {1, 2}, {1, 3}};
 /* What W reaches, and one more below: the corners of all cubes that a surface may cut. */
 static const Reach touched[3] = {{0, 0}, {2, 1}, {4, 4}};
 /* All that a particle changes. */
@@ -300,7 +302,7 @@ static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, 
 static void add_box(const SkinBlocks *blocks, const SkinBlock *block, int n, const float *boxes, float sum[BLOCK_POINTS])
 {
     const int32_t other = block->neighbour[n];
-    if (other == GRID_NOWHERE || !cells_any(&blocks_at(blocks, other)->splatted)) return;
+    if (other == GRID_NOWHERE || !leads_to(blocks, &blocks_at(blocks, other)->splatted, splatted[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) return;
     /* The neighbour at `way` sees this block at -way. */
     add_stretches(&seen[2 - n % 3], &seen[2 - n / 3 % 3], &seen[2 - n / 9], boxes + (size_t)other * BOX_POINTS, sum);
 }

@@ -301,7 +301,7 @@ static void cut_blocks(void *context, int32_t begin, int32_t end)
             const float most = cut_at(job->level, job->work->gaps[i]);
             job->values[i] = job->values[i] < most ? job->values[i] : most;
         }
-        field_bound(block, job->values + first);
+        field_bound(job->work, block, job->values + first);
     }
 }
 

@@ -101,23 +101,7 @@ static const float *points_beside(const SplatJob *job, const SkinBlock *block, i
     return other != GRID_NOWHERE && blocks_at(job->work->blocks, other)->wanted ? job->from + (size_t)other * BLOCK_POINTS : nothing;
 }
 
-void field_bound(SkinBlock *block, const float values[BLOCK_POINTS])
-{
-    float least[BLOCK_AXIS], most[BLOCK_AXIS];
-    memcpy(least, values, sizeof least);
-    memcpy(most, values, sizeof most);
-    for (int row = BLOCK_AXIS; row < BLOCK_POINTS; row += BLOCK_AXIS)
-        for (int i = 0; i < BLOCK_AXIS; i++) {
-            least[i] = values[row + i] < least[i] ? values[row + i] : least[i];
-            most[i] = values[row + i] > most[i] ? values[row + i] : most[i];
-        }
-    block->least = least[0];
-    block->most = most[0];
-    for (int i = 1; i < BLOCK_AXIS; i++) {
-        block->least = least[i] < block->least ? least[i] : block->least;
-        block->most = most[i] > block->most ? most[i] : block->most;
-    }
-}
+void field_bound(const FieldWork *work, SkinBlock *block, const float values[BLOCK_POINTS]) { work->kernels->bound(values, &block->least, &block->most); }
 
 void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS])
 {
@@ -151,7 +135,7 @@ static void finish_blocks(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(job->work->blocks, b);
         if (!block->wanted) continue;
         field_close_off(block, job->values + (size_t)b * BLOCK_POINTS);
-        field_bound(block, job->values + (size_t)b * BLOCK_POINTS);
+        field_bound(job->work, block, job->values + (size_t)b * BLOCK_POINTS);
     }
 }
 

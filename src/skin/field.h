@@ -66,6 +66,6 @@ void field_collect(const FieldWork *work, float *values);
  * has no vertices: thus the surface is closed whatever the field is. */
 void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS]);
 /* Notes the least and the most of a block. */
-void field_bound(SkinBlock *block, const float values[BLOCK_POINTS]);
+void field_bound(const FieldWork *work, SkinBlock *block, const float values[BLOCK_POINTS]);
 
 #endif

@@ -1,10 +1,15 @@
 #include "skin/skin_kernels.h"
 
-#define DECLARE(suffix) \
+#define DECLARE(suffix)                      \
     SurfaceSplat surface_splat##suffix;      \
     SurfaceFiltering surface_filter##suffix; \
-    SurfaceWeigh surface_weigh##suffix;
-#define TABLE(suffix) {surface_splat##suffix, surface_filter##suffix, surface_weigh##suffix}
+    SurfaceWeigh surface_weigh##suffix;      \
+    SurfaceMeans surface_means##suffix;      \
+    SurfaceBound surface_bound##suffix;
+#define TABLE(suffix)                                                                                               \
+    {                                                                                                               \
+        surface_splat##suffix, surface_filter##suffix, surface_weigh##suffix, surface_means##suffix, surface_bound##suffix \
+    }
 
 #if defined(__aarch64__) || defined(__wasm__) /* with a single target ISPC puts nothing behind names */
 

@@ -17,10 +17,18 @@ typedef void SurfaceFiltering(const SurfaceFilter *filter, const SurfaceRange *w
 /* Of the points of a block where T (`more`) is not 0: adds to `enclosed`, for each share k, the room of those with F + k T >= level; and to *held that of F. */
 typedef void SurfaceWeigh(const float *own, const float *more, const float *room, float level, float share_step, float *enclosed, float *held);
 
+/* Means over the corners of the cubes above a block's points; `box` has the block and what is around it. */
+typedef void SurfaceMeans(const float *box, float *mean);
+
+/* The least and the most of a block's points. */
+typedef void SurfaceBound(const float *values, float *least, float *most);
+
 typedef struct SkinKernels {
     SurfaceSplat *splat;
     SurfaceFiltering *filter;
     SurfaceWeigh *weigh;
+    SurfaceMeans *means;
+    SurfaceBound *bound;
 } SkinKernels;
 
 /* `isa` is supported. */

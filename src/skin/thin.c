@@ -137,21 +137,6 @@ static void thicken_blocks(void *context, int32_t begin, int32_t end)
 
 static float share_at(float step) { return step * SHARE_MOST / THICKENINGS; }
 
-/* Means over the corners of the cubes above a block's points. */
-static void find_means(const float box[BOX_POINTS], float mean[BLOCK_POINTS])
-{
-    enum { PLANE = BOX_AXIS * BOX_AXIS, BEGIN = BOX_MARGIN * PLANE, END = BEGIN + (BLOCK_AXIS + 1) * PLANE };
-    float pair[END - BEGIN], four[PLANE];
-    for (int i = BEGIN; i < END; i++) pair[i - BEGIN] = box[i] + box[i + 1];
-    for (int z = 0; z < BLOCK_AXIS; z++) {
-        for (int i = 0; i < PLANE; i++) four[i] = pair[z * PLANE + i] + pair[(z + 1) * PLANE + i];
-        for (int y = 0; y < BLOCK_AXIS; y++) {
-            const float *row = four + (y + BOX_MARGIN) * BOX_AXIS + BOX_MARGIN;
-            for (int x = 0; x < BLOCK_AXIS; x++) mean[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.125f * (row[x] + row[x + BOX_AXIS]);
-        }
-    }
-}
-
 /* Simpson's rule for a cube: its middle counts 2/3, its corners 1/3 together. It is exact for cubic functions. */
 static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
 
@@ -178,18 +163,19 @@ static void weigh_corners(const ThinJob *job, SkinBlock *block, const float *own
 
 static void weigh_middles(const ThinJob *job, SkinBlock *block)
 {
+    SurfaceMeans *means = job->work->kernels->means;
     float box[BOX_POINTS], own[BLOCK_POINTS], more[BLOCK_POINTS], room[BLOCK_POINTS];
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
     if (block->bounded) {
         blocks_gather(block, job->work->gaps, box);
         find_open(box, box, BOX_POINTS);
-        find_means(box, room);
+        means(box, room);
     }
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= MIDDLE_WEIGHT;
     blocks_gather(block, job->values, box);
-    find_means(box, own);
+    means(box, own);
     blocks_gather(block, job->more, box);
-    find_means(box, more);
+    means(box, more);
     weigh_places(job, block, own, more, room);
 }
 
@@ -259,7 +245,7 @@ static void add_block(const ThinJob *job, SkinBlock *block, float *values, const
         }
     }
     field_close_off(block, values);
-    field_bound(block, values);
+    field_bound(job->work, block, values);
 }
 
 static void add_blocks(void *context, int32_t begin, int32_t end)
