@@ -321,23 +321,30 @@ bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)
     return false;
 }
 
-void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block)
+/* The points of a block that particles in these cells of its neighbour at `way` change. */
+static CellBox reached_from(const SkinBlocks *blocks, const CellBox *cells, const int32_t way[3])
 {
     const Reach reach = changed[blocks->subdivision];
-    block->reached = cells_none();
+    CellBox box;
+    for (int a = 0; a < 3; a++) {
+        const int32_t low = way[a] * BLOCK_AXIS + cells->low[a] * blocks->subdivision - reach.below;
+        const int32_t high = way[a] * BLOCK_AXIS + cells->high[a] * blocks->subdivision + reach.above;
+        box.low[a] = low < 0 ? 0 : low;
+        box.high[a] = high < BLOCK_AXIS ? high : BLOCK_AXIS - 1;
+    }
+    return box;
+}
+
+void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block)
+{
+    CellBox reached = cells_none();
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-        const int32_t *way = way_of[n];
-        int32_t low[3], high[3];
         if (block->neighbour[n] == GRID_NOWHERE) continue;
         const CellBox *cells = &blocks_at(blocks, block->neighbour[n])->splatted;
-        if (!leads_to(blocks, cells, reach, way_of[BLOCK_NEIGHBOURS - 1 - n])) continue;
-        for (int a = 0; a < 3; a++) {
-            low[a] = way[a] * BLOCK_AXIS + cells->low[a] * blocks->subdivision - reach.below;
-            high[a] = way[a] * BLOCK_AXIS + cells->high[a] * blocks->subdivision + reach.above;
-            low[a] = low[a] < 0 ? 0 : low[a];
-            high[a] = high[a] < BLOCK_AXIS ? high[a] : BLOCK_AXIS - 1;
-        }
-        cells_add(&block->reached, low);
-        cells_add(&block->reached, high);
+        if (!leads_to(blocks, cells, changed[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) continue;
+        const CellBox from = reached_from(blocks, cells, way_of[n]);
+        cells_add(&reached, from.low);
+        cells_add(&reached, from.high);
     }
+    block->reached = reached;
 }

@@ -163,12 +163,15 @@ static void reflect(const Part *part, const Face *face, int set, const double lo
         for (int a = 0; a < 3 && set >> f & 1; a++) image[a] -= 2.0 * face[f].distance * face[f].normal[a] * part->work->blocks->subdivision;
 }
 
+static double hidden_by(const Part *part, const Near *near, const double place[3]) { return 0.5 - field_distance(near, place) * part->work->blocks->subdivision; }
+
 /* The share of an image that lies in obstacles: beside the end of a wall is open space, whose matter is no image. */
 static float hidden_share(const Part *part, const double image[3])
 {
     double place[3];
     place_of(part, image, place);
-    const double share = 0.5 - field_distance(&part->around, place) * part->work->blocks->subdivision;
+    double share = hidden_by(part, &part->beside, place);
+    if (share < 1.0) share = hidden_by(part, &part->around, place); /* it is no less */
     return share < 0.0 ? 0.0f : share > 1.0 ? 1.0f : (float)share;
 }
 

@@ -224,11 +224,14 @@ static void choose_shares(void *context, int32_t begin, int32_t end)
 
 /* ---- F + k T ---- */
 
+/* How far a point is before (below 0) or behind (above 0) the middle of its block [blocks]. */
+static const float from_middle[BLOCK_AXIS] = {-7 / 16.0f, -5 / 16.0f, -3 / 16.0f, -1 / 16.0f, 1 / 16.0f, 3 / 16.0f, 5 / 16.0f, 7 / 16.0f};
+
 /* From three values at the middles of blocks along an axis: that at a point of the block between. */
-static float from_middles(const float *value, int step, int point)
+static inline float from_middles(const float *value, int step, int point)
 {
-    const float at = ((float)point + 0.5f) / BLOCK_AXIS - 0.5f;
-    return at < 0.0f ? value[step] + at * (value[step] - value[0]) : value[step] + at * (value[2 * step] - value[step]);
+    const float before = from_middle[point] < 0.0f ? from_middle[point] : 0.0f, behind = from_middle[point] - before;
+    return value[step] + before * (value[step] - value[0]) + behind * (value[2 * step] - value[step]);
 }
 
 static void add_block(const ThinJob *job, SkinBlock *block, float *values, const float *more)
