@@ -46,9 +46,9 @@ export void surface_splat(const uniform float x[], const uniform float y[], cons
 
 static const uniform int step_of[3] = {1, POINTS, POINTS * POINTS};
 
-// Along axis 1 or 2; rows along x at once.
-static inline void filter_across_x(const uniform struct SurfaceFilter &filter, const uniform struct SurfaceRange &within, uniform int axis, const uniform float *uniform const uniform beside[3],
-                                   uniform float out[]) {
+// Along axis 1 or 2; rows along x at once. `pairs` is a constant where it is called: so the loop over taps has no end to test.
+static inline void filter_across_x(const uniform struct SurfaceFilter &filter, uniform int pairs, const uniform struct SurfaceRange &within, uniform int axis,
+                                   const uniform float *uniform const uniform beside[3], uniform float out[]) {
     const uniform int third = 3 - axis, step = step_of[axis];
     const uniform float *uniform row[3 * POINTS];
     for (uniform int i = 0; i < 3 * POINTS; i++) row[i] = beside[i / POINTS] + i % POINTS * step;
@@ -57,13 +57,15 @@ static inline void filter_across_x(const uniform struct SurfaceFilter &filter, c
             for (uniform int x = 0; x < POINTS; x += programCount) {
                 const uniform int offset = plane * step_of[third] + x, low = POINTS + at + filter.first, high = POINTS + at + filter.last;
                 float sum = 0.0f;
-                for (uniform int p = 0; p < filter.pairs; p++) sum += filter.tap[p] * (row[low + p][offset + programIndex] + row[high - p][offset + programIndex]);
+#pragma unroll
+                for (uniform int p = 0; p < pairs; p++) sum += filter.tap[p] * (row[low + p][offset + programIndex] + row[high - p][offset + programIndex]);
                 out[offset + at * step + programIndex] = sum;
             }
 }
 
 // Lines are laid out first: what has just been written cannot be read at another offset without waiting.
-static inline void filter_along_x(const uniform struct SurfaceFilter &filter, const uniform struct SurfaceRange &within, const uniform float *uniform const uniform beside[3], uniform float out[]) {
+static inline void filter_along_x(const uniform struct SurfaceFilter &filter, uniform int pairs, const uniform struct SurfaceRange &within,
+                                  const uniform float *uniform const uniform beside[3], uniform float out[]) {
     uniform float line[POINTS * POINTS][3 * POINTS];
     for (uniform int z = within.low[2]; z <= within.high[2]; z++)
         for (uniform int y = within.low[1]; y <= within.high[1]; y++)
@@ -71,24 +73,48 @@ static inline void filter_along_x(const uniform struct SurfaceFilter &filter, co
                 for (uniform int x = 0; x < POINTS; x += programCount)
                     line[z * POINTS + y][side * POINTS + x + programIndex] = beside[side][(z * POINTS + y) * POINTS + x + programIndex];
     for (uniform int z = within.low[2]; z <= within.high[2]; z++)
-        for (uniform int y = within.low[1]; y <= within.high[1]; y++) {
-            const uniform float *uniform own = line[z * POINTS + y] + POINTS;
+        for (uniform int y = within.low[1]; y <= within.high[1]; y++)
             for (uniform int x = 0; x < POINTS; x += programCount) {
+                const uniform float *uniform own = &line[z * POINTS + y][POINTS + x];
                 float sum = 0.0f;
-                for (uniform int p = 0; p < filter.pairs; p++)
-                    sum += filter.tap[p] * (own[filter.first + p + x + programIndex] + own[filter.last - p + x + programIndex]);
+#pragma unroll
+                for (uniform int p = 0; p < pairs; p++) sum += filter.tap[p] * (own[filter.first + p + programIndex] + own[filter.last - p + programIndex]);
                 out[(z * POINTS + y) * POINTS + x + programIndex] = sum;
             }
-        }
+}
+
+static inline void filter_along(const uniform struct SurfaceFilter &filter, uniform int pairs, const uniform struct SurfaceRange &within, uniform int axis,
+                                const uniform float *uniform const uniform beside[3], uniform float out[]) {
+    if (axis == 0)
+        filter_along_x(filter, pairs, within, beside, out);
+    else
+        filter_across_x(filter, pairs, within, axis, beside, out);
 }
 
 // Writes the points of a block that are `within`, made of those before and behind them along an axis. `beside`: the blocks before it, itself and behind it.
 export void surface_filter(const uniform struct SurfaceFilter *uniform filter, const uniform struct SurfaceRange *uniform within, uniform int axis,
                            const uniform float *uniform const uniform beside[], uniform float out[]) {
-    if (axis == 0)
-        filter_along_x(*filter, *within, beside, out);
+    if (filter->pairs == 2)
+        filter_along(*filter, 2, *within, axis, beside, out);
     else
-        filter_across_x(*filter, *within, axis, beside, out);
+        filter_along(*filter, 4, *within, axis, beside, out);
+}
+
+// Adds what three boxes side by side along x say of rows of points. The box before has them behind its own points, the one behind has them before; either may be null.
+export void surface_add(const uniform float *uniform const uniform box[], uniform int rows, uniform int planes, uniform float out[]) {
+    for (uniform int k = 0; k < planes; k++)
+        for (uniform int j = 0; j < rows; j++) {
+            const uniform int row = (k * BOX_AXIS + j) * BOX_AXIS;
+            uniform float *uniform sum = out + (k * POINTS + j) * POINTS;
+            for (uniform int x = 0; x < POINTS; x += programCount) {
+                const int at = x + programIndex;
+                float own = sum[at];
+                if (box[1] != NULL) own += box[1][row + BOX_MARGIN + at];
+                if (box[0] != NULL && x < BOX_MARGIN && at < BOX_MARGIN) own += box[0][row + BOX_MARGIN + POINTS + at];
+                if (box[2] != NULL && x + programCount > POINTS - BOX_MARGIN && at >= POINTS - BOX_MARGIN) own += box[2][row + at + BOX_MARGIN - POINTS];
+                sum[at] = own;
+            }
+        }
 }
 
 // Of the points of a block where T (`more`) is not 0: adds to `enclosed`, for each share k, the room of those with F + k T >= level; and to `held` that of F.

@@ -281,37 +281,26 @@ void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_PO
     }
 }
 
-static inline void add_row(const float *from, float *sum, int count)
-{
-    for (int i = 0; i < count; i++) sum[i] += from[i];
-}
-
-static void add_stretches(const Stretch *x, const Stretch *y, const Stretch *z, const float *box, float *sum)
-{
-    for (int k = 0; k < z->count; k++)
-        for (int j = 0; j < y->count; j++) {
-            const float *row = &box[((z->of_box + k) * BOX_AXIS + y->of_box + j) * BOX_AXIS + x->of_box];
-            float *out = &sum[((z->of_block + k) * BLOCK_AXIS + y->of_block + j) * BLOCK_AXIS + x->of_block];
-            if (x->count == BLOCK_AXIS) /* of constant length they are worked on as a whole */
-                add_row(row, out, BLOCK_AXIS);
-            else
-                add_row(row, out, BOX_MARGIN);
-        }
-}
-
-static void add_box(const SkinBlocks *blocks, const SkinBlock *block, int n, const float *boxes, float sum[BLOCK_POINTS])
+/* The box of a neighbour, if what it says of the block is not nothing. */
+static const float *box_beside(const SkinBlocks *blocks, const SkinBlock *block, int n, const float *boxes)
 {
     const int32_t other = block->neighbour[n];
-    if (other == GRID_NOWHERE || !leads_to(blocks, &blocks_at(blocks, other)->splatted, splatted[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) return;
-    /* The neighbour at `way` sees this block at -way. */
-    add_stretches(&seen[2 - n % 3], &seen[2 - n / 3 % 3], &seen[2 - n / 9], boxes + (size_t)other * BOX_POINTS, sum);
+    if (other == GRID_NOWHERE || !leads_to(blocks, &blocks_at(blocks, other)->splatted, splatted[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) return NULL;
+    return boxes + (size_t)other * BOX_POINTS;
 }
 
-void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
+void blocks_sum(const SkinBlocks *blocks, const SkinKernels *kernels, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
 {
-    const SkinBlock *block = blocks_at(blocks, b);
     memset(sum, 0, BLOCK_POINTS * sizeof *sum);
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) add_box(blocks, block, n, boxes, sum);
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n += 3) {
+        const Stretch *y = &seen[2 - n / 3 % 3], *z = &seen[2 - n / 9]; /* the neighbour at `way` sees this block at -way */
+        const float *box[3];
+        for (int side = 0; side < 3; side++) {
+            box[side] = box_beside(blocks, blocks_at(blocks, b), n + side, boxes);
+            if (box[side]) box[side] += (z->of_box * BOX_AXIS + y->of_box) * BOX_AXIS;
+        }
+        if (box[0] || box[1] || box[2]) kernels->add(box, y->count, z->count, sum + (z->of_block * BLOCK_AXIS + y->of_block) * BLOCK_AXIS);
+    }
 }
 
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block)

@@ -10,7 +10,7 @@
 #include "grid/grid.h"
 #include "matter/particles.h"
 #include "skin/matter.h"
-#include "surface_types.h"
+#include "skin/skin_kernels.h"
 
 enum {
     BLOCK_AXIS = 8,
@@ -95,7 +95,7 @@ void blocks_free(SkinBlocks *blocks, Memory *memory);
 /* Of an array with BLOCK_POINTS numbers per block: writes those of a box; 0 where no block is. */
 void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS]);
 /* Of an array with a box for each block that has particles: what the boxes that are splatted say of the points of a block, added up. */
-void blocks_sum(const SkinBlocks *blocks, int32_t b, const float *boxes, float sum[BLOCK_POINTS]);
+void blocks_sum(const SkinBlocks *blocks, const SkinKernels *kernels, int32_t b, const float *boxes, float sum[BLOCK_POINTS]);
 
 /* Whether a block or one beside it has vertices. */
 bool blocks_near_surface(const SkinBlocks *blocks, const SkinBlock *block);

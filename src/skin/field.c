@@ -85,7 +85,7 @@ static void sum_blocks(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(blocks, b);
         blocks_find_reached(blocks, block);
         block->wanted = cells_any(&block->reached) && (!job->at_surface || blocks_near_surface(blocks, block));
-        if (block->wanted) blocks_sum(blocks, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
+        if (block->wanted) blocks_sum(blocks, job->work->kernels, b, job->work->boxes, job->work->sums + (size_t)b * BLOCK_POINTS);
     }
 }
 

@@ -16,7 +16,6 @@
 
 #include "skin/blocks.h"
 #include "skin/matter.h"
-#include "skin/skin_kernels.h"
 
 /* What particles count: `count` of them from a row on. */
 typedef void FieldAmount(const SkinMatter *matter, uint32_t row, uint32_t count, int channel, float *amount);

@@ -3,12 +3,13 @@
 #define DECLARE(suffix)                      \
     SurfaceSplat surface_splat##suffix;      \
     SurfaceFiltering surface_filter##suffix; \
+    SurfaceAdd surface_add##suffix;          \
     SurfaceWeigh surface_weigh##suffix;      \
     SurfaceMeans surface_means##suffix;      \
     SurfaceBound surface_bound##suffix;
-#define TABLE(suffix)                                                                                               \
-    {                                                                                                               \
-        surface_splat##suffix, surface_filter##suffix, surface_weigh##suffix, surface_means##suffix, surface_bound##suffix \
+#define TABLE(suffix)                                                                                                                           \
+    {                                                                                                                                           \
+        surface_splat##suffix, surface_filter##suffix, surface_add##suffix, surface_weigh##suffix, surface_means##suffix, surface_bound##suffix \
     }
 
 #if defined(__aarch64__) || defined(__wasm__) /* with a single target ISPC puts nothing behind names */
