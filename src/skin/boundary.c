@@ -146,12 +146,33 @@ static float field_at(const SkinBlock *block, const float *values, const double 
     return sum;
 }
 
-/* The planes around a point: of an obstacle by itself that of its nearest place. A baked one may have hollows. */
-static int planes_at(const Near *near, const double place[3], Face face[FIELD_FACES])
+/* What a point sees of obstacles. */
+typedef struct Sight {
+    double gap;  /* how far [cells] the nearest is */
+    int count;   /* how many are within BESIDE_REACH */
+    const Obstacle *nearest;
+} Sight;
+
+static Sight look_around(const Part *part, const double place[3])
 {
-    const Solid *solid = field_solid(near, near->obstacle[0]);
-    if (near->count > 1 || solid->grid) return field_faces(near, place, IMAGE_REACH, face);
-    face[0].distance = solid_distance(solid, place, face[0].normal) / near->cell_size;
+    Sight sight = {.gap = INFINITY};
+    for (int i = 0; i < part->beside.count; i++) {
+        const Obstacle *o = part->beside.obstacle[i];
+        const double gap = solid_gap(field_solid(&part->beside, o), place) / part->beside.cell_size;
+        sight.count += gap < BESIDE_REACH;
+        if (gap >= sight.gap) continue;
+        sight.gap = gap;
+        sight.nearest = o;
+    }
+    return sight;
+}
+
+/* The planes around a point: of an obstacle by itself that of its nearest place. A baked one may have hollows. */
+static int planes_at(const Part *part, const Sight *sight, const double place[3], Face face[FIELD_FACES])
+{
+    const Solid *solid = field_solid(&part->beside, sight->nearest);
+    if (sight->count > 1 || solid->grid) return field_faces(&part->beside, place, IMAGE_REACH, face);
+    face[0].distance = solid_distance(solid, place, face[0].normal) / part->beside.cell_size;
     return 1;
 }
 
@@ -176,12 +197,12 @@ static float hidden_share(const Part *part, const double image[3])
 }
 
 /* F at a point and at all that it is reflected to. Of a point in an obstacle it is that of its reflection before it. */
-static float with_images(const Part *part, const float *values, const double local[3], const double place[3], float at_point)
+static float with_images(const Part *part, const Sight *sight, const float *values, const double local[3], const double place[3], float at_point)
 {
     double image[3];
     Face face[FIELD_FACES];
     int before = 0;
-    const int count = planes_at(&part->beside, place, face);
+    const int count = planes_at(part, sight, place, face);
     for (int f = 0; f < count; f++) before |= (face[f].distance < 0.0) << f;
     reflect(part, face, before, local, image);
     const float own = before ? field_at(part->block, values, image) : at_point;
@@ -207,11 +228,12 @@ static void mirror_point(const BoundaryJob *job, Part *part, int i, const float 
     double local[3], place[3];
     point_of(i, local);
     place_of(part, local, place);
-    *gap = (float)field_distance(&part->beside, place);
+    const Sight sight = look_around(part, place);
+    *gap = (float)sight.gap;
     part->block->bounded = true;
     if ((double)*gap <= -deepest || (double)*gap >= IMAGE_REACH) return;
     /* Whole matter has an image like itself. */
-    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, job->values, local, place, *own);
+    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, &sight, job->values, local, place, *own);
 }
 
 /* Whether a part of a row has a point that counts. */
