@@ -106,6 +106,56 @@ def test_mesh_files(world: pbmpm.World, tmp_path: Path) -> None:
     assert np.hypot(np.hypot(vertices["nx"], vertices["ny"]), vertices["nz"]) == pytest.approx(1, abs=1e-5)
 
 
+@pytest.fixture
+def three(world: pbmpm.World) -> list[pbmpm.Mesh]:
+    """Surfaces of three materials, the second of which has no matter."""
+    materials = [world.add_material(it) for it in (pbmpm.Liquid(), pbmpm.Elastic(), pbmpm.Elastic())]
+    for material, x in ((materials[0], 0), (materials[2], 2)):
+        world.fill(pbmpm.Box((x, 0, 0), (0.3, 0.3, 0.3)), material)
+    return [world.surface([material]) for material in materials]
+
+
+COLOURS = np.float32([[10, 20, 30], [0, 0, 0], [40, 50, 60]])
+
+
+def test_mesh_files_for_engines(three: list[pbmpm.Mesh], tmp_path: Path) -> None:
+    import trimesh
+
+    write_mesh(three, COLOURS, 0, tmp_path / "a.glb")
+    objects = trimesh.load_scene(tmp_path / "a.glb", process=False).geometry
+    assert set(objects) == {"material_0", "material_2"}
+    for row in (0, 2):
+        it, mesh = objects[f"material_{row}"], three[row]
+        assert it.is_watertight and (it.faces == mesh.triangles).all() and (it.visual.vertex_colors[:, :3] == COLOURS[row]).all()
+        assert np.allclose(it.vertices, mesh.positions, atol=1e-6) and np.allclose(it.vertex_normals, mesh.normals, atol=1e-6)
+
+
+def test_mesh_files_of_text(three: list[pbmpm.Mesh], tmp_path: Path) -> None:
+    write_mesh(three, COLOURS, 0, tmp_path / "a.obj")
+    lines = [line.split() for line in (tmp_path / "a.obj").read_text().splitlines() if line]
+    vertices, normals = (np.float32([line[1:4] for line in lines if line[0] == key]) for key in ("v", "vn"))
+    faces = np.int64([[corner.split("/")[0] for corner in line[1:]] for line in lines if line[0] == "f"])
+    assert [line[1] for line in lines if line[0] == "o"] == ["material_0", "material_2"]
+    assert np.allclose(vertices, np.concatenate([it.positions for it in three]), atol=1e-6)
+    assert np.allclose(normals, np.concatenate([it.normals for it in three]), atol=1e-6)
+    assert (faces == np.concatenate([three[0].triangles, three[2].triangles + len(three[0].positions)]) + 1).all()
+
+
+@pytest.mark.parametrize("kind", ["ply", "obj", "glb"])
+def test_mesh_files_of_nothing(world: pbmpm.World, tmp_path: Path, kind: str) -> None:
+    write_mesh([world.surface([world.add_material(pbmpm.Liquid())], velocities=True)], np.float32([[10, 20, 30]]), 0, tmp_path / f"a.{kind}")
+    assert (tmp_path / f"a.{kind}").stat().st_size > 0
+
+
+def test_the_command_writes_the_format(tmp_path: Path) -> None:
+    from click.testing import CliRunner
+
+    scene = Path(__file__).resolve().parents[2] / "samples/scenes/glass_jelly_3d.json"
+    result = CliRunner().invoke(cli, ["run", str(scene), "--mesh-format", "glb", "--seconds", "0.03", "--pictures", "", "--output", str(tmp_path / "out")])
+    assert result.exit_code == 0, result.output
+    assert len(list((tmp_path / "out").glob("*_mesh.glb"))) == 2 and not list((tmp_path / "out").glob("*.ply"))
+
+
 def test_flat_scenes_have_no_mesh_files() -> None:
     from click.testing import CliRunner
 

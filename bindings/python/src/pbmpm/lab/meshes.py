@@ -1,4 +1,4 @@
-"""Surfaces as PLY files that Blender and Houdini read: positions, normals, velocities, a colour per material, triangles."""
+"""Surfaces as files that Blender, Houdini and game engines read: positions, normals, a colour per material, triangles; PLY has velocities, too."""
 
 from __future__ import annotations
 
@@ -16,8 +16,40 @@ _VERTEX = [(name, "<f4") for name in ("x", "y", "z", "nx", "ny", "nz", "vx", "vy
 _VERTEX += [(name, "u1") for name in ("red", "green", "blue", "alpha", "material")]
 
 
+#: What `write_mesh` writes.
+MESH_FORMATS = ("ply", "obj", "glb")
+
+
 def write_mesh(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, time: float, path: Path) -> None:
-    """A binary little-endian PLY of one surface per material of the scene, in their order; ``colours`` has one for each, from 0 to 255."""
+    """One surface per material of the scene, in their order; ``colours`` has one for each, from 0 to 255. The suffix of ``path`` is one of `MESH_FORMATS`."""
+    if path.suffix == ".ply":
+        _write_ply(meshes, colours, time, path)
+    else:
+        _write_objects(meshes, colours, path)
+
+
+def _write_objects(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, path: Path) -> None:
+    """OBJ or GLB: an object for each material that has a surface, named material_ROW. GLB's axes are ours if y points up."""
+    from trimesh import Scene, Trimesh
+    from trimesh.exchange.gltf import export_glb
+    from trimesh.exchange.obj import export_obj
+
+    scene = Scene()
+    for row, mesh in enumerate(meshes):
+        if not len(mesh.triangles):
+            continue
+        shades = np.tile(np.uint8([*colours[row], 255]), (len(mesh.positions), 1))
+        surface = Trimesh(mesh.positions, mesh.triangles, vertex_normals=mesh.normals, vertex_colors=shades, process=False, validate=False)
+        scene.add_geometry(surface, geom_name=f"material_{row}")
+    with replace_when_complete(path) as temporary:
+        if path.suffix == ".glb":
+            temporary.write_bytes(export_glb(scene, include_normals=True))
+        else:
+            temporary.write_text(export_obj(scene, include_normals=True) if scene.geometry else "# no surface\n")
+
+
+def _write_ply(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, time: float, path: Path) -> None:
+    """Binary, little-endian."""
     from plyfile import PlyData, PlyElement
 
     vertices = np.concatenate([_vertices(mesh, row, colours[row]) for row, mesh in enumerate(meshes)])

@@ -32,10 +32,10 @@ UNITS = {
 class Sequence:
     """Writes the frames of one run into a folder and keeps the index and the sidecar up to date."""
 
-    def __init__(self, folder: Path, name: str, facts: dict[str, Any], ply: bool, vtk: bool, colours: np.ndarray | None = None) -> None:
-        """``facts`` is the part of the sidecar that does not change: scene, settings, versions, machine. ``colours`` has one per material, from 0 to 255."""
+    def __init__(self, folder: Path, name: str, facts: dict[str, Any], ply: bool, vtk: bool, colours: np.ndarray | None = None, mesh: str = "ply") -> None:
+        """``mesh`` is the format of surfaces, see `meshes.MESH_FORMATS`. ``facts`` is the part of the sidecar that does not change: scene, settings, versions, machine. ``colours`` has one per material, from 0 to 255."""
         self.folder, self.name = folder, name
-        self.ply, self.vtk, self._colours = ply, vtk, colours
+        self.ply, self.vtk, self._colours, self._mesh = ply, vtk, colours, mesh
         self._sidecar = {"status": "running", "units": UNITS, **facts, "frames": [], "pictures": []}
         folder.mkdir(parents=True, exist_ok=True)
         self.write_sidecar()
@@ -51,7 +51,7 @@ class Sequence:
             entry["vtk"] = f"{stem}.vtu"
             write_vtu(frame, self.folder / entry["vtk"])
         if meshes is not None:
-            entry["mesh"] = f"{stem}_mesh.ply"
+            entry["mesh"] = f"{stem}_mesh.{self._mesh}"
             write_mesh(meshes, self._colours, frame.time, self.folder / entry["mesh"])
         self._sidecar["frames"].append(entry)
         if self.vtk:

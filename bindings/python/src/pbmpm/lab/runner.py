@@ -36,7 +36,8 @@ class OutputOptions:
     folder: Path | None = None
     ply: bool = False
     vtk: bool = False
-    mesh: bool = False
+    mesh: str | None = None
+    """Format of files of surfaces, see `meshes.MESH_FORMATS`."""
     every: int = 1
     """Steps between files of particles and surfaces."""
     picture_times: list[float] = field(default_factory=list)
@@ -144,7 +145,7 @@ class _Recorder:
         self._sequence: Sequence | None = None
         if output.folder is not None:
             facts = _sidecar_facts(scene, settings, simulation)
-            self._sequence = Sequence(output.folder, scene.name, facts, output.ply, output.vtk, material_colours(scene))
+            self._sequence = Sequence(output.folder, scene.name, facts, output.ply, output.vtk, material_colours(scene), output.mesh or "ply")
 
     def after_step(self, simulation: Simulation) -> None:
         """To be called before the first step and after each."""

@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from ..errors import InputError
+from ..meshes import MESH_FORMATS
 from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile, OutputFolder, TimeList, emit_json, ready_folder, run_settings, solver_options
 
 
@@ -33,7 +34,10 @@ from .options import EXIT_CHECK_FAILED, EXIT_INTERRUPTED, JSON_HELP, OutputFile,
 )
 @click.option("--ply", is_flag=True, help="Write a PLY file per frame.")
 @click.option("--vtk", is_flag=True, help="Write a VTU file per frame and a PVD index for ParaView.")
-@click.option("--mesh", is_flag=True, help="Write a PLY file per frame with the surfaces of all materials: triangles, normals, colours. Only in 3D.")
+@click.option("--mesh", is_flag=True, help="Write a file per frame with the surfaces of all materials: triangles, normals, colours. Only in 3D.")
+@click.option(
+    "--mesh-format", type=click.Choice(MESH_FORMATS), help="What --mesh writes, and implies it. PLY has velocities, too.  [default: ply]"
+)
 @click.option("--every", type=click.IntRange(1), help="Steps between PLY/VTK frames.  [default: 30 frames per second]")
 @click.option(
     "--pictures", type=TimeList(), help="Times of PNG pictures [s]; '' for none.  [default: the scene's, with --output]"
@@ -92,9 +96,10 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
     from ..runner import OutputOptions
 
     wanted = options["pictures"]
-    if options["mesh"] and scene.dimension != 3:
+    mesh = options["mesh_format"] or ("ply" if options["mesh"] else None)
+    if mesh and scene.dimension != 3:
         raise InputError("--mesh: surfaces are made in 3D; this scene is in 2D")
-    if options["output"] is None and not (options["ply"] or options["vtk"] or options["mesh"] or wanted):
+    if options["output"] is None and not (options["ply"] or options["vtk"] or mesh or wanted):
         return OutputOptions(video=options["video"])
     folder = options["output"] or Path(f"{scene.name}-output")
     ready_folder(folder)
@@ -103,7 +108,7 @@ def _output(scene, settings, seconds: float, options: dict[str, Any]):
     if late:
         raise InputError(f"--pictures: {late[0]:g} s is after the end of the run at {seconds:g} s")
     every = options["every"] or max(1, round(settings.rate_hz / 30))
-    return OutputOptions(folder, options["ply"], options["vtk"], options["mesh"], every, times, options["video"])
+    return OutputOptions(folder, options["ply"], options["vtk"], mesh, every, times, options["video"])
 
 
 def _summary(report: dict[str, Any]) -> str:
