@@ -135,7 +135,8 @@ def test_mesh_files_of_text(three: list[pbmpm.Mesh], tmp_path: Path) -> None:
     lines = [line.split() for line in (tmp_path / "a.obj").read_text().splitlines() if line]
     vertices, normals = (np.float32([line[1:4] for line in lines if line[0] == key]) for key in ("v", "vn"))
     faces = np.int64([[corner.split("/")[0] for corner in line[1:]] for line in lines if line[0] == "f"])
-    assert [line[1] for line in lines if line[0] == "o"] == ["material_0", "material_2"]
+    shades = np.float32([line[4:7] for line in lines if line[0] == "v"])
+    assert np.allclose(255 * shades, np.repeat(COLOURS, [len(it.positions) for it in three], axis=0), atol=0.01)
     assert np.allclose(vertices, np.concatenate([it.positions for it in three]), atol=1e-6)
     assert np.allclose(normals, np.concatenate([it.normals for it in three]), atol=1e-6)
     assert (faces == np.concatenate([three[0].triangles, three[2].triangles + len(three[0].positions)]) + 1).all()

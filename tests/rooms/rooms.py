@@ -17,7 +17,7 @@ from pathlib import Path
 ROOMS = ("api", "services", "skin", "snapshot", "step", "solvers", "world", "contact", "grid", "matter", "shape", "base")
 _INCLUDE = re.compile(r'^\s*#\s*include\s+"([^"]+)"', re.MULTILINE)
 #: Of other folders than src: the public headers, and what C and the kernels share.
-_FOREIGN = re.compile(r"pbmpm/\w+\.h|kernel_types\.h")
+_FOREIGN = re.compile(r"pbmpm/\w+\.h|(kernel|surface)_types\.h")
 
 
 def included(source: Path) -> dict[str, set[str]]:

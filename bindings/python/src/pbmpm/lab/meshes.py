@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -22,30 +23,42 @@ MESH_FORMATS = ("ply", "obj", "glb")
 
 def write_mesh(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, time: float, path: Path) -> None:
     """One surface per material of the scene, in their order; ``colours`` has one for each, from 0 to 255. The suffix of ``path`` is one of `MESH_FORMATS`."""
-    if path.suffix == ".ply":
-        _write_ply(meshes, colours, time, path)
-    else:
-        _write_objects(meshes, colours, path)
+    {".ply": _write_ply, ".obj": _write_obj, ".glb": _write_glb}[path.suffix](meshes, colours, time, path)
 
 
-def _write_objects(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, path: Path) -> None:
-    """OBJ or GLB: an object for each material that has a surface, named material_ROW. GLB's axes are ours if y points up."""
-    from trimesh import Scene, Trimesh
+def _write_glb(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, _time: float, path: Path) -> None:
+    """An object for each material that has a surface, named material_ROW. GLB's axes are those of scenes whose y points up."""
+    from trimesh import Scene
     from trimesh.exchange.gltf import export_glb
-    from trimesh.exchange.obj import export_obj
 
     scene = Scene()
     for row, mesh in enumerate(meshes):
-        if not len(mesh.triangles):
-            continue
-        shades = np.tile(np.uint8([*colours[row], 255]), (len(mesh.positions), 1))
-        surface = Trimesh(mesh.positions, mesh.triangles, vertex_normals=mesh.normals, vertex_colors=shades, process=False, validate=False)
-        scene.add_geometry(surface, geom_name=f"material_{row}")
+        if len(mesh.triangles):
+            scene.add_geometry(_joined([mesh], colours[row:]), geom_name=f"material_{row}")
     with replace_when_complete(path) as temporary:
-        if path.suffix == ".glb":
-            temporary.write_bytes(export_glb(scene, include_normals=True))
-        else:
-            temporary.write_text(export_obj(scene, include_normals=True) if scene.geometry else "# no surface\n")
+        temporary.write_bytes(export_glb(scene, include_normals=True))
+
+
+def _write_obj(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, _time: float, path: Path) -> None:
+    """All surfaces are one object: of several, trimesh forgets the normals."""
+    from trimesh.exchange.obj import export_obj
+
+    some = any(len(mesh.triangles) for mesh in meshes)
+    with replace_when_complete(path) as temporary:
+        temporary.write_text(export_obj(_joined(meshes, colours), include_normals=True) if some else "# no surface\n")
+
+
+def _joined(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray) -> Any:
+    from trimesh import Trimesh
+
+    shades = [np.tile(np.uint8([*colour, 255]), (len(mesh.positions), 1)) for mesh, colour in zip(meshes, colours)]
+    positions, normals = (np.concatenate([getattr(mesh, name) for mesh in meshes]) for name in ("positions", "normals"))
+    return Trimesh(positions, _faces(meshes), vertex_normals=normals, vertex_colors=np.concatenate(shades), process=False, validate=False)
+
+
+def _faces(meshes: Sequence[pbmpm.Mesh]) -> np.ndarray:
+    first = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
+    return np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, first)])
 
 
 def _write_ply(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, time: float, path: Path) -> None:
@@ -53,9 +66,8 @@ def _write_ply(meshes: Sequence[pbmpm.Mesh], colours: np.ndarray, time: float, p
     from plyfile import PlyData, PlyElement
 
     vertices = np.concatenate([_vertices(mesh, row, colours[row]) for row, mesh in enumerate(meshes)])
-    first = np.cumsum([0, *(len(mesh.positions) for mesh in meshes)])
     faces = np.empty(sum(len(mesh.triangles) for mesh in meshes), dtype=[("vertex_indices", "<i4", (3,))])
-    faces["vertex_indices"] = np.concatenate([mesh.triangles + start for mesh, start in zip(meshes, first)])
+    faces["vertex_indices"] = _faces(meshes)
     data = PlyData([PlyElement.describe(vertices, "vertex"), PlyElement.describe(faces, "face")], byte_order="<", comments=[f"time {time:.9g} s"])
     with replace_when_complete(path) as temporary:
         data.write(str(temporary))
