@@ -267,6 +267,18 @@ static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
     }
 }
 
+/* Whether a part of the block that begins at `point` has a point that counts. */
+static bool part_counts(const BoundaryJob *job, size_t point, const int first[3])
+{
+    float most[PART_AXIS] = {0};
+    for (int row = 0; row < PART_AXIS * PART_AXIS; row++) {
+        const int z = first[2] + row / PART_AXIS, y = first[1] + row % PART_AXIS;
+        const float *values = job->values + point + (z * BLOCK_AXIS + y) * BLOCK_AXIS + first[0];
+        for (int x = 0; x < PART_AXIS; x++) most[x] = values[x] > most[x] ? values[x] : most[x];
+    }
+    return fmaxf(fmaxf(most[0], most[1]), fmaxf(most[2], most[3])) > least_that_counts(job->level);
+}
+
 static void mirror_blocks(void *context, int32_t begin, int32_t end)
 {
     const BoundaryJob *job = context;
@@ -283,7 +295,7 @@ static void mirror_blocks(void *context, int32_t begin, int32_t end)
         memcpy(job->work->lines + point, job->values + point, BLOCK_POINTS * sizeof(float));
         for (int n = 0; n < 8; n++) {
             const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
-            if (near_part(&part, first)) mirror_part(job, &part, first);
+            if (part_counts(job, point, first) && near_part(&part, first)) mirror_part(job, &part, first);
         }
     }
 }

@@ -107,8 +107,9 @@ void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS])
 {
     for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
         int32_t way[3];
+        if (block->neighbour[n] != GRID_NOWHERE) continue;
         grid_neighbour_offset(n, 3, way);
-        if (block->neighbour[n] != GRID_NOWHERE || way[0] > 0 || way[1] > 0 || way[2] > 0) continue;
+        if (way[0] > 0 || way[1] > 0 || way[2] > 0) continue;
         for (int z = 0; z < (way[2] ? 1 : BLOCK_AXIS); z++)
             for (int y = 0; y < (way[1] ? 1 : BLOCK_AXIS); y++)
                 for (int x = 0; x < (way[0] ? 1 : BLOCK_AXIS); x++) values[(z * BLOCK_AXIS + y) * BLOCK_AXIS + x] = 0.0f;
