@@ -9,8 +9,9 @@ enum { BOUNDARY_GRAIN = 2, PART_AXIS = 4 };
 
 /* So far [cells] outside of a flat surface F is 0 but for a ripple of S: what is farther from a wall has no image. */
 static const double IMAGE_REACH = 0.75;
-/* What is farther [cells] from a point does not change what it sees: a foot within reach of an image, and space before that; or an edge's other face. */
-static const double BESIDE_REACH = 1.0;
+/* What is farther [cells] from a point does not change what it sees. A point up to a cell deep in an obstacle sees what its reflection sees, IMAGE_REACH beside it: the
+ * way there is the root of 1 + 0.75^2. */
+static const double BESIDE_REACH = 1.25;
 /* Of F at a flat surface, per cell: S W at 0. */
 static const float FLAT_SLOPE = 29.0f / 32.0f;
 
@@ -236,6 +237,11 @@ static void mirror_point(const BoundaryJob *job, Part *part, int i, const float 
     *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, &sight, job->values, local, place, *own);
 }
 
+static size_t first_point(const BoundaryJob *job, const Part *part) { return (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS; }
+
+/* The first point of the n-th row of a part with this first point. */
+static int row_of(const int first[3], int n) { return ((first[2] + n / PART_AXIS) * BLOCK_AXIS + first[1] + n % PART_AXIS) * BLOCK_AXIS + first[0]; }
+
 /* Whether a part of a row has a point that counts. */
 static bool counts(const float *values, float least)
 {
@@ -248,7 +254,7 @@ static bool counts(const float *values, float least)
 static void mirror_row(const BoundaryJob *job, Part *part, int first)
 {
     const double spacing = 1.0 / job->work->blocks->subdivision;
-    const size_t point = (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS + (size_t)first;
+    const size_t point = first_point(job, part) + (size_t)first;
     const float *own = job->values + point, least = least_that_counts(job->level);
     double at_least = -INFINITY;
     for (int x = 0; x < PART_AXIS; x++, at_least -= spacing) {
@@ -258,25 +264,21 @@ static void mirror_row(const BoundaryJob *job, Part *part, int first)
     }
 }
 
-static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
+/* The rows of a part that count; bit n is the n-th. */
+static uint32_t rows_that_count(const BoundaryJob *job, const Part *part, const int first[3])
 {
-    const float *values = job->values + (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS;
-    for (int n = 0; n < PART_AXIS * PART_AXIS; n++) {
-        const int row = ((first[2] + n / PART_AXIS) * BLOCK_AXIS + first[1] + n % PART_AXIS) * BLOCK_AXIS + first[0];
-        if (counts(values + row, least_that_counts(job->level))) mirror_row(job, part, row);
-    }
+    uint32_t rows = 0;
+    for (int n = 0; n < PART_AXIS * PART_AXIS; n++)
+        rows |= (uint32_t)counts(job->values + first_point(job, part) + row_of(first, n), least_that_counts(job->level)) << n;
+    return rows;
 }
 
-/* Whether a part of the block that begins at `point` has a point that counts. */
-static bool part_counts(const BoundaryJob *job, size_t point, const int first[3])
+static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
 {
-    float most[PART_AXIS] = {0};
-    for (int row = 0; row < PART_AXIS * PART_AXIS; row++) {
-        const int z = first[2] + row / PART_AXIS, y = first[1] + row % PART_AXIS;
-        const float *values = job->values + point + (z * BLOCK_AXIS + y) * BLOCK_AXIS + first[0];
-        for (int x = 0; x < PART_AXIS; x++) most[x] = values[x] > most[x] ? values[x] : most[x];
-    }
-    return fmaxf(fmaxf(most[0], most[1]), fmaxf(most[2], most[3])) > least_that_counts(job->level);
+    const uint32_t rows = rows_that_count(job, part, first);
+    if (!rows || !near_part(part, first)) return;
+    for (int n = 0; n < PART_AXIS * PART_AXIS; n++)
+        if (rows >> n & 1) mirror_row(job, part, row_of(first, n));
 }
 
 static void mirror_blocks(void *context, int32_t begin, int32_t end)
@@ -295,7 +297,7 @@ static void mirror_blocks(void *context, int32_t begin, int32_t end)
         memcpy(job->work->lines + point, job->values + point, BLOCK_POINTS * sizeof(float));
         for (int n = 0; n < 8; n++) {
             const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
-            if (part_counts(job, point, first) && near_part(&part, first)) mirror_part(job, &part, first);
+            mirror_part(job, &part, first);
         }
     }
 }
