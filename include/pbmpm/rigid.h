@@ -14,8 +14,8 @@
  * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
  *
  * Light bodies. With the dual, the explicit and the convergent solver liquid follows a body's walls. The body yields to it within the step. So it may weigh far less
- * than the liquid that it moves (docs/method.md, Walls). To what contacts with solids give it beside that, it yields one step later. Liquid without solids does
- * not rub on it, whatever its friction.
+ * than the liquid that it moves (docs/method.md, Walls). To what contacts with solids give it beside that, it yields one step later. Liquid
+ * does not rub on it, whatever its friction.
  *
  * All other matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that moves along would
  * oscillate more and more, at any dt. So where no liquid follows its walls each change of velocity is smoothed:

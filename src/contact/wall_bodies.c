@@ -60,12 +60,27 @@ bool wall_bodies_list(Walls *walls, const ContactFrame *frame, Memory *memory)
     return true;
 }
 
+/* Bodies are listed in the order of their obstacles. */
+static uint32_t body_of(const Walls *walls, int obstacle)
+{
+    const WallBody *body = walls->body.data;
+    uint32_t first = 0, end = walls->bodies;
+    while (end - first > 1) {
+        const uint32_t middle = first + (end - first) / 2;
+        if (body[middle].obstacle <= obstacle)
+            first = middle;
+        else
+            end = middle;
+    }
+    return first;
+}
+
 bool wall_bodies_grip(Walls *walls, const ContactFrame *frame, Memory *memory, const WallFoot *at, float moved[3])
 {
     if (!array_grow(memory, &walls->grip, (size_t)walls->grips + 1, sizeof(WallGrip), (size_t)walls->grips * sizeof(WallGrip))) return false;
     WallBody *body = walls->body.data;
     WallGrip grip = {.share = symmetric_columns(at->share), .follower = at->follower};
-    while (body[grip.body].obstacle != at->obstacle - frame->colliders->obstacle) grip.body++;
+    grip.body = body_of(walls, (int)(at->obstacle - frame->colliders->obstacle));
     for (int a = 0; a < frame->grid->dimension; a++) grip.arm[a] = (float)((at->foot[a] - at->obstacle->body->centre[a]) / frame->cell_size);
     ((WallGrip *)walls->grip.data)[walls->grips++] = grip;
     body[grip.body].gripped = true;
@@ -90,6 +105,8 @@ typedef struct Binder {
     uint32_t *free_of; /* per node of the list: which of the free ones it is */
     uint32_t *place;   /* per free node: its trace + 1 */
     uint32_t *owner;   /* per free node: the first body that moves it + 1 */
+    uint32_t *grip;    /* the grips, body by body */
+    uint32_t *end;     /* per body: where its grips end */
     uint64_t *meets;   /* per body a bit for each body */
     Trace *trace;      /* of one body */
     uint32_t traces;
@@ -140,6 +157,16 @@ static void add_follower(Binder *b, uint32_t body, uint32_t node, int ways, cons
     }
 }
 
+static void sort_grips(Binder *b)
+{
+    const Walls *walls = b->job->walls;
+    const WallGrip *grip = walls->grip.data;
+    for (uint32_t g = 0; g < walls->grips; g++)
+        if (grip[g].body + 1 < walls->bodies) b->end[grip[g].body + 1]++;
+    for (uint32_t i = 1; i < walls->bodies; i++) b->end[i] += b->end[i - 1];
+    for (uint32_t g = 0; g < walls->grips; g++) b->grip[b->end[grip[g].body]++] = g;
+}
+
 static void find_s(Binder *b, uint32_t index, double s[WAYS][WAYS])
 {
     const Walls *walls = b->job->walls;
@@ -147,15 +174,12 @@ static void find_s(Binder *b, uint32_t index, double s[WAYS][WAYS])
     const WallGrip *grip = walls->grip.data;
     const int ways = body->free->ways;
     b->traces = 0;
-    for (uint32_t g = 0, next; g < walls->grips; g = next) { /* a node may follow two faces of a body */
+    for (uint32_t i = index == 0 ? 0 : b->end[index - 1]; i < b->end[index];) { /* a node may follow two faces of a body */
+        const uint32_t follower = grip[b->grip[i]].follower;
         Four moved[WAYS] = {{0}};
-        bool follows = false;
-        for (next = g; next < walls->grips && grip[next].follower == grip[g].follower; next++) {
-            if (grip[next].body != index) continue;
-            follows = true;
-            for (int k = 0; k < ways; k++) moved[k] += grip_motion(&grip[next], body->way[k]);
-        }
-        if (follows) add_follower(b, index, grip[g].follower, ways, moved, s);
+        for (; i < b->end[index] && grip[b->grip[i]].follower == follower; i++)
+            for (int k = 0; k < ways; k++) moved[k] += grip_motion(&grip[b->grip[i]], body->way[k]);
+        add_follower(b, index, follower, ways, moved, s);
     }
     for (uint32_t t = 0; t < b->traces; t++) {
         const Trace *trace = &b->trace[t];
@@ -181,6 +205,7 @@ static void bind_all(Binder *b)
 {
     const Walls *walls = b->job->walls;
     WallBody *body = walls->body.data;
+    sort_grips(b);
     for (uint32_t i = 0; i < walls->bodies; i++) find_s(b, i, body[i].factor); /* S for now */
     for (uint32_t i = 0; i < walls->bodies; i++) {
         const double times_s = 1.0 + neighbours(b, i);
@@ -195,7 +220,7 @@ static void bind_all(Binder *b)
 bool wall_bodies_bind(Walls *walls, const ContactFrame *frame, Memory *memory)
 {
     if (walls->grips == 0) return true;
-    const size_t indices = (size_t)walls->nodes + 2 * (size_t)walls->frees;
+    const size_t indices = (size_t)walls->nodes + 2 * (size_t)walls->frees + walls->grips + walls->bodies;
     const size_t bytes = indices * sizeof(uint32_t) + (size_t)walls->bodies * WORDS * sizeof(uint64_t) + (size_t)walls->frees * sizeof(Trace);
     if (!array_reserve(memory, &walls->beside_body, walls->frees, sizeof(uint32_t))) return false;
     if (!array_reserve(memory, &walls->scratch, bytes, 1)) return false;
@@ -204,7 +229,11 @@ bool wall_bodies_bind(Walls *walls, const ContactFrame *frame, Memory *memory)
     uint32_t *index = (uint32_t *)(meets + (size_t)walls->bodies * WORDS);
     memset(meets, 0, bytes - (size_t)walls->frees * sizeof(Trace));
     const ApplyJob job = {walls, frame, vectors_of(walls), 0.0f, NULL};
-    Binder binder = {&job, index, index + walls->nodes, index + walls->nodes + walls->frees, meets, trace, 0};
+    Binder binder = {.job = &job, .free_of = index, .meets = meets, .trace = trace};
+    binder.place = binder.free_of + walls->nodes;
+    binder.owner = binder.place + walls->frees;
+    binder.grip = binder.owner + walls->frees;
+    binder.end = binder.grip + walls->grips;
     for (uint32_t f = 0; f < walls->frees; f++) binder.free_of[((const WallFree *)walls->free.data)[f].place] = f;
     bind_all(&binder);
     memset(yields_at(&job), 0, walls->nodes * sizeof(Four));

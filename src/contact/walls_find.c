@@ -477,13 +477,6 @@ static void add_mirrors(Builder *b, const Bound *bound, uint32_t index, const Pr
     }
 }
 
-/* Liquid does not rub on rigid bodies, as it rubs nowhere beside solids: they feel friction one step late, and it spun light ones up without end. */
-static bool rubs(const ContactFrame *frame, const Obstacle *owner, uint32_t node)
-{
-    if (owner->friction != PBMPM_FRICTION_COULOMB || (frame->liquid && owner->body)) return false;
-    return reach_solid(frame, node);
-}
-
 static void add_follower(Builder *b, uint32_t index)
 {
     Walls *walls = b->walls;
@@ -501,7 +494,7 @@ static void add_follower(Builder *b, uint32_t index)
     if (weighs) node->behind = (float)(profile[0].rounded * field_spline(bound->face[0].distance));
     if (!bound->both && profile[0].bend != 0.0) node->open = (float)field_spline_below(profile[0].distance + 2.0 * profile[0].bend);
     node->normals = (uint16_t)count;
-    node->coefficient = rubs(b->frame, owner, node->node) ? owner->coefficient : 0.0f;
+    node->coefficient = owner->friction == PBMPM_FRICTION_COULOMB && reach_solid(b->frame, node->node) ? owner->coefficient : 0.0f;
     memcpy(node->surface, profile[0].surface, sizeof node->surface);
     walls->rubs = walls->rubs || node->coefficient > 0.0f;
     float rest[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, b->frame->grid->dimension == 3 ? 1.0f : 0.0f};

@@ -117,15 +117,19 @@ static void over_blocks(World *world, BlockPass *pass)
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, run_pass, &job);
 }
 
+/* Whether nothing holds the group: seen from what falls along, there is no gravity. */
+static bool falls_freely(const World *world) { return world->joint.contacts == 0 && !walls_any(&world->walls); }
+
 /* Solids start as they were moving: pressed by the liquid but without their own stress they would be far off. */
 static void start_solids(World *world, int32_t block, size_t begin, size_t end)
 {
     const uint64_t *solid = world->colliders.solid.data;
+    const float held = falls_freely(world) ? 0.0f : 1.0f;
     float *node = world->grid.node.data, *before = world->joint.node.data;
     memcpy(before + begin, node + begin, (end - begin) * sizeof *node);
     for (size_t i = begin; i < end; i += W)
         for (size_t c = 0; c < 3 && solid[block] >> (i - begin) / W & 1; c++)
-            node[i + c] = node[i + 3] > 0.0f ? world->args.grid.node_before[i + c] - world->args.gravity[c] : 0.0f;
+            node[i + c] = node[i + 3] > 0.0f ? world->args.grid.node_before[i + c] - held * world->args.gravity[c] : 0.0f;
 }
 
 static void move_predictor(World *world, int32_t block, size_t begin, size_t end)

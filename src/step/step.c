@@ -196,7 +196,9 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     /* In the paper's solver J is all that resists. If it fell where walls close in, crushed matter would burst when they part; and what lies between them
      * must not lie in one plane, which nothing parts again. The other solvers' J follows the grid, and liquid that stays would burst. */
     const bool by_ratio = solver == PBMPM_SOLVER_PAPER;
-    ObstacleCache *cache = &world->obstacle_cache[islands_kinds(world)];
+    const uint32_t kinds = islands_kinds(world);
+    const bool mixed = (kinds & KIND_LIQUID) && kinds != KIND_LIQUID;
+    ObstacleCache *cache = &world->obstacle_cache[kinds];
     *contacts = (ContactFrame){.colliders = &world->colliders,
                                .grid = &world->grid,
                                .cell_size = cell_size,
@@ -207,7 +209,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
-                               .liquid = islands_kinds(world) == KIND_LIQUID,
+                               .liquid = kinds == KIND_LIQUID,
                                .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
@@ -215,7 +217,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
     if (result == PBMPM_OK) result = obstacle_cache_open(contacts, cache, &world->memory);
     if (result == PBMPM_OK) result = contacts_measure(contacts, &world->memory, world->pool);
-    if (result == PBMPM_OK && solver == SOLVER_JOINT) result = reach_find(contacts, world->materials.kernel, &world->memory);
+    if (result == PBMPM_OK && mixed) result = reach_find(contacts, world->materials.kernel, &world->memory);
     if (result == PBMPM_OK && solver_follows_walls(world)) {
         result = walls_find(&world->walls, contacts, &world->memory, world->pool);
         contacts->walls = &world->walls;

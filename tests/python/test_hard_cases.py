@@ -3,9 +3,10 @@ defined there."""
 
 from __future__ import annotations
 
+import functools
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -14,9 +15,11 @@ import pytest
 
 import pbmpm
 from pbmpm.lab.accuracy import laws
+from pbmpm.lab.accuracy.elastic import strain
+from pbmpm.lab.accuracy.elastic.theory import Solid
 from pbmpm.lab.stability.cases import CASES, SOLVERS, Check, HardCase, Kind, Setting, find_case, rest
 from pbmpm.lab.stability.cases.case import EXPLICIT, KnownFailure
-from pbmpm.lab.stability.cases.compatible import balanced_strain, movable_strain, removed_strain, unremovable_strain
+from pbmpm.lab.stability.cases.compatible import balanced_strain, movable_strain, relaxed_strain, unremovable_strain
 from pbmpm.lab.stability.cases.contrast import overturn_seconds
 from pbmpm.lab.stability.cases.energy import energy_density
 from pbmpm.lab.stability.cases.strain import BLOCK_CELLS, CELL, SCRAMBLE_SHARED, scrambled, strain_residual
@@ -461,17 +464,41 @@ def test_the_strain_that_corrections_move_is_what_one_iteration_of_the_paper_mov
     assert np.sqrt((moved**2).sum(axis=(1, 2)).mean()) == pytest.approx(expected, rel=1e-3)
 
 
+def _corotated(poisson_ratio: float) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+    """Energy and stress of the fixed corotated model with E = 2: |F - R|^2 if Poisson's ratio is 0."""
+    return functools.partial(strain.energy_and_stress, Solid(2.0, poisson_ratio, 1.0), strain.FIXED_COROTATED)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_where_energy_is_least_the_primal_moves_nothing(dimension: int) -> None:
+    """But by the square of the strain, for places stay where they were. Where |F - R|^2 is least, which knows no Poisson's ratio, it moves much more."""
+    moved = []
+    for ratio in (None, 0.0, 0.3):
+        soft = pbmpm.Elastic(young_modulus=1.0, poisson_ratio=0.3)  # a step shows its forces
+        with pbmpm.World(dimension, 0.1, capacity=2000, iterations=20, threads=1, solver=pbmpm.Solver.PRIMAL) as world:
+            world.fill(pbmpm.Box([0.03] * dimension, [{2: 0.2, 3: 0.15}[dimension]] * dimension), world.add_material(soft), seed=1)
+            random = np.random.default_rng(1).uniform(-0.1, 0.1, (len(world), dimension, dimension))
+            world.set(pbmpm.Field.DEFORMATION, np.eye(dimension) + random)
+            if ratio is not None:
+                world.set(pbmpm.Field.DEFORMATION, relaxed_strain(world, _corotated(ratio)))
+            world.step(1 / 60)
+            moved.append(np.abs(world.velocities.array()).max())
+    at_first, of_strain, of_energy = moved
+    assert of_energy < 0.05 * at_first
+    assert of_strain > 0.1 * at_first
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_corrections_balance_elsewhere_than_where_strain_is_least(dimension: int) -> None:
-    """What is left of random F moves nothing; the least squares leave less strain, and that moves."""
+    """What is left of random F moves nothing; the least strain is less, and that moves."""
     with pbmpm.World(dimension, 0.1, capacity=2000, threads=1, solver=pbmpm.Solver.PAPER) as world:
         world.fill(pbmpm.Box([0.03] * dimension, [0.15] * dimension), world.add_material(pbmpm.Elastic()), seed=1)
         random = np.random.default_rng(1).uniform(-0.3, 0.3, (len(world), dimension, dimension))
         world.set(pbmpm.Field.DEFORMATION, np.eye(dimension) + random)
         at_first, least = movable_strain(world, 1.0), unremovable_strain(world)
-        balanced, removed = balanced_strain(world, 1.0), removed_strain(world)
-        world.set(pbmpm.Field.DEFORMATION, removed)
-        assert 0.9 * least < strain_residual(world) < 1.001 * least  # the turns are those before
+        balanced, relaxed = balanced_strain(world, 1.0), relaxed_strain(world, _corotated(0.0))
+        world.set(pbmpm.Field.DEFORMATION, relaxed)
+        assert strain_residual(world) < least  # which has the turns of the start
         of_least = movable_strain(world, 1.0)
         world.set(pbmpm.Field.DEFORMATION, balanced)
         assert movable_strain(world, 1.0) < 0.02 * at_first < of_least
@@ -486,6 +513,14 @@ def test_a_sheet_grows_back_to_where_its_corrections_balance(rate_hz: float, ite
     law = recovered.limit / RECOVERED_SHARE
     assert law == pytest.approx(share, abs=0.02)
     assert recovered.figure == pytest.approx(law, abs=0.01)
+
+
+@pytest.mark.parametrize(("iterations", "seed"), [(20, 1), (20, 2), (20, 3), (10, 4)])
+def test_a_sheet_of_the_dual_grows_back_to_where_its_energy_is_least(iterations: int, seed: int) -> None:
+    """And not to where |F - R|^2 is: at 60 Hz x 20 that was 5 % more (seed 1) to 11 % less (seed 3) than what came back."""
+    setting = Setting("elastic", 2, "trapped between boxes", 60, iterations, solver="dual", seed=seed)
+    _, recovered, *_ = find_case("H16").function(setting)
+    assert recovered.passed, recovered
 
 
 @pytest.mark.parametrize("model", list(pbmpm.ElasticModel))

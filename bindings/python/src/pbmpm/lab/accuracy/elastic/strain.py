@@ -21,25 +21,28 @@ def rotations(deformations: np.ndarray) -> np.ndarray:
     return left @ right
 
 
-def energy_density(solid: Solid, model: str, deformations: np.ndarray) -> np.ndarray:
-    """Stored energy per rest volume [J/m^d]."""
+def energy_and_stress(solid: Solid, model: str, deformations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Stored energy per rest volume [J/m^d], and first Piola stress, its derivative by F [Pa]."""
     volume = np.linalg.det(deformations)
+    inverse = np.swapaxes(np.linalg.inv(deformations), -1, -2)
     if model == FIXED_COROTATED:
-        stretch = np.sum((deformations - rotations(deformations)) ** 2, axis=(-2, -1))
-        return solid.shear * stretch + 0.5 * solid.lame * (volume - 1.0) ** 2
+        away, excess = deformations - rotations(deformations), volume - 1.0
+        energy = solid.shear * np.sum(away**2, axis=(-2, -1)) + 0.5 * solid.lame * excess**2
+        return energy, 2.0 * solid.shear * away + solid.lame * (excess * volume)[..., None, None] * inverse
     log = np.log(volume)
     square = np.sum(deformations**2, axis=(-2, -1)) - deformations.shape[-1]
-    return 0.5 * solid.shear * square - solid.shear * log + 0.5 * solid.lame * log**2
+    energy = 0.5 * solid.shear * square - solid.shear * log + 0.5 * solid.lame * log**2
+    return energy, solid.shear * (deformations - inverse) + solid.lame * log[..., None, None] * inverse
+
+
+def energy_density(solid: Solid, model: str, deformations: np.ndarray) -> np.ndarray:
+    """Stored energy per rest volume [J/m^d]."""
+    return energy_and_stress(solid, model, deformations)[0]
 
 
 def piola_stress(solid: Solid, model: str, deformations: np.ndarray) -> np.ndarray:
-    """First Piola stress, the derivative of the energy density by F [Pa]."""
-    volume = np.linalg.det(deformations)[..., None, None]
-    inverse = np.swapaxes(np.linalg.inv(deformations), -1, -2)
-    if model == FIXED_COROTATED:
-        deviation = 2.0 * solid.shear * (deformations - rotations(deformations))
-        return deviation + solid.lame * (volume - 1.0) * volume * inverse
-    return solid.shear * (deformations - inverse) + solid.lame * np.log(volume) * inverse
+    """First Piola stress [Pa]."""
+    return energy_and_stress(solid, model, deformations)[1]
 
 
 def strain_energy(solid: Solid, model: str, deformations: np.ndarray, masses: np.ndarray) -> float:

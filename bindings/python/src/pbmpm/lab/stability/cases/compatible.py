@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
 
 import pbmpm
+
+from .least import least
 
 Matrix = npt.NDArray[np.float64]
 
@@ -36,8 +39,8 @@ def _gradient_matrix(places: Matrix, deformations: Matrix) -> Matrix:
     return matrix.reshape(count * d, -1)
 
 
-def _least_strain(world: pbmpm.World) -> tuple[Matrix, Matrix]:
-    """R - (I + grad u) F and (I + grad u) F of each particle for the displacements u of the nodes that leave the least of the former, R the U V^T of F.
+def _least_strain(world: pbmpm.World) -> Matrix:
+    """R - (I + grad u) F of each particle for the displacements u of the nodes that leave the least of it, R the U V^T of F.
 
     It is a linear least squares problem, the same for each axis of u: rows of (grad u) F against rows of R - F. Matter that has
     flown apart so far that there are more nodes than rows counts as free to undo all.
@@ -48,21 +51,37 @@ def _least_strain(world: pbmpm.World) -> tuple[Matrix, Matrix]:
     turned = u @ vt
     matrix = _gradient_matrix(places, deformations)
     if matrix.shape[1] >= matrix.shape[0]:
-        return np.zeros_like(turned), turned
+        return np.zeros_like(turned)
     best, *_ = np.linalg.lstsq(matrix, (turned - deformations).transpose(0, 2, 1).reshape(-1, world.dimension), rcond=None)
-    moved = deformations + (matrix @ best).reshape(deformations.shape).transpose(0, 2, 1)
-    return turned - moved, moved
+    return turned - deformations - (matrix @ best).reshape(deformations.shape).transpose(0, 2, 1)
 
 
 def unremovable_strain(world: pbmpm.World) -> float:
     """Root mean square over particles of |R - (I + grad u) F| for the best displacements u of the nodes, R the U V^T of F."""
-    missing, _ = _least_strain(world)
-    return float(np.sqrt((missing**2).sum(axis=(1, 2)).mean()))
+    return float(np.sqrt((_least_strain(world) ** 2).sum(axis=(1, 2)).mean()))
 
 
-def removed_strain(world: pbmpm.World) -> Matrix:
-    """F of the particles after the best displacements of the nodes (see `unremovable_strain`), shape (particles, d, d)."""
-    return _least_strain(world)[1]
+def relaxed_strain(world: pbmpm.World, energy: Callable[[Matrix], tuple[Matrix, Matrix]]) -> Matrix:
+    """(I + grad u) F of the particles for the displacements u of the nodes that leave the least energy, shape (particles, d, d).
+
+    `energy` gives that of each particle, which weigh the same, and its derivative by F. A substep of the dual and the primal minimises it beside the
+    inertia: where it is least, they rest. Coordinates are orthonormal in (grad u) F, so that |R - F|^2 is as steep along each.
+    """
+    places = world.positions.array().astype(float) / world.cell_size
+    deformations = world.deformations.array().astype(float)
+    matrix = _gradient_matrix(places, deformations)
+    squares, modes = np.linalg.eigh(matrix.T @ matrix)
+    kept = squares > 1e-12 * squares[-1]  # the others, translations among them, strain nothing
+    basis = matrix @ (modes[:, kept] / np.sqrt(squares[kept]))
+
+    def moved(way: Matrix) -> Matrix:
+        return deformations + (basis @ way).reshape(deformations.shape).transpose(0, 2, 1)
+
+    def at(way: Matrix) -> tuple[float, Matrix]:
+        values, stress = energy(moved(way))
+        return float(values.sum()), basis.T @ stress.transpose(0, 2, 1).reshape(len(basis), -1)
+
+    return moved(least(at, np.zeros((basis.shape[1], world.dimension))))
 
 
 class _Grid:

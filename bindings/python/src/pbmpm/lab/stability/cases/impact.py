@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 
 import numpy as np
@@ -9,8 +10,10 @@ import numpy.typing as npt
 
 import pbmpm
 
+from ...accuracy.elastic.strain import FIXED_COROTATED, energy_and_stress
+from ...accuracy.elastic.theory import Solid
 from .case import ELASTIC, PAPER, Check, HardCase, Kind, Setting
-from .compatible import balanced_strain, removed_strain
+from .compatible import balanced_strain, relaxed_strain
 from .volume import PRESS_CELL, PRESS_HOLD_SECONDS, PRESS_SPEED, RECOVERED_RATIOS, RECOVERED_SHARE, release_speed
 from .watch import ENERGY_ROUNDING, Watch, make_world, vector
 
@@ -83,14 +86,16 @@ def _recovered(ratios: npt.NDArray[np.floating]) -> float:
 def _recoverable(world: pbmpm.World, setting: Setting) -> float:
     """The share of particles whose volume motion can bring back. What was pressed to a sheet moves as one: F of its particles, which were not
     pressed alike (strain_min ends it for some before others), goes on to differ by as much. The paper's solver grows until its corrections
-    balance, the others, which have an energy, until strain is least. Liquid has feedback for that."""
+    balance, the others until their energy is least: mu |F - R|^2 + lambda/2 (J - 1)^2. Without its second part other particles come back. Liquid has
+    feedback for that."""
     if setting.material != ELASTIC:
         return 1.0
-    if setting.solver != PAPER:
-        return _recovered(np.linalg.det(removed_strain(world)))
     parameters = setting.parameters(TANK_CELL)
     assert isinstance(parameters, pbmpm.Elastic)
-    return _recovered(np.linalg.det(balanced_strain(world, parameters.rebound_max / parameters.relaxation)))
+    if setting.solver == PAPER:
+        return _recovered(np.linalg.det(balanced_strain(world, parameters.rebound_max / parameters.relaxation)))
+    solid = Solid(1.0, parameters.poisson_ratio, 1.0, setting.dimension)  # whatever its modulus: its energy alone acts
+    return _recovered(np.linalg.det(relaxed_strain(world, functools.partial(energy_and_stress, solid, FIXED_COROTATED))))
 
 
 def _free_speed(setting: Setting, pushed: float = PRESS_SPEED) -> float:
