@@ -53,7 +53,7 @@ typedef struct pbmpm_material_def {
     float density;              /**< rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000 */
     float relaxation;           /**< share of the constraint error removed per iteration, in (0, 2); default 1.5. With one
                                      iteration lone elastic particles tremble above 4/3. */
-    float viscosity;            /**< liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
+    float viscosity;            /**< liquid, the paper's solver alone: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
                                      default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,
@@ -68,7 +68,7 @@ typedef struct pbmpm_material_def {
                                      Matter that was crushed to nothing grows back at this rate instead of exploding. */
     float bulk_modulus;         /**< liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
                                      (default): incompressible */
-    float kinematic_viscosity;  /**< liquid: nu [m^2/s], in [0, 1e6]; default 0. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+    float kinematic_viscosity;  /**< liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. Walls hold it back with PBMPM_FRICTION_STICK. The paper's solver adds a share of 8 nu dt / (N dx^2) to
                                      `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt) */
     pbmpm_elastic_model elastic_model; /**< elastic, not the paper's solver; default PBMPM_FIXED_COROTATED */
     float young_modulus;        /**< elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5 */

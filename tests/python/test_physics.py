@@ -457,3 +457,32 @@ def test_pool_keeps_its_height(solver: pbmpm.Solver) -> None:
             for _ in range(400):
                 world.step(1 / RATE)
             assert abs(float(world.positions.array()[:, 1].astype(float).mean()) / settled - 1.0) < 0.01
+
+
+def stretched_honey(nu: float) -> tuple[np.ndarray, np.ndarray]:
+    """Width [m] and kinetic energy [J] of a square of 20 cells that is drawn out in free flight, after each step of a second."""
+    cell, half, rate = 0.01, 0.1, 3.0
+    with pbmpm.World(2, cell, gravity=(0, 0), capacity=2000, threads=1) as world:
+        world.fill(pbmpm.Box((0, 0), (half, half)), world.add_material(pbmpm.Liquid(kinematic_viscosity=nu)))
+        gradient = np.array(((-rate, 0), (0, rate)), dtype=np.float32)
+        world.velocities = np.array(world.positions) @ gradient
+        world.affine_velocities = np.broadcast_to(gradient, (len(world), 2, 2))
+        widths, energies = [], []
+        for _ in range(60):
+            world.step(1 / 60)
+            places = np.array(world.positions)
+            middle = np.abs(places[:, 1]) < 0.3 * half
+            widths.append(math.sqrt(12) * float(places[middle, 0].std()))
+            energies.append(world.stats.kinetic_energy)
+    return np.array(widths), np.array(energies)
+
+
+def test_a_stretched_viscous_liquid_does_not_fan_out() -> None:
+    """Its free sides are pushed by nothing, so it gets no wider, and viscosity alone acts: the thicker the liquid, the less it thins. Without any it comes to 50 mm. Where the
+    deviator pushed the sides apart, the square grew from 200 to 320 mm."""
+    for nu, least, most in ((1e-4, 0.045, 0.055), (5e-3, 0.06, 0.1), (5e-2, 0.17, 0.2)):
+        widths, energies = stretched_honey(nu)
+        assert least < widths[-1] < most
+        assert widths.max() < 0.2
+        assert (np.diff(energies) < 1e-4 * energies[0]).all()
+    assert energies[-1] < 1e-3 * energies[0]
