@@ -53,7 +53,7 @@ typedef struct pbmpm_material_def {
     float density;              /**< rest density [kg/m^3] (2D: per metre of depth), in [1e-3, 1e6]; default 1000 */
     float relaxation;           /**< share of the constraint error removed per iteration, in (0, 2); default 1.5. With one
                                      iteration lone elastic particles tremble above 4/3. */
-    float viscosity;            /**< liquid, the paper's solver alone: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
+    float viscosity;            /**< liquid: share, with the paper's solver alone, of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
                                      default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,

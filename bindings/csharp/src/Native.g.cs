@@ -243,10 +243,10 @@ namespace Pbmpm
     /// <summary>What an obstacle does to motion along its surface.</summary>
     public enum Friction : int
     {
-        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquid slips where
-        /// PBMPM_SOLVER_CONVERGENT solves it together with solids.</summary>
+        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquid slips: pressure
+        /// does not rub.</summary>
         Coulomb = 0,
-        /// <summary>matter moves with the surface and cannot leave it</summary>
+        /// <summary>matter moves with the surface and cannot leave it; liquid, too, as viscous liquids do</summary>
         Stick = 1,
         /// <summary>no tangential impulse</summary>
         Slip = 2,
@@ -610,7 +610,7 @@ namespace Pbmpm
         /// <summary>share of the constraint error removed per iteration, in (0, 2); default 1.5. With one
         /// iteration lone elastic particles tremble above 4/3.</summary>
         public float Relaxation;
-        /// <summary>liquid: share of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
+        /// <summary>liquid: share, with the paper's solver alone, of the deviatoric strain rate removed per iteration, in [0, 1]; default 0.
         /// Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt).</summary>
         public float Viscosity;
         /// <summary>liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
@@ -634,7 +634,7 @@ namespace Pbmpm
         /// <summary>liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
         /// (default): incompressible</summary>
         public float BulkModulus;
-        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. Walls hold it back with PBMPM_FRICTION_STICK. The paper's solver adds a share of 8 nu dt / (N dx^2) to
         /// `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>
