@@ -29,7 +29,9 @@ static const struct {
     {PBMPM_ADVICE_OVERLAPS, "PBMPM_ADVICE_OVERLAPS", "", advise_overlaps},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_known_limits},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_no_friction},
+    {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_slips},
     {PBMPM_ADVICE_EMITTER_OUTSIDE, "PBMPM_ADVICE_EMITTER_OUTSIDE", "cells", advise_emitter_outside},
+    {PBMPM_ADVICE_EMITTER_REFUSED, "PBMPM_ADVICE_EMITTER_REFUSED", "", advise_emitter_refused},
 };
 
 pbmpm_result advice_give(World *world, double dt, pbmpm_advice *array, uint32_t capacity, uint32_t *count)

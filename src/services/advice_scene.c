@@ -147,6 +147,38 @@ void advise_step_too_long(Adviser *adviser)
     adviser_give(adviser, advice);
 }
 
+/* ---- Viscous liquids ---- */
+
+/* Whether there are walls, and matter sticks to none of them. */
+static bool all_slip(const World *world)
+{
+    bool any = false, sticks = false;
+    for (int place = 0; place < 2 * world->def.dimension; place++) {
+        const pbmpm_domain_wall *wall = &world->domain.wall[place];
+        any = any || !wall->open;
+        sticks = sticks || (!wall->open && wall->friction == PBMPM_FRICTION_STICK);
+    }
+    for (uint32_t c = 0; c < world->colliders.used; c++) {
+        const Collider *collider = &world->colliders.slot[c];
+        any = any || world_feels(world, collider);
+        sticks = sticks || (world_feels(world, collider) && collider->def.friction == PBMPM_FRICTION_STICK);
+    }
+    return any && !sticks;
+}
+
+/* Coulomb's friction is that of dry matter: what holds honey back is that it sticks. */
+void advise_slips(Adviser *adviser)
+{
+    const World *world = adviser->world;
+    if (gravity_strength(world) == 0.0 || !all_slip(world)) return;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        if (!adviser_present(world, slot) || def->kind != PBMPM_LIQUID || def->kinematic_viscosity == 0.0f) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = adviser_id_of(world, slot),
+                                             .text = "a viscous liquid slips on every wall here: give those that hold it back PBMPM_FRICTION_STICK"});
+    }
+}
+
 /* ---- Emitters ---- */
 
 /* How far beyond a wall of the domain the whole of an emitter stands [m]; 0 or less if any of it may be inside. */
@@ -169,6 +201,21 @@ void advise_emitter_outside(Adviser *adviser)
         if (way <= 0.0) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_EMITTER_OUTSIDE, .material = emitter->def.material, .figure = (float)(way / (double)world->def.cell_size),
                                              .text = "an emitter stands outside of the domain: it emits nothing"});
+    }
+}
+
+/* An emitter whose place is full gives less than its rate. It may be meant to: a tank that is filled up refuses all in the end. So it counts while it still emits. */
+void advise_emitter_refused(Adviser *adviser)
+{
+    static const double MANY = 0.1; /* a tenth of a stream is what people miss */
+    const World *world = adviser->world;
+    for (uint32_t e = 0; e < world->emitters.used; e++) {
+        const Emitter *emitter = &world->emitters.slot[e];
+        const EmitterState *state = &emitter->state;
+        const double due = (double)(state->emitted + state->refused_full), refused = due > 0.0 ? (double)state->refused_full / due : 0.0;
+        if (emitter->generation == 0 || refused <= MANY || refused >= 1.0 - MANY) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_EMITTER_REFUSED, .material = emitter->def.material, .figure = (float)refused, .bound = (float)MANY, .came_true = 1,
+                                             .text = "an emitter finds its place full and gives less than its rate: lift it off the matter, or raise fill_limit"});
     }
 }
 

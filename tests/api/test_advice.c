@@ -97,7 +97,7 @@ static void test_arguments_are_checked(void)
 
 static void test_every_code_has_a_name(void)
 {
-    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_EMITTER_OUTSIDE; code++)
+    for (int code = PBMPM_ADVICE_NO_GRAVITY; code <= PBMPM_ADVICE_EMITTER_REFUSED; code++)
         TEST_ASSERT_EQUAL_INT(0, strncmp(pbmpm_advice_name((pbmpm_advice_code)code), "PBMPM_ADVICE_", 13));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_NO_GRAVITY", pbmpm_advice_name(PBMPM_ADVICE_NO_GRAVITY));
     TEST_ASSERT_EQUAL_STRING("PBMPM_ADVICE_UNKNOWN", pbmpm_advice_name((pbmpm_advice_code)9999));
@@ -643,6 +643,63 @@ static void test_an_emitter_outside_of_the_domain(void)
 }
 
 /* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
+/* A box on the floor that gives as much as flows out of it, in water as deep as itself: part of it finds no space. Above the water all does. */
+static void test_an_emitter_whose_place_is_full(void)
+{
+    for (int lifted = 0; lifted < 2; lifted++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 8192);
+        pbmpm_emitter_def jet = {0};
+        pbmpm_emitter_id emitter;
+        pbmpm_emitter_status status = {.size = sizeof status};
+        def.domain_enabled = 1;
+        def.domain_max[0] = 4;
+        const pbmpm_world_id world = create_world(&def);
+        const pbmpm_shape nozzle = box_shape(2, lifted ? 0.7f : 0.1f, 0, 0.2f, 0.1f, 0.1f);
+        set_gravity(world, 0, -9.81f, 0);
+        OK(pbmpm_emitter_def_init(&jet, sizeof jet));
+        jet.material = create_material(world, PBMPM_LIQUID);
+        jet.rate = 0.4f;
+        jet.speed = lifted ? 2.0f : 0.0f;
+        jet.direction[0] = 0;
+        jet.direction[1] = -1;
+        OK(pbmpm_emitter_create(world, &jet, &nozzle, &emitter));
+        expect_none(world, PBMPM_ADVICE_EMITTER_REFUSED);
+        for (int step = 0; step < 60; step++) OK(pbmpm_world_step(world, 1.0f / 60));
+        OK(pbmpm_emitter_status_get(world, emitter, &status));
+        const double refused = (double)status.refused_full / (double)(status.emitted + status.refused_full);
+        if (lifted) {
+            TEST_ASSERT_TRUE(refused < 0.1);
+            expect_none(world, PBMPM_ADVICE_EMITTER_REFUSED);
+        } else {
+            TEST_ASSERT_TRUE(refused > 0.1 && refused < 0.9);
+            TEST_ASSERT_FLOAT_WITHIN(1e-4f, (float)refused, expect(world, PBMPM_ADVICE_EMITTER_REFUSED)->figure);
+        }
+    }
+}
+
+/* Honey among walls that it slips on; one wall that it sticks to is enough, and without any nothing is said. */
+static void test_a_viscous_liquid_slips(void)
+{
+    for (int walls = 0; walls < 3; walls++) {
+        pbmpm_world_def def = default_world(2, 0.05f, 8192);
+        pbmpm_material_def honey = default_material(PBMPM_LIQUID);
+        const pbmpm_shape slab = box_shape(0.5f, -0.1f, 0, 1, 0.1f, 1);
+        pbmpm_collider_def floor = {0};
+        pbmpm_collider_id id;
+        const pbmpm_world_id world = create_world(&def);
+        honey.kinematic_viscosity = 0.005f;
+        set_gravity(world, 0, -9.81f, 0);
+        fill_shape(world, add_material(world, &honey), box_shape(0.5f, 0.25f, 0, 0.5f, 0.25f, 1), at_rest);
+        OK(pbmpm_collider_def_init(&floor, sizeof floor));
+        for (int k = 0; k < walls; k++) {
+            floor.friction = k == 0 ? PBMPM_FRICTION_COULOMB : PBMPM_FRICTION_STICK;
+            OK(pbmpm_collider_create(world, &floor, &slab, &id));
+        }
+        if (walls == 1) expect(world, PBMPM_ADVICE_NO_FRICTION);
+        else expect_none(world, PBMPM_ADVICE_NO_FRICTION);
+    }
+}
+
 static void test_matter_in_other_matter(void)
 {
     static const float beside[] = {2.013f, 0.513f}, inside[] = {0.513f, 0.413f};
@@ -787,6 +844,8 @@ int main(void)
     RUN_TEST(test_a_body_that_falls_along_a_wall);
     RUN_TEST(test_sand_on_a_floor_without_friction);
     RUN_TEST(test_an_emitter_outside_of_the_domain);
+    RUN_TEST(test_an_emitter_whose_place_is_full);
+    RUN_TEST(test_a_viscous_liquid_slips);
     RUN_TEST(test_matter_in_other_matter);
     RUN_TEST(test_a_body_that_is_thin_for_the_grid);
     RUN_TEST(test_obstacles);

@@ -301,10 +301,13 @@ namespace Pbmpm
         Overlaps = 17,
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
-        /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient</summary>
+        /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
+        /// with kinematic_viscosity among walls to none of which it sticks. Figure: 0</summary>
         NoFriction = 19,
         /// <summary>an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells]</summary>
         EmitterOutside = 20,
+        /// <summary>came true: an emitter found its place full, so it emits less than its rate. Figure: the share that was refused</summary>
+        EmitterRefused = 21,
         /// <summary>matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors</summary>
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
