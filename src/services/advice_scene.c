@@ -244,7 +244,7 @@ void advise_volume_lost(Adviser *adviser)
         const double lost = 1.0 - 1.0 / sure - lost_to_weight(adviser, slot);
         if (lost <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = adviser_id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
-                               .text = "matter takes less room than it should: its level is too low"};
+                               .text = "matter takes less room than it should, by this share: it is crushed"};
         adviser_by_substeps(adviser, 2.0, &advice);
         adviser_give(adviser, advice);
     }
@@ -271,7 +271,7 @@ void advise_not_solved(Adviser *adviser)
     const double error = adviser->world->record.predicted_error;
     if (error <= SEEN) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_NOT_SOLVED, .figure = (float)error, .bound = (float)SEEN, .came_true = 1,
-                           .text = adviser_any_present(adviser->world, PBMPM_LIQUID) ? "the last substep is far from solved: liquid leaves through holes too fast, and bodies are too soft"
+                           .text = adviser_any_present(adviser->world, PBMPM_LIQUID) ? "the last substep is far from solved: liquid flows as if pressed less, and bodies are too soft"
                                                                              : "the last substep is far from solved: stiffness and contact are not what they should be"};
     adviser_by_iterations(adviser, sqrt(error / SEEN), &advice);
     adviser_give(adviser, advice);

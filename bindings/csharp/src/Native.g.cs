@@ -2547,7 +2547,8 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_shape_mass(WorldId world, Shape* shape, float density, MassProperties* mass);
 
         /// <summary>How much of an obstacle is under matter. The surface of the matter around it is continued through the obstacle as a plane; what lies on the
-        /// matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts; else that material alone.
+        /// matter's side is under. No gravity is needed, and the plane may lie at any slope. `material` may be null: all matter counts, also what lies on it; else that material alone.
+        /// So name the liquid where a raft carries a load of another material.
         ///
         /// Measured on a lattice of the world's cells around the obstacle. Where that is longer than 64 cells the lattice is wider. Matter at a node is the
         /// filling of query.h, divided by the share that obstacles and walls leave open there. Where they leave nothing open, the nodes next to it count.

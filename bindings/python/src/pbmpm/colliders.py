@@ -160,7 +160,7 @@ class Collider(Member):
         return mass_from_c(out)
 
     def submerged(self, material: Material | None = None) -> Submersion:
-        """The part of it that is under matter, or under one material."""
+        """The part of it that is under matter, also under what lies on it, or under one material."""
         out = sized("pbmpm_submersion")
         only = ffi.NULL if material is None else ffi.new("pbmpm_material_id *", material._id)
         self._apply("submerged", only, out)
