@@ -87,7 +87,7 @@ struct KernelMaterial {
     float carried;            /* liquid: from a pressure [Pa] to the multiplier to start from */
     float pascal;             /* liquid: from a multiplier to a pressure [Pa] */
     float lightness;          /* from a pressure that a cell holds to the multiplier, see cells.isph */
-    float viscous_share;      /* liquid: share of the deviator that one round of viscosity takes */
+    float viscous_share;      /* liquid: what viscosity makes of D in a substep, see viscosity.isph */
     /* How elastic matter yields, see plastic.isph. */
     int32_t yields;
     float friction;           /* sand: sine of the friction angle */

@@ -19,7 +19,7 @@ static inline int first_of(float at) {
 
 // Where the lanes of a row begin: they reach all of its points, and are written and read again as the same ones, or a processor waits.
 static inline uniform int window_of(uniform int first) {
-    return programCount <= 4 ? first : first < 4 ? 0 : BOX_AXIS - programCount;
+    return programCount <= 4 ? min(first, BOX_AXIS - programCount) : first < 4 ? 0 : BOX_AXIS - programCount;
 }
 
 export void surface_splat(const uniform float x[], const uniform float y[], const uniform float z[], const uniform float amount[], uniform int count, uniform float box[]) {

@@ -36,7 +36,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
                                             with kinematic_viscosity among walls to none of which it sticks. Figure: 0 */
     PBMPM_ADVICE_EMITTER_OUTSIDE = 20, /**< an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells] */
-    PBMPM_ADVICE_EMITTER_REFUSED = 21, /**< came true: an emitter found its place full, so it emits less than its rate. Figure: the share that was refused */
+    PBMPM_ADVICE_EMITTER_REFUSED = 21, /**< came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far */
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */

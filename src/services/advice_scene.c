@@ -204,7 +204,7 @@ void advise_emitter_outside(Adviser *adviser)
     }
 }
 
-/* An emitter whose place is full gives less than its rate. It may be meant to: a tank that is filled up refuses all in the end. So it counts while it still emits. */
+/* An emitter whose place was full gave less than its rate, all in all. Nearly all of it is refused where a tank is full, as it should be. */
 void advise_emitter_refused(Adviser *adviser)
 {
     static const double MANY = 0.1; /* a tenth of a stream is what people miss */
@@ -215,7 +215,7 @@ void advise_emitter_refused(Adviser *adviser)
         const double due = (double)(state->emitted + state->refused_full), refused = due > 0.0 ? (double)state->refused_full / due : 0.0;
         if (emitter->generation == 0 || refused <= MANY || refused >= 1.0 - MANY) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_EMITTER_REFUSED, .material = emitter->def.material, .figure = (float)refused, .bound = (float)MANY, .came_true = 1,
-                                             .text = "an emitter finds its place full and gives less than its rate: lift it off the matter, or raise fill_limit"});
+                                             .text = "an emitter found its place full and gave less than its rate: lift it off the matter, or raise fill_limit"});
     }
 }
 

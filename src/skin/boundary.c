@@ -250,7 +250,7 @@ static bool counts(const float *values, float least)
     return any;
 }
 
-/* From one point to the next the gap changes by no more than their distance. */
+/* From one point to the next the gap changes by no more than their distance. Points so far off that neither an image nor the cut changes them are passed over. */
 static void mirror_row(const BoundaryJob *job, Part *part, int first)
 {
     const double spacing = 1.0 / job->work->blocks->subdivision;
@@ -258,7 +258,7 @@ static void mirror_row(const BoundaryJob *job, Part *part, int first)
     const float *own = job->values + point, least = least_that_counts(job->level);
     double at_least = -INFINITY;
     for (int x = 0; x < PART_AXIS; x++, at_least -= spacing) {
-        if (own[x] <= least || at_least >= IMAGE_REACH) continue;
+        if (own[x] <= least || (at_least >= IMAGE_REACH && cut_at(job->level, (float)at_least) >= own[x])) continue;
         mirror_point(job, part, first + x, &own[x], &job->work->gaps[point + (size_t)x], &job->work->lines[point + (size_t)x]);
         at_least = (double)job->work->gaps[point + (size_t)x];
     }

@@ -9,7 +9,7 @@
  * rounds do not know that: random motion in 3D lost 10 % of its energy in one of 32 stages, and gained 11 % in one of 64. */
 enum { VISCOUS_STAGES_MAX = 32, VISCOUS_ROUNDS_MAX = 4 };
 
-/* The share of the deviator that a liquid's viscosity takes in a substep, at most what all stages can. */
+/* What a liquid's viscosity makes of D in a substep, at most what all stages can: `share` in ispc/viscosity.isph. */
 double viscosity_share(const World *world, const pbmpm_material_def *def);
 
 /* Takes memory for the blocks of this substep, if any liquid is viscous. */

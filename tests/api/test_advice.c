@@ -642,7 +642,6 @@ static void test_an_emitter_outside_of_the_domain(void)
     expect_none(world, PBMPM_ADVICE_EMITTER_OUTSIDE);
 }
 
-/* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
 /* A box on the floor that gives as much as flows out of it, in water as deep as itself: part of it finds no space. Above the water all does. */
 static void test_an_emitter_whose_place_is_full(void)
 {
@@ -700,6 +699,7 @@ static void test_a_viscous_liquid_slips(void)
     }
 }
 
+/* A jelly where there is water, off the grid; beside it nothing is too much. After a step it is too late to tell. */
 static void test_matter_in_other_matter(void)
 {
     static const float beside[] = {2.013f, 0.513f}, inside[] = {0.513f, 0.413f};

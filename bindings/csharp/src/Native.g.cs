@@ -306,7 +306,7 @@ namespace Pbmpm
         NoFriction = 19,
         /// <summary>an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells]</summary>
         EmitterOutside = 20,
-        /// <summary>came true: an emitter found its place full, so it emits less than its rate. Figure: the share that was refused</summary>
+        /// <summary>came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far</summary>
         EmitterRefused = 21,
         /// <summary>matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors</summary>
         VolumeLost = 14,
