@@ -311,7 +311,7 @@ void contacts_keep_places(const ContactFrame *frame, const Particles *p, int32_t
  * distance alone would need ever more of them, the flatter it is. */
 static double share_until_hit(const Solid *solid, const double from[3], const double way[3], double length, double cell_size, double normal[3])
 {
-    enum { STEPS = 48 };
+    enum { STEPS = 48 }; /* convex solids take one or two; along a baked surface steps are as short as its distance */
     double share = 0.0;
     for (int i = 0; i < STEPS && share < 1.0; i++) {
         double at[3], inward = 0.0;

@@ -102,7 +102,7 @@ void advise_sand_slides(Adviser *adviser)
 /* Whether any of some particles or emitters of a material has no obstacle below it. */
 static bool reaches_domain(const World *world, uint32_t slot)
 {
-    enum { SAMPLES = 64 };
+    enum { SAMPLES = 64 }; /* so that advice costs the same for any number of particles */
     const Particles *p = &world->particles;
     const uint32_t stride = 1 + p->of_material[slot] / SAMPLES;
     uint32_t number = 0;

@@ -20,7 +20,7 @@ void advise_no_gravity(Adviser *adviser)
 
 void advise_falls_forever(Adviser *adviser)
 {
-    enum { SAMPLES = 64 };
+    enum { SAMPLES = 64 }; /* so that advice costs the same for any number of particles */
     static const double FEW = 0.05; /* share of the samples: three of 64, which may be spray */
     const World *world = adviser->world;
     const Particles *p = &world->particles;
@@ -207,7 +207,7 @@ void advise_emitter_outside(Adviser *adviser)
 /* An emitter whose place was full gave less than its rate, all in all. Nearly all of it is refused where a tank is full, as it should be. */
 void advise_emitter_refused(Adviser *adviser)
 {
-    static const double MANY = 0.1; /* a tenth of a stream is what people miss */
+    static const double MANY = 0.1; /* by trial: a tenth of a stream is what people miss */
     const World *world = adviser->world;
     for (uint32_t e = 0; e < world->emitters.used; e++) {
         const Emitter *emitter = &world->emitters.slot[e];

@@ -6,7 +6,7 @@
 #include "world/world.h"
 
 /* A substep takes so many rounds of so many stages at most; what needs more acts with less viscosity. The stress of liquid that bears nothing is not linear, and long
- * rounds do not know that: random motion in 3D lost 10 % of its energy in one of 32 stages, and gained 11 % in one of 64. */
+ * rounds do not know that: random motion in 3D lost 10 % of its energy in one of 32 stages, and gained 11 % in one of 64. By trial. */
 enum { VISCOUS_STAGES_MAX = 32, VISCOUS_ROUNDS_MAX = 4 };
 
 /* What a liquid's viscosity makes of D in a substep, at most what all stages can: `share` in ispc/viscosity.isph. */

@@ -48,8 +48,9 @@ static Layer layer_of(const World *world, int32_t i, bool liquid)
 /* Of so many particles in the first `layers`; liquid: in those of liquids alone. */
 static double depth_of(const World *world, int32_t layers, double particles, bool liquid)
 {
-    enum { BINS = 64, ROUNDS = 4 };
-    const double trim = 0.02 * particles;
+    enum { BINS = 64, ROUNDS = 4 }; /* each round looks closer at where the ends lie: far below a block, however far a lone drop flew */
+    static const double TRIMMED = 0.02; /* share of the particles at each end, which may be spray */
+    const double trim = TRIMMED * particles;
     double low = INFINITY, high = -INFINITY;
     for (int32_t i = 0; i < layers; i++) {
         const Layer layer = layer_of(world, i, liquid);

@@ -53,6 +53,10 @@ def gathered(found: list[Constant], campaign: Path) -> dict[str, dict[str, str]]
     return dict(sorted(known.items()))
 
 
+def by_trial(found: list[Constant]) -> list[Constant]:
+    return [constant for constant in found if "by trial" in constant.about.lower()]
+
+
 def sentence(about: str) -> str:
     """The first words of a comment, as one cell of a table."""
     first = re.split(r"(?<=\.) ", about.replace("|", "\\|"))[0]
@@ -66,15 +70,15 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
         rooms.setdefault(str(Path(constant.file).parent), []).append(constant)
     tried = sum(len(verdicts.get(key_of(constant), {})) for constant in found)
     quiet = [constant for constant in found if "none" in verdicts.get(key_of(constant), {}).values()]
-    by_trial = [constant for constant in found if "by trial" in constant.about.lower()]
-    lines = [HEAD, f"{len(found)} constants, {len(by_trial)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
+    tried_out = by_trial(found)
+    lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:
             verdict = verdicts.get(key_of(constant), {})
             cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
             lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
-    lines += ["", "## By trial", "", *(f"- `{constant.name}` ({Path(constant.file).name}, `{constant.value}`)" for constant in by_trial)]
+    lines += ["", "## By trial", "", *(f"- `{constant.name}` ({Path(constant.file).name}, `{constant.value}`)" for constant in tried_out)]
     return "\n".join(lines) + "\n"
 
 

@@ -181,6 +181,7 @@ def equivalents(file: Path) -> dict[tuple[str, str, str], str]:
 _VALUE = r"-?(?:\d+\.\d*|\d*\.\d+|\d+)(?:e[-+]?\d+)?f?"
 _NAMED = re.compile(rf"\b([A-Z][A-Z0-9_]+) = ({_VALUE}(?: [*/+-] {_VALUE})*)(?=[,;])")
 _DEFINED = re.compile(rf"^#define ([A-Z][A-Z0-9_]+) ({_VALUE})(?=\s|$)")
+_COUNTED = re.compile(r"\b([A-Z_]*(?:ROUNDS|STEPS|EVALUATIONS|HALVINGS|MEMORY|STAGES|LEVELS|SAMPLES|BINS)[A-Z_]*) = (\d+)(?=[, ])")
 #: Of mathematics, of number formats, and marks: nothing that could be chosen otherwise.
 _GIVEN = re.compile(r"PI|TURN|LN2_|HALF_PI_|UNKNOWN|NONE|NOTHING|GUESS_KEEPS_ALL|^K_|MAX_ISA")
 
@@ -198,14 +199,17 @@ class Constant:
     def fault(self, text: str, factor: float) -> Fault:
         """The line with half or twice the value."""
         suffix = "f" if self.value.endswith("f") else ""
-        changed = text.replace(f"{self.name} = {self.value}", f"{self.name} = {factor}{suffix} * ({self.value})")
+        if self.value.isdigit():
+            changed = text.replace(f"{self.name} = {self.value}", f"{self.name} = {int(factor * int(self.value))}")
+        else:
+            changed = text.replace(f"{self.name} = {self.value}", f"{self.name} = {factor}{suffix} * ({self.value})")
         if changed == text:
             changed = text.replace(f"{self.name} {self.value}", f"{self.name} ({factor}{suffix} * {self.value})", 1)
         return Fault(self.file, self.line, "halved" if factor < 1.0 else "doubled", text, changed)
 
 
 def constants_of(root: Path, file: str) -> Iterator[Constant]:
-    """The named real numbers of a file."""
+    """The named real numbers of a file, and the counts of what it does again and again."""
     text = (root / file).read_text(encoding="utf-8")
     lines = text.splitlines()
     for number, (line, code) in enumerate(zip(lines, bare(text), strict=True), 1):
@@ -214,6 +218,8 @@ def constants_of(root: Path, file: str) -> Iterator[Constant]:
             if "." in match[2] or "e" in match[2]:
                 if not _GIVEN.search(match[1]):
                     yield Constant(file, number, match[1], match[2], _about(lines, number - 1))
+        for match in _COUNTED.finditer(code) if re.match(r"\s*enum \{", code) else ():
+            yield Constant(file, number, match[1], match[2], _about(lines, number - 1))
 
 
 def _about(lines: list[str], place: int) -> str:

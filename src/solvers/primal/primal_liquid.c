@@ -147,7 +147,7 @@ static void damp_eddies(Primal *p)
 
 void primal_find_kept(Primal *p)
 {
-    enum { HALVINGS = 3 };
+    enum { HALVINGS = 3 }; /* to an eighth of the way; what cannot pay even that goes back to where it started from */
     if (!solver_holds_liquid(p->world)) return;
     if (p->joint) {
         damp_eddies(p);

@@ -204,7 +204,7 @@ static void keep_rotations(Primal *p)
 
 void primal_keep_momentum(Primal *p)
 {
-    enum { STEPS = 3 };
+    enum { STEPS = 3 }; /* with its secant for a stiffness steps fall short, never too far: the rest waits for the next substep */
     const PrimalState *state = &p->world->primal;
     const BodySum *body = state->body_sums.data;
     BodyMove *move = state->moves.data;

@@ -12,6 +12,7 @@
 #include "contact/contact_constraints.h"
 #include "solvers/primal/primal_solve.h"
 
+/* Of Newton's method; a start that is not found by then is judged by its energy like any other. */
 enum { ROUNDS = 6 };
 static const double FOUND = 1e-4; /* [cells], [radians] where Newton's method ends: less is no strain that a body notices */
 

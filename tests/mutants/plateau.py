@@ -1,0 +1,127 @@
+"""Studies the constants that no theory gives: what the field tests and the hard cases say of half and of double of each.
+
+    python3 tests/mutants/plateau.py build [--folder build/plateau]
+    build/venv/bin/python tests/mutants/plateau.py judge [--folder build/plateau] [--jobs 2]
+    python3 tests/mutants/plateau.py keep [--folder build/plateau]
+
+`build` makes a library for each constant whose comment says "by trial", with half and with double of it, and one without a change. `judge` runs with each
+the field tests at 60 Hz x 5 and the hard cases at their own settings, for minutes of a core; it can be stopped and goes on. It needs nothing but the
+folder, this tree and Python, so a larger machine can do it. `keep` writes what it found to plateaus.json beside this file, for constants.py.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+from constants import by_trial, key_of
+from faults import constants
+
+ROOT = Path(__file__).resolve().parents[2]
+KEPT = Path(__file__).with_name("plateaus.json")
+FACTORS = {"halved": 0.5, "doubled": 2.0}
+AS_IT_IS = "as it is"
+HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "dual,primal", "--dims", "2", "--processes", "1", "--json")
+
+
+def build(folder: Path) -> None:
+    from mutate import Workplace
+
+    place = Workplace(folder / "work", python=False)
+    place.prepare()
+    index = [{"key": "", "change": AS_IT_IS, "library": save(place.build, folder, 0)}]
+    for constant in by_trial(constants(place.tree)):
+        path = place.tree / constant.file
+        sound = path.read_text(encoding="utf-8")
+        for change, factor in FACTORS.items():
+            lines = sound.split("\n")
+            lines[constant.line - 1] = constant.fault(lines[constant.line - 1], factor).after
+            path.write_text("\n".join(lines), encoding="utf-8")
+            if place.make("pbmpm"):
+                index.append({"key": key_of(constant), "change": change, "library": save(place.build, folder, len(index))})
+            print(f"{len(index)}: {constant.name} {change}", flush=True)
+        path.write_text(sound, encoding="utf-8")
+    (folder / "index.json").write_text(json.dumps(index, indent=1), encoding="utf-8")
+
+
+def save(built: Path, folder: Path, number: int) -> str:
+    """A copy of the library, without names that nobody needs here."""
+    name = f"libpbmpm_{number}.so"
+    subprocess.run(["strip", "-x", "-o", folder / name, built / "lib/libpbmpm.so"], check=True)
+    return name
+
+
+def judge(folder: Path, jobs: int) -> None:
+    index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
+    todo = [it for it in index if not result_of(folder, it).is_file()]
+    with ThreadPoolExecutor(jobs) as pool:
+        list(pool.map(lambda it: look_at(folder, it), todo))
+
+
+def result_of(folder: Path, entry: dict[str, str]) -> Path:
+    return folder / entry["library"].replace(".so", ".json")
+
+
+def look_at(folder: Path, entry: dict[str, str]) -> None:
+    """What both suites say of one library: by check or run, whether it passed."""
+    begin = time.monotonic()
+    environment = os.environ | {"PBMPM_LIBRARY": str((folder / entry["library"]).resolve()), "PBMPM_ISA": "sse4", "OMP_NUM_THREADS": "1"}
+    field_file, hard_file = (result_of(folder, entry).with_suffix(suffix) for suffix in (".field", ".hard"))
+    commands = [[str(ROOT / "tests/field/run.py"), "--settings", "60x5", "--json", str(field_file)], [*HARD_CASES, str(hard_file)]]
+    for command in commands:
+        subprocess.run([sys.executable, *command], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    found = {
+        "field": {f"{row['case']}[{row['variant']}] {row['what']}": bool(row["passed"]) for row in json.loads(field_file.read_text(encoding="utf-8"))},
+        "hard": {re.sub(r"\s+", " ", name_of(row)): bool(row["passed"]) for row in json.loads(hard_file.read_text(encoding="utf-8"))["rows"]},
+    }
+    result_of(folder, entry).write_text(json.dumps(entry | found), encoding="utf-8")
+    print(f"{entry['library']} {entry['key']} {entry['change']}: {sum(found['field'].values())} {sum(found['hard'].values())} in {time.monotonic() - begin:.0f} s", flush=True)
+
+
+def name_of(row: dict[str, object]) -> str:
+    return " ".join(str(row.get(part, "")) for part in ("case", "variant", "solver", "material", "dims"))
+
+
+def keep(folder: Path) -> None:
+    """Counts of what passed, and what changed sides against the library as it is."""
+    results = [json.loads(result_of(folder, it).read_text(encoding="utf-8")) for it in json.loads((folder / "index.json").read_text(encoding="utf-8"))]
+    base = results[0]
+    kept: dict[str, dict[str, object]] = {}
+    for result in results:
+        kept.setdefault(result["key"], {})[result["change"]] = {
+            suite: {
+                "passed": sum(result[suite].values()),
+                "of": len(result[suite]),
+                "lost": sorted(name for name, passed in base[suite].items() if passed and not result[suite].get(name, False)),
+                "won": sorted(name for name, passed in base[suite].items() if not passed and result[suite].get(name, False)),
+            }
+            for suite in ("field", "hard")
+        }
+    KEPT.write_text(json.dumps(kept, indent=0) + "\n", encoding="utf-8")
+
+
+def main() -> int:
+    arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    arguments.add_argument("part", choices=("build", "judge", "keep"))
+    arguments.add_argument("--folder", type=Path, default=ROOT / "build/plateau")
+    arguments.add_argument("--jobs", type=int, default=2)
+    options = arguments.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    if options.part == "build":
+        build(options.folder)
+    elif options.part == "judge":
+        judge(options.folder, options.jobs)
+    else:
+        keep(options.folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
