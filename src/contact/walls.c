@@ -10,7 +10,7 @@ enum { GRAIN = 64, WALL_NODE_NS = 20 };
 
 void walls_free(Walls *walls, Memory *memory)
 {
-    Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->mirror, &walls->corner,
+    Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->shear, &walls->mirror, &walls->corner,
                        &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->faced,  &walls->vector,
                        &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
@@ -19,7 +19,7 @@ void walls_free(Walls *walls, Memory *memory)
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->frees = walls->moves = walls->entries = walls->mirrors = walls->corners = walls->grips = walls->bodies = walls->beside = 0;
+    walls->nodes = walls->frees = walls->moves = walls->entries = walls->shears = walls->mirrors = walls->corners = walls->grips = walls->bodies = walls->beside = 0;
     walls->rubs = false;
 }
 
@@ -265,15 +265,14 @@ float walls_value(const Walls *walls, uint32_t node, const float *u, const float
 
 /* ---- Impulses ---- */
 
-/* What `place` gained from face `j` of a node. */
-static void book(const ApplyJob *job, const WallNode *n, int j, const WallNode *place, const double gained[3])
+void walls_book_face(const ContactFrame *frame, const WallNode *n, int face, const WallNode *place, const double gained[3])
 {
-    const Colliders *colliders = job->frame->colliders;
-    const Obstacle *o = &colliders->obstacle[n->obstacle[j]];
+    const Colliders *colliders = frame->colliders;
+    const Obstacle *o = &colliders->obstacle[n->obstacle[face]];
     double point[3];
-    const uint32_t cells = (uint32_t)job->frame->grid->block_cells;
+    const uint32_t cells = (uint32_t)frame->grid->block_cells;
     if (!o->measures) return;
-    contacts_node_position(job->frame, (int32_t)(place->node / cells), (int)(place->node % cells), point);
+    contacts_node_position(frame, (int32_t)(place->node / cells), (int)(place->node % cells), point);
     impulse_add(&colliders->impulses.sum[o->place], point, gained);
 }
 
@@ -297,10 +296,10 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
                 gained[a] = scale * along * (double)n->normal[j][a];
                 sum[a] -= along * (double)n->normal[j][a];
             }
-            book(&job, n, j, n, gained);
+            walls_book_face(frame, n, j, n, gained);
         }
         for (int a = 0; a < 3; a++) gained[a] = scale * sum[a];
-        if (n->normals > 0) book(&job, n, 0, n, gained);
+        if (n->normals > 0) walls_book_face(frame, n, 0, n, gained);
     }
 }
 
@@ -319,7 +318,7 @@ static void push_free(const ApplyJob *job, const WallNode *at, const WallNode *t
     }
     if (!job->frame->colliders->measures) return;
     for (int a = 0; a < 3; a++) gained[a] *= contacts_momentum_scale(job->frame);
-    book(job, at, 0, to, gained);
+    walls_book_face(job->frame, at, 0, to, gained);
 }
 
 /* Mass in a full cell before a wall. */

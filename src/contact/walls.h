@@ -53,6 +53,9 @@ void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool
  * `gravity`: of the substep [cells]; `base`: 4 floats per node, changed as the nodes are. */
 void walls_weigh(const Walls *walls, const ContactFrame *frame, const float gravity[3], float *base);
 
+/* Adds what matter at `place` gained from face number `face` of a listed node [kg m/s] to the impulse of its obstacle. */
+void walls_book_face(const ContactFrame *frame, const WallNode *n, int face, const WallNode *place, const double gained[3]);
+
 /* Adds what the walls gave to matter in the last walls_apply() to the impulses of their obstacles. */
 void walls_book(const Walls *walls, const ContactFrame *frame);
 

@@ -425,6 +425,25 @@ static void add_grip_whole(Builder *b, uint32_t index, const Profile *profile, d
     add_grip(b, index, profile, share);
 }
 
+/* B of wall_shear.h, for the entry that is made next. A factor greater than 1 is that of a node more than a cell behind a wall, where hardly any matter reaches. */
+static void hold_viscous(Builder *b, const Profile *profile, int count, const double *scale, bool sticks)
+{
+    double factor[NORMALS_MAX], all = 1.0;
+    float kept[6] = {0};
+    for (int j = 0; j < count; j++) {
+        const bool holds = !sticks && profile[j].owner->friction != PBMPM_FRICTION_SLIP;
+        factor[j] = holds ? fmax(scale[j], -1.0) : 1.0;
+        all *= factor[j];
+    }
+    kept[0] = kept[3] = kept[5] = (float)all;
+    for (int j = 0; j < count; j++) {
+        double others = 1.0;
+        for (int k = 0; k < count; k++) others *= k != j ? factor[k] : 1.0;
+        add_product(kept, others - all, profile[j].axis);
+    }
+    ((WallShear *)b->walls->shear.data)[b->walls->shears++] = (WallShear){.kept = symmetric_columns(kept)};
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
@@ -455,6 +474,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     if (sticks) add_grip_whole(b, index, &profile[0], 1.0 - scale[0]);
     for (int j = 0; j < count && !sticks; j++) add_grip_along(b, index, &profile[j], 1.0 - scale[j]);
     if (!found) return;
+    if (b->frame->viscous) hold_viscous(b, profile, count, scale, sticks);
     node->entry = b->walls->entries++;
     ((WallEntry *)b->walls->entry.data)[node->entry] = (WallEntry){symmetric_columns(matrix), index, corner_begin, b->walls->corners};
 }
@@ -766,9 +786,10 @@ static bool bind_nodes(Builder *b, Pool *pool)
 }
 
 /* A node has one entry, and a mirror image for each set of its faces but the empty one. */
-static bool reserve_lists(Walls *walls, uint32_t bounds, int dimension, Memory *memory)
+static bool reserve_lists(Walls *walls, uint32_t bounds, int dimension, bool viscous, Memory *memory)
 {
     const size_t images = ((size_t)1 << dimension) - 1;
+    if (viscous && !array_reserve(memory, &walls->shear, bounds, sizeof(WallShear))) return false;
     return array_reserve(memory, &walls->entry, bounds, sizeof(WallEntry)) && array_reserve(memory, &walls->mirror, images * bounds, sizeof(WallMirror));
 }
 
@@ -782,7 +803,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     bool ok = array_reserve(memory, &walls->place, nodes, sizeof(uint32_t));
     if (ok) {
         if (grid->node_blocks > 0) memset(walls->place.data, 0, nodes * sizeof(uint32_t));
-        ok = wall_bodies_list(walls, frame, memory) && bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, memory);
+        ok = wall_bodies_list(walls, frame, memory) && bind_nodes(&builder, pool) && reserve_lists(walls, builder.bounds, grid->dimension, frame->viscous, memory);
         for (uint32_t i = 0; i < builder.bounds && ok && !builder.failed; i++) add_follower(&builder, i);
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&

@@ -33,6 +33,13 @@ typedef struct WallEntry {
     uint32_t follower, corner_begin, corner_end;
 } WallEntry;
 
+/* Of an entry, while viscosity acts: see wall_shear.h. */
+typedef struct WallShear {
+    Columns kept;             /* B */
+    Four before;              /* the node's u_(j-2) */
+    Four given, given_before; /* by the walls, after the last stage and the one before */
+} WallShear;
+
 /* The same for the density. */
 typedef struct WallMirror {
     uint32_t follower, corner_begin, corner_end;
@@ -108,6 +115,7 @@ typedef struct Walls {
     Array free;       /* WallFree of those that are free */
     Array moved;      /* uint32_t: the places of those that do not move as they are free to */
     Array entry;      /* WallEntry, in the order of the nodes that follow */
+    Array shear;      /* WallShear per entry, if the frame is viscous */
     Array mirror;     /* WallMirror, likewise */
     Array corner;     /* WallCorner of both */
     Array link;       /* WallLink: per node that is followed, who follows */
@@ -121,7 +129,7 @@ typedef struct Walls {
     Array body;       /* WallBody */
     Array scratch;    /* while S is found */
     Array beside_body; /* uint32_t: which of the free nodes rigid bodies move */
-    uint32_t nodes, frees, moves, entries, mirrors, corners, grips, bodies, beside;
+    uint32_t nodes, frees, moves, entries, shears, mirrors, corners, grips, bodies, beside;
     bool rubs;        /* a wall has friction */
 } Walls;
 

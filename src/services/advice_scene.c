@@ -149,33 +149,39 @@ void advise_step_too_long(Adviser *adviser)
 
 /* ---- Viscous liquids ---- */
 
-/* Whether there are walls, and matter sticks to none of them. */
-static bool all_slip(const World *world)
+/* Whether a wall holds viscous liquid: see wall_shear.h. The paper's solver knows what sticks alone. */
+static bool holds_viscous(const World *world, pbmpm_friction friction)
 {
-    bool any = false, sticks = false;
+    return friction == PBMPM_FRICTION_STICK || (friction != PBMPM_FRICTION_SLIP && world->settings.solver != PBMPM_SOLVER_PAPER);
+}
+
+/* Whether there are walls for matter of these groups, and none of them holds it. */
+static bool all_slip(const World *world, uint32_t groups)
+{
+    bool any = false, holds = false;
     for (int place = 0; place < 2 * world->def.dimension; place++) {
         const pbmpm_domain_wall *wall = &world->domain.wall[place];
         any = any || !wall->open;
-        sticks = sticks || (!wall->open && wall->friction == PBMPM_FRICTION_STICK);
+        holds = holds || (!wall->open && holds_viscous(world, wall->friction));
     }
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        any = any || world_feels(world, collider);
-        sticks = sticks || (world_feels(world, collider) && collider->def.friction == PBMPM_FRICTION_STICK);
+        if (!world_feels(world, collider) || !groups_meet(collider->def.meets, groups)) continue;
+        any = true;
+        holds = holds || holds_viscous(world, collider->def.friction);
     }
-    return any && !sticks;
+    return any && !holds;
 }
 
-/* Coulomb's friction is that of dry matter: what holds honey back is that it sticks. */
 void advise_slips(Adviser *adviser)
 {
     const World *world = adviser->world;
-    if (gravity_strength(world) == 0.0 || !all_slip(world)) return;
+    if (gravity_strength(world) == 0.0) return;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
         const pbmpm_material_def *def = &world->materials.def[slot];
-        if (!adviser_present(world, slot) || def->kind != PBMPM_LIQUID || def->kinematic_viscosity == 0.0f) continue;
+        if (!adviser_present(world, slot) || def->kind != PBMPM_LIQUID || def->kinematic_viscosity == 0.0f || !all_slip(world, def->groups)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = adviser_id_of(world, slot),
-                                             .text = "a viscous liquid slips on every wall here: give those that hold it back PBMPM_FRICTION_STICK"});
+                                             .text = "a viscous liquid slips on every wall here: PBMPM_FRICTION_COULOMB holds it back, with the paper's solver PBMPM_FRICTION_STICK"});
     }
 }
 

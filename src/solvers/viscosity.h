@@ -12,6 +12,9 @@ enum { VISCOUS_STAGES_MAX = 32, VISCOUS_ROUNDS_MAX = 4 };
 /* What a liquid's viscosity makes of D in a substep, at most what all stages can: `share` in ispc/viscosity.isph. */
 double viscosity_share(const World *world, const pbmpm_material_def *def);
 
+/* Whether any liquid in this substep is viscous by its own material; the paper's solver has another way. */
+bool viscosity_acts(const World *world);
+
 /* Takes memory for the blocks of this substep, if any liquid is viscous. */
 pbmpm_result viscosity_prepare(World *world);
 

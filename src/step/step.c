@@ -15,6 +15,7 @@
 #include "solvers/joint.h"
 #include "solvers/passes.h"
 #include "solvers/solver.h"
+#include "solvers/viscosity.h"
 #include "step/build_groups.h"
 #include "step/draining.h"
 #include "step/emitting.h"
@@ -210,6 +211,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
                                .liquid = kinds == KIND_LIQUID,
+                               .viscous = viscosity_acts(world),
                                .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);

@@ -243,12 +243,13 @@ namespace Pbmpm
     /// <summary>What an obstacle does to motion along its surface.</summary>
     public enum Friction : int
     {
-        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. Liquid slips: pressure
-        /// does not rub.</summary>
+        /// <summary>tangential impulse up to friction_coefficient times the normal impulse. A liquid's pressure does
+        /// not rub; what holds it is its kinematic_viscosity: water slips, honey does not.
+        /// Not the paper's solver: there liquid slips</summary>
         Coulomb = 0,
-        /// <summary>matter moves with the surface and cannot leave it; liquid, too, as viscous liquids do</summary>
+        /// <summary>matter moves with the surface and cannot leave it; liquid, too</summary>
         Stick = 1,
-        /// <summary>no tangential impulse</summary>
+        /// <summary>no tangential impulse, of viscous liquid neither</summary>
         Slip = 2,
     }
 
@@ -302,7 +303,7 @@ namespace Pbmpm
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
-        /// with kinematic_viscosity among walls to none of which it sticks. Figure: 0</summary>
+        /// with kinematic_viscosity among walls none of which holds it. Figure: 0</summary>
         NoFriction = 19,
         /// <summary>an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells]</summary>
         EmitterOutside = 20,
@@ -637,7 +638,8 @@ namespace Pbmpm
         /// <summary>liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
         /// (default): incompressible</summary>
         public float BulkModulus;
-        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. Walls hold it back with PBMPM_FRICTION_STICK. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. It does not slip on walls, but for those with
+        /// PBMPM_FRICTION_SLIP. The paper's solver adds a share of 8 nu dt / (N dx^2) to
         /// `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>

@@ -1,0 +1,87 @@
+#include "contact/wall_shear.h"
+
+#include "contact/walls.h"
+
+enum { GRAIN = 64, WALL_ENTRY_NS = 10 };
+
+typedef struct StageJob {
+    const Walls *walls;
+    const ContactFrame *frame;
+    const WallStage *stage;
+} StageJob;
+
+static Span entries_of(const Walls *walls) { return (Span){(int32_t)walls->shears, GRAIN, (int64_t)walls->shears * WALL_ENTRY_NS}; }
+
+static Four load(const float *array, uint32_t node)
+{
+    const float *u = array + (size_t)node * K_NODE_WIDTH;
+    return (Four){u[0], u[1], u[2], 0.0f};
+}
+
+static void store(Four u, float *array, uint32_t node)
+{
+    for (int a = 0; a < 3; a++) array[(size_t)node * K_NODE_WIDTH + (size_t)a] = u[a];
+}
+
+void wall_shear_begin(const Walls *walls)
+{
+    WallShear *shear = walls->shear.data;
+    for (uint32_t e = 0; e < walls->shears; e++) shear[e].given = shear[e].given_before = (Four){0};
+}
+
+static void hold(void *context, int32_t begin, int32_t end)
+{
+    const StageJob *job = context;
+    const Walls *walls = job->walls;
+    const ApplyJob apply = {.walls = walls, .frame = job->frame, .v = vectors_of(walls)};
+    for (int32_t e = begin; e < end; e++) {
+        const WallEntry *entry = (const WallEntry *)walls->entry.data + e;
+        WallShear *shear = (WallShear *)walls->shear.data + e;
+        const WallNode *n = (const WallNode *)walls->node.data + entry->follower;
+        const Four surface = {n->surface[0], n->surface[1], n->surface[2]};
+        const Four relative = mean_of(&apply, entry) - surface;
+        shear->before = load(job->stage->push, n->node);
+        store(surface + times(&entry->matrix, times(&shear->kept, relative)), job->frame->grid->node.data, n->node);
+    }
+}
+
+static void give(void *context, int32_t begin, int32_t end)
+{
+    const StageJob *job = context;
+    const Walls *walls = job->walls;
+    for (int32_t e = begin; e < end; e++) {
+        WallShear *shear = (WallShear *)walls->shear.data + e;
+        const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
+        const Four start = job->stage->last * load(job->stage->push, n->node) + job->stage->before * shear->before; /* the stage moved u_(j-1) to `push` */
+        const Four change = load(job->stage->base, n->node) - start, kept = times(&shear->kept, change);
+        const Four given = job->stage->last * shear->given + job->stage->before * shear->given_before + n->mass * (kept - change);
+        store(start + kept, job->stage->base, n->node);
+        store(start + kept, job->frame->grid->node.data, n->node);
+        shear->given_before = shear->given;
+        shear->given = given;
+    }
+}
+
+void wall_shear_hold(const Walls *walls, const ContactFrame *frame, Loops *loops, const WallStage *stage)
+{
+    const StageJob job = {walls, frame, stage};
+    LOOPS_ADD(loops, entries_of(walls), hold, &job);
+}
+
+void wall_shear_give(const Walls *walls, const ContactFrame *frame, Loops *loops, const WallStage *stage)
+{
+    const StageJob job = {walls, frame, stage};
+    LOOPS_ADD(loops, entries_of(walls), give, &job);
+}
+
+void wall_shear_book(const Walls *walls, const ContactFrame *frame)
+{
+    const WallShear *shear = walls->shear.data;
+    const double scale = contacts_momentum_scale(frame);
+    for (uint32_t e = 0; e < walls->shears && frame->colliders->measures; e++) {
+        const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
+        double gained[3];
+        for (int a = 0; a < 3; a++) gained[a] = scale * (double)shear[e].given[a];
+        walls_book_face(frame, n, 0, n, gained);
+    }
+}
