@@ -24,10 +24,14 @@ HEAD = """# Constants
 Every number with a name in `src` and `ispc` that somebody chose, room by room. Each line gives the value and what it is for. It names the test that turns red
 when the number is halved, and when it is doubled. "none" means that no test noticed that was asked. Asked were C tests of less than two seconds, for eight seconds
 (`mutate.py --constants --slowest 2 --patience 8`): the slower ones and those of Python may notice. A dash means that nobody has tried yet. The full reason stands above each constant in its file.
-The last list has those that no theory gives: their comment says "by trial", and what was tried.
+The last table has those that no theory gives: their comment says "by trial", and what was tried.
 
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
+PLATEAUS = Path(__file__).with_name("plateaus.json")
+BY_TRIAL = """No theory gives these. Each was halved and doubled: the table tells how many checks that loses and wins, of the field tests at 60 Hz x 5 and of the
+hard cases in 2D with the dual and the primal. A change of rounding alone (SSE4 for AVX2) swaps some six field tests: what swaps no more lies on a plateau.
+`tests/mutants/plateau.py` made the table; plateaus.json beside it names the checks."""
 WORDS = 22
 """Of what a line says about a constant."""
 
@@ -64,6 +68,27 @@ def sentence(about: str) -> str:
     return first if len(words) <= WORDS else " ".join(words[:WORDS]) + " …"
 
 
+def studied(tried_out: list[Constant]) -> list[str]:
+    """The table of what plateau.py found."""
+    kept = json.loads(PLATEAUS.read_text(encoding="utf-8")) if PLATEAUS.is_file() else {}
+    base = kept.get("", {}).get("as it is")
+    lines = ["| Name | Value | Halved: field tests | hard cases | Doubled: field tests | hard cases |", "|---|---|---|---|---|---|"]
+    if base:
+        lines.append(f"| all as they are | | {base['field']['passed']} of {base['field']['of']} | {base['hard']['passed']} of {base['hard']['of']} | | |")
+    for constant in tried_out:
+        own = kept.get(key_of(constant), {})
+        cells = [swapped(own.get(change, {}).get(suite)) for change in ("halved", "doubled") for suite in ("field", "hard")]
+        lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {' | '.join(cells)} |")
+    return lines
+
+
+def swapped(found: dict[str, list[str]] | None) -> str:
+    """How many checks a change lost and won."""
+    if found is None:
+        return "-"
+    return f"-{len(found['lost'])} +{len(found['won'])}" if found["lost"] or found["won"] else "same"
+
+
 def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
     rooms: dict[str, list[Constant]] = {}
     for constant in found:
@@ -78,7 +103,7 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
             verdict = verdicts.get(key_of(constant), {})
             cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
             lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
-    lines += ["", "## By trial", "", *(f"- `{constant.name}` ({Path(constant.file).name}, `{constant.value}`)" for constant in tried_out)]
+    lines += ["", "## By trial", "", BY_TRIAL, "", *studied(tried_out)]
     return "\n".join(lines) + "\n"
 
 
