@@ -1,6 +1,6 @@
 """Closed scenes that are drawn at random: nothing may be lost, and energy may only fall.
 
-    build/venv/bin/python tests/random_scenes.py [--count 5000] [--seed 1] [--only SEED] [--solver NAME]
+    build/venv/bin/python tests/random_scenes.py [--count 5000] [--seed 1] [--only SEED] [--solver NAME] [--viscous]
 
 A box of 2D or 3D with one or two bodies in it, at rest or thrown: matter, shape, place, modulus, density, gravity, walls and their friction, obstacle, solver,
 rate and iterations are drawn from the seed. Energy is that of motion and height, and what springs hold cannot be more than what they took from these: at no
@@ -44,8 +44,9 @@ def energy_of(world: World) -> float:
     return float(stats.kinetic_energy + stats.potential_energy)
 
 
-def run(seed: int, forced: str | None = None) -> dict[str, Any]:
-    """One scene: its gain of energy over what it can turn over, and whether anything is lost. A solver that is named takes the place of the one drawn."""
+def run(seed: int, forced: str | None = None, viscous: bool = False) -> dict[str, Any]:
+    """One scene: its gain of energy over what it can turn over, and whether anything is lost. A solver that is named takes the place of the one drawn. `viscous`: all
+    matter is liquid, with a viscosity from that which no step sees to that of tar."""
     draw = random.Random(seed)
     dimension, cell = draw.choice((2, 2, 2, 3)), 10 ** draw.uniform(-2, 0)
     size = draw.randint(8, 24 if dimension == 2 else 12) * cell
@@ -63,7 +64,10 @@ def run(seed: int, forced: str | None = None) -> dict[str, Any]:
             centre = [k * width + draw.uniform(half[0], width - half[0]), *(draw.uniform(h, size - h) for h in half[1:])]
             shape = Box(centre, half) if draw.random() < 0.7 else Sphere(centre, min(half))
             thrown = [draw.uniform(-1, 1) * draw.choice((0.0, 1.0)) * cell * 10 for _ in range(dimension)]
-            world.fill(shape, world.add_material(material_of(draw)), velocity=thrown)
+            matter = material_of(draw)
+            if viscous:
+                matter = Liquid(density=matter.density, kinematic_viscosity=rate * cell**2 * 10 ** random.Random(seed + k).uniform(-3, 2))
+            world.fill(shape, world.add_material(matter), velocity=thrown)
             taken.append((np.array(centre), np.array(half)))
         for _ in range(draw.choice((0, 10))):
             centre, half = np.array([draw.uniform(0, size) for _ in range(dimension)]), np.array([draw.uniform(cell, 0.15 * size) for _ in range(dimension)])
@@ -90,12 +94,13 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int)
     parser.add_argument("--solver", choices=[solver.name.lower() for solver in Solver], help="for all scenes, instead of the one drawn")
+    parser.add_argument("--viscous", action="store_true", help="all matter is viscous liquid")
     parser.add_argument("--jobs", type=int, default=max(1, multiprocessing.cpu_count() - 1))
     arguments = parser.parse_args()
     seeds = [arguments.only] if arguments.only is not None else range(arguments.seed, arguments.seed + arguments.count)
     failed, solvers, worst = [], collections.Counter(), {"gain": 0.0}
     with multiprocessing.Pool(arguments.jobs, maxtasksperchild=50) as pool:
-        for result in pool.imap_unordered(functools.partial(run, forced=arguments.solver), seeds, chunksize=4):
+        for result in pool.imap_unordered(functools.partial(run, forced=arguments.solver, viscous=arguments.viscous), seeds, chunksize=4):
             solvers[result["solver"]] += 1
             worst = max(worst, result, key=lambda r: r["gain"])
             if result["gain"] > ALLOWED or not result["whole"]:
