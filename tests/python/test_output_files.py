@@ -195,6 +195,19 @@ def test_3d_picture_height_is_up_and_obstacles_show() -> None:
     assert changed.sum() > 200
 
 
+def test_3d_picture_matter_shines_through_obstacles() -> None:
+    """Water behind a pane of stone: dimmer than before it, bluer than the pane."""
+    camera = {"eye": [0.5, 0.5, 5], "target": [0.5, 0.5, 0.5], "field_of_view": 0.4}
+    pane = [{"shape": {"kind": "box", "position": [0.5, 0.5, 0.9], "half_extents": [0.4, 0.4, 0.02]}}]
+    seen = []
+    for colliders, place in (([], 0.3), (pane, 0.3), (pane, 9.0)):
+        scene = make_scene(3, pictures={"width": 320, "camera": camera}, colliders=colliders)
+        image = draw_3d(make_frame(3, block([0.5, 0.5, place], 0.1)), look_of(scene, ""))
+        red, _, blue = image.getpixel((image.width // 2, image.height // 2))
+        seen.append(int(blue) - int(red))
+    assert seen[0] > seen[1] + 10 and seen[1] > seen[2] + 10
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_picture_without_particles(dimension: int) -> None:
     look = look_of(make_scene(dimension), "60 Hz")
@@ -210,6 +223,12 @@ def test_caption_is_above_the_picture() -> None:
     assert image.getpixel((160, image.height - 100)) == (255, 0, 0)
     strip = np.array(image.crop((0, 0, 320, image.height - 200)))
     assert (strip.min(axis=2) < 100).sum() > 100  # ink
+
+
+def test_the_scale_of_colours_goes_below_a_caption_that_leaves_no_room() -> None:
+    look = look_of(make_scene(2), "60 Hz x 5 iterations")
+    heights = [annotate(Image.new("RGB", (width, 200)), make_frame(2), look).height for width in (320, 1000)]
+    assert heights[0] > heights[1]
 
 
 def test_faster_is_brighter() -> None:

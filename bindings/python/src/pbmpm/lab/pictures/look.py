@@ -83,36 +83,43 @@ def speed_colours(share: np.ndarray) -> np.ndarray:
 
 
 def annotate(image: Image.Image, frame: Frame, look: Look) -> Image.Image:
-    """Adds a strip with the time, the settings and the scale of colours above the picture."""
+    """Adds a strip with the time, the settings and the scale of colours above the picture: beside each other, or below where there is no room."""
     size = max(14, image.width // 64)
-    strip = int(2.9 * size)
-    result = Image.new("RGB", (image.width, image.height + strip), BACKGROUND)
-    result.paste(image, (0, strip))
-    draw = ImageDraw.Draw(result)
     font, small = ImageFont.load_default(size), ImageFont.load_default(int(0.8 * size))
-    draw.text((size // 2, size // 4), f"{look.scene.name}   t = {frame.time:.3f} s", fill=INK, font=font)
+    name = f"{look.scene.name}   t = {frame.time:.3f} s"
     error = float(np.sqrt(np.mean((frame.volume_ratios - 1.0) ** 2))) if len(frame.volume_ratios) else 0.0
     facts = f"{look.settings}   {len(frame.positions)} particles   volume error {100 * error:.1f} % rms"
+    legend = _legend(look, small, size)
+    below = max(font.getlength(name), small.getlength(facts)) + legend.width + 2 * size > image.width
+    strip = int(2.9 * size)
+    result = Image.new("RGB", (image.width, image.height + strip + below * legend.height), BACKGROUND)
+    result.paste(image, (0, result.height - image.height))
+    draw = ImageDraw.Draw(result)
+    draw.text((size // 2, size // 4), name, fill=INK, font=font)
     draw.text((size // 2, int(1.55 * size)), facts, fill=INK, font=small)
-    _draw_legend(result, draw, look, small, size)
+    result.paste(legend, (size // 2, strip) if below else (image.width - legend.width - size, size // 2))
     return result
 
 
-def _draw_legend(image: Image.Image, draw: ImageDraw.ImageDraw, look: Look, font, size: int) -> None:
-    width, height = 12 * size, size // 2
-    left, top = image.width - width - size, size // 2
+def _legend(look: Look, font: ImageFont.FreeTypeFont | ImageFont.ImageFont, size: int) -> Image.Image:
+    """What the colours mean."""
     if look.scene.pictures.colour == "material":
-        text = "   ".join(look.scene.materials)
-        x = image.width - size - draw.textlength(text, font=font) - 1.2 * size * len(look.scene.materials)
-        for name, colour in zip(look.scene.materials, material_colours(look.scene)):
-            draw.rectangle((x, top, x + 0.7 * size, top + 0.7 * size), fill=tuple(colour.astype(int)))
-            draw.text((x + size, top - 0.2 * size), name, fill=INK, font=font)
-            x += 1.2 * size + draw.textlength(name + "   ", font=font)
-        return
+        names = look.scene.materials
+        result = Image.new("RGB", (int(sum(font.getlength(name) + 2 * size for name in names)), int(1.4 * size)), BACKGROUND)
+        draw, x = ImageDraw.Draw(result), 0.0
+        for name, colour in zip(names, material_colours(look.scene)):
+            draw.rectangle((x, 0.2 * size, x + 0.7 * size, 0.9 * size), fill=tuple(colour.astype(int)))
+            draw.text((x + size, 0), name, fill=INK, font=font)
+            x += 2 * size + font.getlength(name)
+        return result
+    text, width, height = f"speed 0 to {look.top_speed:.2g} m/s or more", 12 * size, size // 2
+    result = Image.new("RGB", (max(width + 1, int(font.getlength(text)) + 1), 2 * size), BACKGROUND)
     ramp = speed_colours(np.linspace(0, 1, width)).astype(np.uint8)
-    image.paste(Image.fromarray(np.broadcast_to(ramp, (height, width, 3)).copy()), (left, top))
-    draw.rectangle((left, top, left + width, top + height), outline=INK)
-    draw.text((left, top + height + size // 5), f"speed 0 to {look.top_speed:.2g} m/s or more", fill=INK, font=font)
+    result.paste(Image.fromarray(np.broadcast_to(ramp, (height, width, 3)).copy()), (0, 0))
+    draw = ImageDraw.Draw(result)
+    draw.rectangle((0, 0, width, height), outline=INK)
+    draw.text((0, height + size // 5), text, fill=INK, font=font)
+    return result
 
 
 def save_png(image: Image.Image, path: Path) -> None:

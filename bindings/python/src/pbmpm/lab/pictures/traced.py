@@ -23,6 +23,7 @@ OVERSAMPLING = 2
 _SPHERE_GROWTH = 1.5  # sphere diameter over lattice spacing: neighbours overlap and hide the gaps between them
 _SMOOTH_ROUNDS = 3
 _SAME_SURFACE = 2.5  # [particle diameters] larger steps in depth are edges
+_SHINES_THROUGH = 0.35  # share of its colour that matter behind an obstacle has
 _LIGHT = (-0.35, 0.85, 0.55)  # towards the light: share of right, up and towards the viewer
 _FLOOR_COLOURS = np.array([[226, 228, 232], [214, 217, 222]], dtype=np.float32)
 _MAX_REACH = 24  # [pixels] largest splat radius
@@ -44,6 +45,7 @@ def draw_3d(frame: Frame, look: Look) -> Image.Image:
     rays = camera.rays()
     canvas = _background(camera)
     _draw_floor(canvas, camera, rays, frame, look, low, high)
+    floor = canvas.depth.copy()
     for depth, colour in trace_obstacles(
         look.scene.colliders,
         obstacle_poses(look.scene.colliders, frame),
@@ -53,7 +55,7 @@ def draw_3d(frame: Frame, look: Look) -> Image.Image:
         float(np.linalg.norm(high - low)),
     ):
         _merge(canvas, depth, colour)
-    _draw_particles(canvas, camera, rays, frame, look, light)
+    _draw_particles(canvas, floor, camera, rays, frame, look, light)
     if look.scene.domain is not None:
         _draw_box(canvas, camera, np.array(look.scene.domain.min), np.array(look.scene.domain.max))
     image = Image.fromarray(np.clip(canvas.colour, 0, 255).astype(np.uint8))
@@ -132,8 +134,9 @@ def _shadow(
 
 
 def _draw_particles(
-    canvas: _Canvas, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, light: np.ndarray
+    canvas: _Canvas, floor: np.ndarray, camera: Camera, rays: np.ndarray, frame: Frame, look: Look, light: np.ndarray
 ) -> None:
+    """Matter behind an obstacle shines through it, as through frosted glass: a glass made of boxes would hide its water."""
     diameter = look.particle_diameter * _SPHERE_GROWTH
     depth, owner = _splat(camera, frame.positions, 0.5 * diameter)
     seen = owner >= 0
@@ -142,6 +145,8 @@ def _draw_particles(
     smooth = _smooth_depth(depth, seen, diameter, camera)
     colour = particle_colours(frame, look)[np.maximum(owner, 0)]
     lit = _light(colour, smooth, seen, camera, rays, light, diameter)
+    behind = seen & (smooth >= canvas.depth) & (smooth < floor)
+    canvas.colour[behind] += _SHINES_THROUGH * (lit[behind] - canvas.colour[behind])
     _merge(canvas, np.where(seen, smooth, np.inf), lit)
 
 
