@@ -40,6 +40,7 @@ static void hold(void *context, int32_t begin, int32_t end)
         const WallNode *n = (const WallNode *)walls->node.data + entry->follower;
         const Four surface = {n->surface[0], n->surface[1], n->surface[2]};
         const Four relative = mean_of(&apply, entry) - surface;
+        if (!shear->holds) continue;
         shear->before = load(job->stage->push, n->node);
         store(surface + times(&entry->matrix, times(&shear->kept, relative)), job->frame->grid->node.data, n->node);
     }
@@ -51,6 +52,7 @@ static void give(void *context, int32_t begin, int32_t end)
     const Walls *walls = job->walls;
     for (int32_t e = begin; e < end; e++) {
         WallShear *shear = (WallShear *)walls->shear.data + e;
+        if (!shear->holds) continue;
         const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
         const Four start = job->stage->last * load(job->stage->push, n->node) + job->stage->before * shear->before; /* the stage moved u_(j-1) to `push` */
         const Four change = load(job->stage->base, n->node) - start, kept = times(&shear->kept, change);
@@ -79,6 +81,7 @@ void wall_shear_book(const Walls *walls, const ContactFrame *frame)
     const WallShear *shear = walls->shear.data;
     const double scale = contacts_momentum_scale(frame);
     for (uint32_t e = 0; e < walls->shears && frame->colliders->measures; e++) {
+        if (!shear[e].holds) continue;
         const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
         double gained[3];
         for (int a = 0; a < 3; a++) gained[a] = scale * (double)shear[e].given[a];

@@ -7,7 +7,9 @@
  *     B = sum_k (product of s_j, j != k) n_k n_k^T + (product of all s_j) (1 - sum_k n_k n_k^T),
  * products over the walls that hold it. So what viscosity gives a node behind a wall is multiplied by B, and E^T brings it to the nodes before the wall. The map
  * is symmetric. Its norm is at most that without the wall, as long as no factor is greater than 1 in size: M counts the mass behind the wall once.
- * What B takes away is what the wall gives. It is in proportion to the viscosity: water slips, honey sticks. */
+ * What B takes away is what the wall gives. It is in proportion to the viscosity: water slips, honey sticks.
+ *
+ * Rigid bodies do not hold: they yield to E^T alone, and would be pushed back and forth by a shear that they are told of one step late. */
 #ifndef PBMPM_SRC_CONTACT_WALL_SHEAR_H
 #define PBMPM_SRC_CONTACT_WALL_SHEAR_H
 

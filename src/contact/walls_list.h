@@ -36,6 +36,7 @@ typedef struct WallEntry {
 /* Of an entry, while viscosity acts: see wall_shear.h. */
 typedef struct WallShear {
     Columns kept;             /* B */
+    bool holds;               /* it is not 1 */
     Four before;              /* the node's u_(j-2) */
     Four given, given_before; /* by the walls, after the last stage and the one before */
 } WallShear;

@@ -76,3 +76,26 @@ def test_walls_that_move_take_it_along(threads: int) -> None:
             world.step(1 / 60)
         gained = world.stats.momentum[0] / (world.stats.mass * SPEED)
     assert gained == pytest.approx(1.0 - slide(2, 0, 0.1, 0.2)[0], abs=0.01)
+
+
+@pytest.mark.parametrize("friction", list(Friction))
+@pytest.mark.parametrize("nu", [0.1, 20.0])
+def test_rigid_bodies_yield_to_what_is_viscous(nu: float, friction: Friction) -> None:
+    """A body that moves in a full tank of tar is stopped, and is not thrown back: it yields to viscosity within each stage, however light it is."""
+    side = 32 * CELL
+    with pbmpm.World(2, CELL, gravity=(0, 0), domain=((0, 0), (side, side)), iterations=5, capacity=10_000, threads=1) as world:
+        tar, middle, half = world.add_material(pbmpm.Liquid(kinematic_viscosity=nu)), side / 2, 4 * CELL
+        for y in (0.5 * (middle - half), side - 0.5 * (middle - half)):
+            world.fill(Box((middle, y), (middle, 0.5 * (middle - half))), tar)
+        for x in (0.5 * (middle - half), side - 0.5 * (middle - half)):
+            world.fill(Box((x, middle), (0.5 * (middle - half), half)), tar)
+        collider = world.add_collider(Box((middle, middle), (half, half)), kinematic=True, measures_impulse=True, friction=friction)
+        body = pbmpm.RigidBody(collider, density=100)
+        body.velocity = (0.0, SPEED / 2)
+        speeds = []
+        for _ in range(20):
+            body.advance(1 / 60)
+            world.step(1 / 60)
+            speeds.append(body.velocity[1])
+    assert speeds[0] == SPEED / 2 and abs(speeds[-1]) < 0.1 * SPEED
+    assert min(speeds) > -0.1 * SPEED

@@ -638,8 +638,8 @@ namespace Pbmpm
         /// <summary>liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
         /// (default): incompressible</summary>
         public float BulkModulus;
-        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. It does not slip on walls, but for those with
-        /// PBMPM_FRICTION_SLIP. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+        /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. It does not slip on obstacles and walls, but for
+        /// rigid bodies (rigid.h) and those with PBMPM_FRICTION_SLIP. The paper's solver adds a share of 8 nu dt / (N dx^2) to
         /// `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>
