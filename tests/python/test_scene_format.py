@@ -187,6 +187,16 @@ def test_all_errors_are_told_at_once() -> None:
     assert "foo: unknown" in str(caught.value) and "seconds: " in str(caught.value)
 
 
+def test_degrees_are_recognised() -> None:
+    """More than a whole turn of a shape; keyframes may turn on and on."""
+    data = changed("colliders", [{"shape": {"kind": "box", "position": [0.5, 0.2], "half_extents": [0.2, 0.1], "rotation": -20}}])
+    with pytest.raises(InputError, match=r"rotation: an angle in radians, at most a whole turn; -20 degrees are -0.3491"):
+        parse_scene(data)
+    data["colliders"][0]["shape"]["rotation"] = -0.35
+    data["colliders"][0]["motion"] = {"keyframes": [{"time": 0, "position": [0.5, 0.2]}, {"time": 9, "position": [0.5, 0.2], "rotation": 20}]}
+    assert parse_scene(data).colliders[0].motion.keyframes[1].rotation == 20
+
+
 def test_3d_wants_quaternions() -> None:
     data = changed("dimension", 3)
     data["gravity"], data["domain"] = [0, -9.81, 0], {"min": [0, 0, 0], "max": [1, 1, 1]}

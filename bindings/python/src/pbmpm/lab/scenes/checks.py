@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from ..hints import did_you_mean
-from .scene import VECTORS, CameraPart, Part, Scene, material_groups
+from .scene import VECTORS, CameraPart, KeyframePart, Part, Scene, material_groups
 
 #: Bits of the groups of a material.
 MATERIALS_THAT_CAN_BE_MET = 32
@@ -66,7 +66,7 @@ def _vector_problems(part: Part, dimension: int, path: str):
         if isinstance(value, Part):
             yield from _vector_problems(value, dimension, where)
         elif name == "rotation":
-            yield from _rotation_problems(value, dimension, where)
+            yield from _rotation_problems(value, dimension, where, math.inf if isinstance(part, KeyframePart) else math.tau)
         elif isinstance(value, dict):
             continue
         elif isinstance(value, list) and value and isinstance(value[0], Part):
@@ -76,7 +76,7 @@ def _vector_problems(part: Part, dimension: int, path: str):
             yield f"{where}: needs {dimension} numbers in a scene of dimension {dimension}, has {len(value)}"
 
 
-def _rotation_problems(value: float | list[float], dimension: int, where: str):
+def _rotation_problems(value: float | list[float], dimension: int, where: str, most: float):
     if isinstance(value, list):
         if dimension == 2:
             yield f"{where}: in 2D this is one angle in radians"
@@ -84,3 +84,5 @@ def _rotation_problems(value: float | list[float], dimension: int, where: str):
             yield f"{where}: a quaternion (x, y, z, w) of length 1 is needed"
     elif dimension == 3 and value != 0:
         yield f"{where}: in 3D this is a quaternion [x, y, z, w]"
+    elif abs(value) > most:
+        yield f"{where}: an angle in radians, at most a whole turn; {value:g} degrees are {math.radians(value):.4g}"
