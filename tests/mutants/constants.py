@@ -29,8 +29,8 @@ The last table has those that no theory gives: their comment says "by trial", an
 This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.sh --constants --folder build/constants` tries the numbers, for hours.
 """
 PLATEAUS = Path(__file__).with_name("plateaus.json")
-BY_TRIAL = """No theory gives these. Each was halved and doubled. The table tells how many field tests (60 Hz x 5) that loses and wins,
-and how many hard cases (2D, dual and primal). A change of rounding alone (SSE4 for AVX2) swaps some six field tests. What swaps no more lies on a plateau.
+BY_TRIAL = """No theory gives these. Each was halved and doubled. The table tells how many field tests that loses and wins, at 60 Hz x 5.
+It tells the same of hard cases, in 2D, with the dual and the primal. A change of rounding alone (SSE4 for AVX2) swaps some six field tests. What swaps no more lies on a plateau.
 `tests/mutants/plateau.py` made the table; plateaus.json beside it names the checks."""
 WORDS = 22
 """Of what a line says about a constant."""
