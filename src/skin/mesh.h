@@ -26,7 +26,7 @@ typedef struct MeshStream {
     size_t stride;
 } MeshStream;
 
-/* Counts, and numbers the vertices. */
+/* Counts where blocks are changed, and numbers the vertices. */
 void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
 
 void mesh_write_places(const SkinMesh *mesh, MeshStream positions, MeshStream normals);

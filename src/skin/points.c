@@ -97,7 +97,7 @@ static pbmpm_result make_points(World *world, Skin *skin, PointsJob *job, uint32
     pbmpm_surface_def chosen = skin_def_defaults();
     chosen.materials = job->def->materials;
     chosen.material_count = job->def->material_count;
-    SkinKey key = state_key(&chosen);
+    SkinKey key = state_key(world, &chosen);
     job->matter = state_matter(world, &key);
     const pbmpm_result result = job->def->spray_only ? find_spray(world, skin, &key, job) : PBMPM_OK;
     if (result != PBMPM_OK) return result;

@@ -18,7 +18,10 @@
 
 #include "skin/field.h"
 
-/* Adds k T to F, and notes which particles are spray. */
-void thin_add(const FieldWork *work, float level, float *values);
+/* Works out T and k, and which particles are spray, where blocks are changed and what follows from it. Those whose T is not what it was are changed now, too; those whose k
+ * is not are `told`. */
+void thin_find(const FieldWork *work);
+/* Adds k T to a block's values. */
+void thin_add(const FieldWork *work, const SkinBlock *block, float values[BLOCK_POINTS], const float more[BLOCK_POINTS]);
 
 #endif

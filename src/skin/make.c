@@ -1,0 +1,45 @@
+#include "skin/make.h"
+
+#include <string.h>
+
+#include "skin/boundary.h"
+#include "skin/thin.h"
+
+enum { MAKE_GRAIN = 4 };
+
+static void finish_block(const FieldWork *work, SkinBlock *block, size_t point)
+{
+    float *values = work->field + point;
+    memcpy(values, work->mirrored + point, BLOCK_POINTS * sizeof *values);
+    if (block->raised) {
+        thin_add(work, block, values, work->more + point);
+        field_close_off(block, values);
+    }
+    if (block->bounded) boundary_cut(work, values, work->gaps + point);
+    if (block->raised || block->bounded) {
+        work->kernels->bound(values, &block->least, &block->most);
+    } else {
+        block->least = block->filling_least;
+        block->most = block->filling_most;
+    }
+}
+
+static void finish_blocks(void *context, int32_t begin, int32_t end)
+{
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(work->blocks, i);
+        SkinBlock *block = blocks_at(work->blocks, b);
+        block->changed = block->changed || (block->raised && block->due);
+        if (block->changed) finish_block(work, block, (size_t)b * BLOCK_POINTS);
+    }
+}
+
+void make_field(const FieldWork *work)
+{
+    field_fill(work);
+    if (work->gaps) boundary_mirror(work);
+    if (work->more) thin_find(work);
+    blocks_spread(work->blocks, work->pool, offsetof(SkinBlock, told), offsetof(SkinBlock, due));
+    pool_for(work->pool, work->blocks->count, MAKE_GRAIN, finish_blocks, (void *)(uintptr_t)work);
+}
