@@ -137,8 +137,9 @@ static void count_blocks(void *context, int32_t begin, int32_t end)
     }
 }
 
-void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
+int32_t mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
 {
+    int32_t changed = 0;
     *vertices = *triangles = 0;
     blocks_spread(mesh->blocks, mesh->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due)); /* cubes have corners in the blocks above */
     pool_for(mesh->pool, mesh->blocks->count, MESH_GRAIN, mark_blocks, (void *)mesh);
@@ -149,7 +150,9 @@ void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
         block->first_triangle = (uint32_t)*triangles;
         *vertices += block->vertices;
         *triangles += block->triangles;
+        changed += block->changed;
     }
+    return changed;
 }
 
 /* ---- Vertices ---- */

@@ -26,8 +26,8 @@ typedef struct MeshStream {
     size_t stride;
 } MeshStream;
 
-/* Counts where blocks are changed, and numbers the vertices. */
-void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
+/* Counts where blocks are changed, and numbers the vertices. Returns how many are. */
+int32_t mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
 
 void mesh_write_places(const SkinMesh *mesh, MeshStream positions, MeshStream normals);
 /* Three per triangle, of 2 or 4 bytes. */

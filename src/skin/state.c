@@ -158,7 +158,7 @@ static bool make(World *world, Skin *skin)
     const SkinMesh mesh = state_mesh(world, skin);
     blocks_compare(&skin->blocks, world->pool, &matter);
     make_field(&work);
-    mesh_count(&mesh, &skin->vertices, &skin->triangles);
+    skin->changed = mesh_count(&mesh, &skin->vertices, &skin->triangles);
     return true;
 }
 

@@ -33,6 +33,7 @@ struct Skin {
     Boundary boundary;
     Array chunk_begin;                    /* of points, see points.c */
     uint64_t vertices, triangles;
+    int32_t changed; /* blocks whose field was not what it had been, of the last time that it was made */
 };
 
 /* The state, which is the caller's until state_give(). *result says why there is none. */
