@@ -19,6 +19,7 @@ static int32_t list_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
     if (!array_grow(memory, &blocks->list, count + 1, sizeof b, count * sizeof b)) return GRID_NOWHERE;
     ((int32_t *)blocks->list.data)[count] = b;
     block->anew = block->listed == 0;
+    blocks->others |= block->anew;
     block->listed = blocks->surface;
     block->at = blocks->count++;
     block->runs = 0;
@@ -88,16 +89,19 @@ static void drop_others(SkinBlocks *blocks)
 {
     for (int32_t b = 0; b < blocks->block.count; b++) {
         const uint64_t listed = blocks_at(blocks, b)->listed;
-        if (listed && listed != blocks->surface) places_drop(&blocks->block, b);
+        if (!listed || listed == blocks->surface) continue;
+        places_drop(&blocks->block, b);
+        blocks->others = true;
     }
 }
 
-bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter, uint8_t *spray)
+bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
 {
     blocks->block.size = sizeof(SkinBlock);
     blocks->count = 0;
+    blocks->others = false;
     blocks->surface++;
-    if (!sites_find(&blocks->sites, memory, matter, blocks->subdivision, spray) || !list_sites(blocks, memory) || !list_touched(blocks, memory)) return false;
+    if (!sites_find(&blocks->sites, memory, matter, blocks->subdivision) || !list_sites(blocks, memory) || !list_touched(blocks, memory)) return false;
     drop_others(blocks);
     return true;
 }
@@ -129,7 +133,7 @@ static uint64_t pair_of(const void *low, const void *high)
     return word[0] | (uint64_t)word[1] << 32;
 }
 
-/* All that the field takes from particles, and in which rows they are. Each step of it keeps two numbers apart that are apart, so with 64 bits one change in 2^64 goes
+/* All that the field takes from particles, in their order. Each step of it keeps two numbers apart that are apart, so with 64 bits one change in 2^64 goes
  * unseen. Four rows of steps need not wait for each other. */
 static uint64_t print_of(const CompareJob *job, const SkinBlock *block)
 {
@@ -137,13 +141,12 @@ static uint64_t print_of(const CompareJob *job, const SkinBlock *block)
     uint64_t print[4] = {1, 2, 3, 4};
     for (uint32_t r = 0; r < block->runs; r++) {
         const SiteRun *run = blocks_run(job->blocks, block->first_run + r);
-        print[0] = blocks_mix(print[0], run->begin | (uint64_t)run->end << 32);
         for (uint32_t row = run->begin; row < run->end; row++) {
             const float volume = matter_volume(job->matter, row);
             print[0] = blocks_mix(print[0], pair_of(&p->cell[0][row], &p->cell[1][row]));
-            print[1] = blocks_mix(print[1], pair_of(&p->cell[2][row], &volume));
             print[2] = blocks_mix(print[2], pair_of(&p->fraction[0][row], &p->fraction[1][row]));
-            print[3] = blocks_mix(print[3], pair_of(&p->fraction[2][row], &row));
+            print[3] = blocks_mix(print[3], pair_of(&volume, &volume));
+            print[1] = blocks_mix(print[1], pair_of(&p->cell[2][row], &p->fraction[2][row]));
         }
     }
     return blocks_mix(blocks_mix(blocks_mix(print[0], print[1]), print[2]), print[3]);
@@ -155,7 +158,7 @@ static void compare_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         SkinBlock *block = blocks_at(job->blocks, blocks_number(job->blocks, i));
         const uint64_t print = print_of(job, block);
-        link_block(job->blocks, block);
+        if (job->blocks->others) link_block(job->blocks, block);
         block->changed = block->anew || print != block->print;
         block->print = print;
     }

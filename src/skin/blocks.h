@@ -56,6 +56,7 @@ typedef struct SkinBlocks {
     int subdivision;
     uint64_t surface;         /* counts them */
     int32_t count, with_rows; /* of the list: those with particles come first */
+    bool others;              /* they are not those of the last surface */
     Places block;             /* SkinBlock */
     Array list;               /* int32_t: numbers of those that the surface has, in the order of rows */
     Sites sites;
@@ -99,8 +100,8 @@ static inline void blocks_locate(const SkinBlocks *blocks, const SkinBlock *bloc
     for (int a = 0; a < 3; a++) local[a] = (float)blocks->subdivision * ((float)cell[a] + p->fraction[a][row]);
 }
 
-/* Lists the blocks of the rows that count, in their order, and those that they reach. Rows without a block are spray. False: no memory. */
-bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter, uint8_t *spray);
+/* Lists the blocks of the rows that count, in their order, and those that they reach. False: no memory. */
+bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter);
 /* Then: which of them are `anew`, and which have changed. */
 void blocks_compare(SkinBlocks *blocks, Pool *pool, const SkinMatter *matter);
 /* The next surface has nothing in common with the last one. */

@@ -60,6 +60,7 @@ typedef struct Part {
     const FieldWork *work;
     SkinBlock *block;
     size_t point; /* its first */
+    float *mirrored, *gaps; /* of the block: where they go */
     double origin[3], spacing; /* of its points [m] */
     Near around;               /* the obstacles near the block */
     Near beside;               /* those near a part of it */
@@ -263,14 +264,12 @@ static void mirror_row(Part *part, int first)
 {
     const FieldWork *work = part->work;
     const double spacing = 1.0 / work->blocks->subdivision;
-    const size_t point = part->point + (size_t)first;
-    const float *own = work->filling + point, least = least_that_counts(work->level);
+    const float *own = work->filling + part->point + first, least = least_that_counts(work->level);
     double at_least = -INFINITY;
     for (int x = 0; x < PART_AXIS; x++, at_least -= spacing) {
         if (own[x] <= least || (at_least >= IMAGE_REACH && cut_at(work->level, (float)at_least) >= own[x])) continue;
-        float *gap = &work->sums[point + (size_t)x];
-        mirror_point(part, first + x, &own[x], gap, &work->lines[point + (size_t)x]);
-        at_least = (double)*gap;
+        mirror_point(part, first + x, &own[x], &part->gaps[first + x], &part->mirrored[first + x]);
+        at_least = (double)part->gaps[first + x];
     }
 }
 
@@ -291,17 +290,30 @@ static void mirror_part(Part *part, const int first[3])
         if (rows >> n & 1) mirror_row(part, row_of(first, n));
 }
 
-/* G to `lines`, gaps to `sums`. */
-static void mirror_block(Part *part)
+static void mirror_parts(Part *part)
 {
-    const FieldWork *work = part->work;
     part->block->bounded = false;
-    for (size_t i = part->point; i < part->point + BLOCK_POINTS; i++) work->sums[i] = INFINITY;
-    memcpy(work->lines + part->point, work->filling + part->point, BLOCK_POINTS * sizeof(float));
+    memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
+    for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
     for (int n = 0; n < 8 && part->around.count > 0; n++) {
         const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
         mirror_part(part, first);
     }
+}
+
+/* Of a block whose F has changed, all has. Of others it is seen when it is there. */
+static void mirror_block(Part *part)
+{
+    const FieldWork *work = part->work;
+    SkinBlock *block = part->block;
+    float *mirrored = work->mirrored + part->point, *gaps = work->gaps + part->point;
+    const bool anew = block->changed;
+    part->mirrored = anew ? mirrored : work->lines + part->point;
+    part->gaps = anew ? gaps : work->sums + part->point;
+    mirror_parts(part);
+    if (anew) return;
+    block->changed = field_store(mirrored, part->mirrored);
+    if (field_store(gaps, part->gaps)) block->changed = true;
 }
 
 /* A number for the obstacles near a block as they are: others have another one. 0: there are none. */
@@ -335,12 +347,7 @@ static void mirror_blocks(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         Part part;
         begin_part(&part, work, blocks_number(work->blocks, i));
-        SkinBlock *block = part.block;
-        block->changed = block->anew;
-        if (!is_due(&part)) continue;
-        mirror_block(&part);
-        if (field_store(work->mirrored + part.point, work->lines + part.point)) block->changed = true;
-        if (field_store(work->gaps + part.point, work->sums + part.point)) block->changed = true;
+        if (is_due(&part)) mirror_block(&part);
     }
 }
 

@@ -124,7 +124,7 @@ static void filter_blocks(void *context, int32_t begin, int32_t end)
         const SkinBlock *block = blocks_at(blocks, b);
         const float *const beside[3] = {points_beside(job, block, -1), points_beside(job, block, 0), points_beside(job, block, 1)};
         float *out = job->to + (size_t)b * BLOCK_POINTS;
-        if (!block->wanted) continue;
+        if (!block->wanted || (job->axis == 2 && !block->due)) continue; /* who only helps keeps its values */
         memset(out, 0, BLOCK_POINTS * sizeof *out);
         job->work->kernels->filter(&filter_of[blocks->subdivision], &block->reached, job->axis, beside, out);
     }
@@ -162,18 +162,17 @@ static void make(SplatJob *job, float *values)
     collect(job, values);
 }
 
-static void store_blocks(void *context, int32_t begin, int32_t end)
+static void bound_blocks(void *context, int32_t begin, int32_t end)
 {
     const FieldWork *work = context;
     for (int32_t i = begin; i < end; i++) {
         const int32_t b = blocks_number(work->blocks, i);
         SkinBlock *block = blocks_at(work->blocks, b);
-        float *made = work->lines + (size_t)b * BLOCK_POINTS, *kept = work->filling + (size_t)b * BLOCK_POINTS;
-        block->changed = block->anew;
+        float *values = work->filling + (size_t)b * BLOCK_POINTS;
+        block->changed = block->due;
         if (!block->due) continue;
-        field_close_off(block, made);
-        if (field_store(kept, made)) block->changed = true;
-        work->kernels->bound(kept, &block->filling_least, &block->filling_most);
+        field_close_off(block, values);
+        work->kernels->bound(values, &block->filling_least, &block->filling_most);
     }
 }
 
@@ -182,8 +181,8 @@ void field_fill(const FieldWork *work)
     SplatJob job = {.work = work, .amount = field_volume};
     blocks_spread(work->blocks, work->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due));
     blocks_spread(work->blocks, work->pool, offsetof(SkinBlock, due), offsetof(SkinBlock, helps));
-    make(&job, work->lines);
-    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, store_blocks, (void *)(uintptr_t)work);
+    make(&job, work->filling);
+    pool_for(work->pool, work->blocks->count, FIELD_GRAIN, bound_blocks, (void *)(uintptr_t)work);
 }
 
 static void choose_near_surface(void *context, int32_t begin, int32_t end)
@@ -191,7 +190,7 @@ static void choose_near_surface(void *context, int32_t begin, int32_t end)
     const SkinBlocks *blocks = context;
     for (int32_t i = begin; i < end; i++) {
         SkinBlock *block = blocks_at(blocks, blocks_number(blocks, i));
-        block->helps = blocks_near_surface(blocks, block);
+        block->due = block->helps = blocks_near_surface(blocks, block);
     }
 }
 

@@ -37,7 +37,6 @@ typedef struct FieldWork {
     float *gaps;         /* then null; how far [cells] obstacles are, negative inside; infinite where that does not matter */
     float *more;         /* T, see thin.h; null without it */
     float *field;        /* what the surface is cut out of */
-    uint8_t *spray;      /* per row, see thin.h */
     const struct Boundary *boundary;
     uint32_t groups; /* of the materials */
     float level;
@@ -47,7 +46,7 @@ typedef struct FieldWork {
 /* From a place in points, as blocks_locate() has it, to one on the lattice. */
 static inline float field_shift(const SkinBlocks *blocks) { return blocks->subdivision == 2 ? 0.5f : 0.0f; }
 
-/* Makes F of the particles' volumes, where blocks are `changed` and beside them; those whose F is not what it was are changed now. Notes its least and most. */
+/* Makes F of the particles' volumes, where blocks are `changed` and beside them: those are changed now. Notes its least and most. */
 void field_fill(const FieldWork *work);
 
 /* Writes sums of what particles count to `values`, where the surface is. */
@@ -67,7 +66,8 @@ void field_splat(const FieldWork *work, FieldSplat *splat, const float local[3],
 void field_splat_rest(const FieldWork *work, FieldSplat *splat);
 /* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
 float field_points_per_cell(const SkinBlocks *blocks);
-/* Writes the field of the boxes that are splatted to `values`, in the blocks that `help` and that these reach: those are `wanted`. It is right in those that are `due`. */
+/* Writes the field of the boxes that are splatted to `values`, in the blocks that are `due` and that these reach. Those that `help` are worked on, and those of them that boxes
+ * reach are `wanted`. */
 void field_collect(const FieldWork *work, float *values);
 /* Keeps a block's numbers; whether they are not those that were kept. */
 bool field_store(float kept[BLOCK_POINTS], const float made[BLOCK_POINTS]);

@@ -1,7 +1,5 @@
 #include "skin/sites.h"
 
-#include <string.h>
-
 #include "grid/grid.h"
 
 /* The end of the rows from one on that count and are in the site. */
@@ -68,7 +66,7 @@ static bool is_spray(const Sites *sites, const Site *site)
 }
 
 /* Site by site, each in the order of rows. */
-static bool sort_runs(Sites *sites, Memory *memory, uint8_t *spray)
+static bool sort_runs(Sites *sites, Memory *memory)
 {
     if (!array_reserve(memory, &sites->run, (size_t)sites->runs, sizeof(SiteRun))) return false;
     uint32_t first = 0;
@@ -82,20 +80,17 @@ static bool sort_runs(Sites *sites, Memory *memory, uint8_t *spray)
     const SiteRun *found = sites->found.data;
     for (int32_t r = 0; r < sites->runs; r++) {
         Site *site = sites_at(sites, found[r].site);
-        if (site->spray)
-            memset(spray + found[r].begin, 1, found[r].end - found[r].begin);
-        else
-            ((SiteRun *)sites->run.data)[site->first_run + site->runs++] = found[r];
+        if (!site->spray) ((SiteRun *)sites->run.data)[site->first_run + site->runs++] = found[r];
     }
     return true;
 }
 
-bool sites_find(Sites *sites, Memory *memory, const SkinMatter *matter, int subdivision, uint8_t *spray)
+bool sites_find(Sites *sites, Memory *memory, const SkinMatter *matter, int subdivision)
 {
     sites->site.size = sizeof(Site);
     places_clear(&sites->site);
     sites->runs = 0;
-    return find_runs(sites, memory, matter, subdivision) && sort_runs(sites, memory, spray);
+    return find_runs(sites, memory, matter, subdivision) && sort_runs(sites, memory);
 }
 
 void sites_free(Sites *sites, Memory *memory)

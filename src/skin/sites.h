@@ -28,9 +28,8 @@ typedef struct Sites {
 
 static inline Site *sites_at(const Sites *sites, int32_t s) { return places_at(&sites->site, s); }
 
-/* Finds the sites of the rows that count, and sets `spray` for rows in sites of spray. What is scattered far and wide has no blocks: so it takes no memory. False: no
- * memory. */
-bool sites_find(Sites *sites, Memory *memory, const SkinMatter *matter, int subdivision, uint8_t *spray);
+/* Finds the sites of the rows that count. What is scattered far and wide is spray and has no blocks: so it takes no memory. False: no memory. */
+bool sites_find(Sites *sites, Memory *memory, const SkinMatter *matter, int subdivision);
 void sites_free(Sites *sites, Memory *memory);
 
 #endif

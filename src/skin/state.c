@@ -95,9 +95,8 @@ static bool reserve(World *world, Skin *skin, const SkinKey *key)
 
 static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
 {
-    if (!grow(world, &skin->spray, world->particles.count, sizeof(uint8_t))) return false;
     pthread_mutex_lock(&world->making);
-    const bool found = blocks_find(&skin->blocks, &world->memory, matter, skin->spray.data);
+    const bool found = blocks_find(&skin->blocks, &world->memory, matter);
     pthread_mutex_unlock(&world->making);
     return found && reserve(world, skin, &skin->key);
 }
@@ -126,7 +125,6 @@ FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
         .gaps = bounded ? skin->gaps.data : NULL,
         .more = skin->key.keeps_thin ? skin->more.data : NULL,
         .field = skin->field.data,
-        .spray = skin->spray.data,
         .boundary = &skin->boundary,
         .groups = skin->key.groups,
         .level = skin->key.level,

@@ -27,11 +27,11 @@ struct Skin {
     SkinBlocks blocks;
     Cases cases;
     const SkinKernels *kernels;
-    Array boxes, sums, lines, filling, mirrored, gaps, more, field, spray; /* see field.h */
+    Array boxes, sums, lines, filling, mirrored, gaps, more, field; /* see field.h */
     Array inside, start;                  /* see mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
     Boundary boundary;
-    Array chunk_begin;                    /* of points, see points.c */
+    Array spray, chunk_begin;             /* of points, see points.c */
     uint64_t vertices, triangles;
     int32_t changed; /* blocks whose field was not what it had been, of the last time that it was made */
 };

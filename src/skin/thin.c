@@ -72,28 +72,16 @@ static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS
     }
 }
 
-/* Notes who is spray, and adds what a row gives to T. */
-static void thicken_row(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, FieldSplat *splat)
-{
-    const float enough = THIN_SHARE * work->level, amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
-    const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
-    int32_t cell[3];
-    work->spray[row] = filling <= ALONE;
-    if (work->spray[row]) {
-        block->spray += amount;
-        return;
-    }
-    if (!cells_any(&block->splatted)) memset(splat->box, 0, BOX_POINTS * sizeof *splat->box);
-    field_splat(work, splat, local, (times - 1.0f) * amount);
-    blocks_cell(work->blocks, block, work->matter->particles, row, cell);
-    cells_add(&block->splatted, cell);
-}
+/* A row where F is not enough. */
+typedef void WithRow(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context);
 
-static void thicken_rows(const FieldWork *work, SkinBlock *block, const float near[BOX_POINTS])
+static float enough_of(const FieldWork *work) { return THIN_SHARE * work->level; }
+
+static void visit_cells(const FieldWork *work, SkinBlock *block, WithRow *with, void *context)
 {
-    const float enough = THIN_SHARE * work->level, shift = field_shift(work->blocks);
-    FieldSplat splat = {.box = work->boxes + (size_t)block->at * BOX_POINTS, .count = 0};
-    float least[BLOCK_POINTS];
+    const float enough = enough_of(work), shift = field_shift(work->blocks);
+    float near[BOX_POINTS], least[BLOCK_POINTS];
+    blocks_gather(block, work->mirrored, near);
     least_of_cells(work->blocks, near, least);
     for (uint32_t r = 0; r < block->runs; r++) {
         const SiteRun *run = blocks_run(work->blocks, block->first_run + r);
@@ -104,26 +92,41 @@ static void thicken_rows(const FieldWork *work, SkinBlock *block, const float ne
             if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
             blocks_locate(work->blocks, block, work->matter->particles, row, local);
             const float filling = between(near, local, shift);
-            if (filling < enough) thicken_row(work, block, row, local, filling, &splat);
+            if (filling < enough) with(work, block, row, local, filling, context);
         }
     }
-    field_splat_rest(work, &splat);
+}
+
+static void visit_rows(const FieldWork *work, SkinBlock *block, WithRow *with, void *context)
+{
+    if (block->runs > 0 && !is_thick(work->blocks, block, enough_of(work))) visit_cells(work, block, with, context);
+}
+
+/* Adds what a row gives to T, or counts it as spray. */
+static void thicken_row(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context)
+{
+    FieldSplat *splat = context;
+    const float enough = enough_of(work), amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
+    const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
+    int32_t cell[3];
+    if (filling <= ALONE) {
+        block->spray += amount;
+        return;
+    }
+    if (!cells_any(&block->splatted)) memset(splat->box, 0, BOX_POINTS * sizeof *splat->box);
+    field_splat(work, splat, local, (times - 1.0f) * amount);
+    blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+    cells_add(&block->splatted, cell);
 }
 
 /* Fills a block's box with what its particles give to T. */
 static void thicken_block(const FieldWork *work, SkinBlock *block)
 {
-    float near[BOX_POINTS];
+    FieldSplat splat = {.box = work->boxes + (size_t)block->at * BOX_POINTS, .count = 0};
     block->splatted = cells_none();
     block->spray = 0.0f;
-    for (uint32_t r = 0; r < block->runs; r++) {
-        const SiteRun *run = blocks_run(work->blocks, block->first_run + r);
-        memset(work->spray + run->begin, 0, run->end - run->begin);
-    }
-    if (block->runs > 0 && !is_thick(work->blocks, block, THIN_SHARE * work->level)) {
-        blocks_gather(block, work->mirrored, near);
-        thicken_rows(work, block, near);
-    }
+    visit_rows(work, block, thicken_row, &splat);
+    field_splat_rest(work, &splat);
     block->thickens = cells_any(&block->splatted);
 }
 
@@ -175,6 +178,40 @@ static void find_more(const FieldWork *work)
     pool_for(work->pool, blocks->with_rows, THIN_GRAIN, thicken_helpers, (void *)(uintptr_t)work);
     field_collect(work, work->lines);
     pool_for(work->pool, blocks->count, THIN_GRAIN, store_more, (void *)(uintptr_t)work);
+}
+
+/* ---- Spray ---- */
+
+typedef struct SprayJob {
+    const FieldWork *work;
+    uint8_t *spray;
+} SprayJob;
+
+static void note_spray(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context)
+{
+    (void)work, (void)block, (void)local;
+    ((uint8_t *)context)[row] = filling <= ALONE;
+}
+
+static void find_spray(void *context, int32_t begin, int32_t end)
+{
+    const SprayJob *job = context;
+    const SkinBlocks *blocks = job->work->blocks;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(blocks, blocks_number(blocks, i));
+        for (uint32_t r = 0; r < block->runs; r++) {
+            const SiteRun *run = blocks_run(blocks, block->first_run + r);
+            memset(job->spray + run->begin, 0, run->end - run->begin);
+        }
+        visit_rows(job->work, block, note_spray, job->spray);
+    }
+}
+
+void thin_find_spray(const FieldWork *work, uint8_t *spray)
+{
+    SprayJob job = {work, spray};
+    if (work->matter->particles->count > 0) memset(spray, 1, work->matter->particles->count);
+    pool_for(work->pool, work->blocks->with_rows, THIN_GRAIN, find_spray, &job);
 }
 
 /* ---- k ---- */
@@ -312,7 +349,9 @@ void thin_add(const FieldWork *work, const SkinBlock *block, float values[BLOCK_
         for (int y = 0; y < BLOCK_AXIS; y++) {
             const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
             for (int i = 0; i < 3; i++) line[i] = from_middles(plane + i, 3, y);
-            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * from_middles(line, 1, x);
+            float along[BLOCK_AXIS];
+            for (int x = 0; x < BLOCK_AXIS; x++) along[x] = from_middles(line, 1, x);
+            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * along[x];
         }
     }
 }

@@ -18,9 +18,12 @@
 
 #include "skin/field.h"
 
-/* Works out T and k, and which particles are spray, where blocks are changed and what follows from it. Those whose T is not what it was are changed now, too; those whose k
+/* Works out T and k where blocks are changed and what follows from it. Those whose T is not what it was are changed now, too; those whose k
  * is not are `told`. */
 void thin_find(const FieldWork *work);
+/* Writes 1 for each row of spray, else 0: rows without a block are spray, too. */
+void thin_find_spray(const FieldWork *work, uint8_t *spray);
+
 /* Adds k T to a block's values. */
 void thin_add(const FieldWork *work, const SkinBlock *block, float values[BLOCK_POINTS], const float more[BLOCK_POINTS]);
 
