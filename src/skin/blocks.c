@@ -18,8 +18,8 @@ static int32_t list_block(SkinBlocks *blocks, Memory *memory, const int32_t plac
     const size_t count = (size_t)blocks->count;
     if (!array_grow(memory, &blocks->list, count + 1, sizeof b, count * sizeof b)) return GRID_NOWHERE;
     ((int32_t *)blocks->list.data)[count] = b;
-    block->anew = block->listed == 0;
-    blocks->others |= block->anew;
+    block->anew = block->fresh = block->listed == 0;
+    blocks->others |= block->fresh;
     block->listed = blocks->surface;
     block->at = blocks->count++;
     block->runs = 0;

@@ -35,7 +35,8 @@ typedef struct SkinBlock {
     bool bounded;                        /* obstacles are near */
 
     /* Of the present stage, see make.h. */
-    bool anew;    /* it was not there, or others are beside it than in the last surface */
+    bool fresh;   /* it was not there in the last surface */
+    bool anew;    /* it is fresh, or others are beside it */
     bool changed; /* it is not what it was */
     bool due;     /* it is to be worked out */
     bool helps;   /* so it is, or one beside it, which needs sums of this one */

@@ -292,9 +292,7 @@ static void mirror_part(Part *part, const int first[3])
 
 static void mirror_parts(Part *part)
 {
-    part->block->bounded = false;
     memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
-    for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
     for (int n = 0; n < 8 && part->around.count > 0; n++) {
         const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
         mirror_part(part, first);
@@ -307,13 +305,16 @@ static void mirror_block(Part *part)
     const FieldWork *work = part->work;
     SkinBlock *block = part->block;
     float *mirrored = work->mirrored + part->point, *gaps = work->gaps + part->point;
-    const bool anew = block->changed;
-    part->mirrored = anew ? mirrored : work->lines + part->point;
-    part->gaps = anew ? gaps : work->sums + part->point;
+    const bool changed = block->changed, was_bounded = block->bounded || block->fresh;
+    part->mirrored = changed ? mirrored : work->lines + part->point;
+    part->gaps = changed ? gaps : work->sums + part->point;
+    block->bounded = false;
+    if (was_bounded || part->around.count > 0)
+        for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
     mirror_parts(part);
-    if (anew) return;
+    if (changed) return;
     block->changed = field_store(mirrored, part->mirrored);
-    if (field_store(gaps, part->gaps)) block->changed = true;
+    if ((was_bounded || block->bounded) && field_store(gaps, part->gaps)) block->changed = true;
 }
 
 /* A number for the obstacles near a block as they are: others have another one. 0: there are none. */

@@ -31,7 +31,7 @@ typedef struct SplatJob {
     int channel;
     int axis;
     const float *from;
-    float *to;
+    float *to, *changed; /* where numbers go, in the end also those of blocks that are changed */
 } SplatJob;
 
 float field_points_per_cell(const SkinBlocks *blocks)
@@ -123,7 +123,7 @@ static void filter_blocks(void *context, int32_t begin, int32_t end)
         const int32_t b = blocks_number(blocks, i);
         const SkinBlock *block = blocks_at(blocks, b);
         const float *const beside[3] = {points_beside(job, block, -1), points_beside(job, block, 0), points_beside(job, block, 1)};
-        float *out = job->to + (size_t)b * BLOCK_POINTS;
+        float *out = (job->axis == 2 && block->changed ? job->changed : job->to) + (size_t)b * BLOCK_POINTS;
         if (!block->wanted || (job->axis == 2 && !block->due)) continue; /* who only helps keeps its values */
         memset(out, 0, BLOCK_POINTS * sizeof *out);
         job->work->kernels->filter(&filter_of[blocks->subdivision], &block->reached, job->axis, beside, out);
@@ -131,10 +131,11 @@ static void filter_blocks(void *context, int32_t begin, int32_t end)
 }
 
 /* Along x to `lines`, along y back, along z to where it goes. */
-static void collect(SplatJob *job, float *values)
+static void collect(SplatJob *job, float *values, float *changed)
 {
     const FieldWork *work = job->work;
     float *stage[4] = {work->sums, work->lines, work->sums, values};
+    job->changed = changed;
     pool_for(work->pool, work->blocks->count, FIELD_GRAIN, sum_blocks, job);
     for (job->axis = 0; job->axis < 3; job->axis++) {
         job->from = stage[job->axis];
@@ -143,10 +144,10 @@ static void collect(SplatJob *job, float *values)
     }
 }
 
-void field_collect(const FieldWork *work, float *values)
+void field_collect(const FieldWork *work, float *values, float *changed)
 {
     SplatJob job = {.work = work};
-    collect(&job, values);
+    collect(&job, values, changed);
 }
 
 bool field_store(float kept[BLOCK_POINTS], const float made[BLOCK_POINTS])
@@ -159,7 +160,7 @@ bool field_store(float kept[BLOCK_POINTS], const float made[BLOCK_POINTS])
 static void make(SplatJob *job, float *values)
 {
     pool_for(job->work->pool, job->work->blocks->with_rows, FIELD_GRAIN, splat_blocks, job);
-    collect(job, values);
+    collect(job, values, values);
 }
 
 static void bound_blocks(void *context, int32_t begin, int32_t end)

@@ -67,8 +67,8 @@ void field_splat_rest(const FieldWork *work, FieldSplat *splat);
 /* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
 float field_points_per_cell(const SkinBlocks *blocks);
 /* Writes the field of the boxes that are splatted to `values`, in the blocks that are `due` and that these reach. Those that `help` are worked on, and those of them that boxes
- * reach are `wanted`. */
-void field_collect(const FieldWork *work, float *values);
+ * reach are `wanted`. Those of blocks that are `changed` go to `changed`. */
+void field_collect(const FieldWork *work, float *values, float *changed);
 /* Keeps a block's numbers; whether they are not those that were kept. */
 bool field_store(float kept[BLOCK_POINTS], const float made[BLOCK_POINTS]);
 /* Points next to a missing block below are out of all particles' reach, though S may leave a ripple there. They are outside, so that the missing block

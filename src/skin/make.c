@@ -10,10 +10,11 @@ enum { MAKE_GRAIN = 4 };
 static void finish_block(const FieldWork *work, SkinBlock *block, size_t point)
 {
     float *values = work->field + point;
-    memcpy(values, work->mirrored + point, BLOCK_POINTS * sizeof *values);
     if (block->raised) {
-        thin_add(work, block, values, work->more + point);
+        thin_add(work, block, point, values);
         field_close_off(block, values);
+    } else {
+        memcpy(values, work->mirrored + point, BLOCK_POINTS * sizeof *values);
     }
     if (block->bounded) boundary_cut(work, values, work->gaps + point);
     if (block->raised || block->bounded) {

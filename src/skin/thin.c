@@ -161,7 +161,7 @@ static void store_more(void *context, int32_t begin, int32_t end)
         const bool was = block->raised || block->anew;
         if (!block->due) continue;
         block->raised = block->wanted;
-        if (block->wanted && field_store(work->more + first_point(b), work->lines + first_point(b))) block->changed = true;
+        if (block->wanted && !block->changed) block->changed = field_store(work->more + first_point(b), work->lines + first_point(b));
         if (block->wanted || !was) continue;
         memset(work->more + first_point(b), 0, BLOCK_POINTS * sizeof(float));
         block->changed = true;
@@ -176,7 +176,7 @@ static void find_more(const FieldWork *work)
     blocks_spread(blocks, work->pool, offsetof(SkinBlock, told), offsetof(SkinBlock, due));
     blocks_spread(blocks, work->pool, offsetof(SkinBlock, due), offsetof(SkinBlock, helps));
     pool_for(work->pool, blocks->with_rows, THIN_GRAIN, thicken_helpers, (void *)(uintptr_t)work);
-    field_collect(work, work->lines);
+    field_collect(work, work->lines, work->more);
     pool_for(work->pool, blocks->count, THIN_GRAIN, store_more, (void *)(uintptr_t)work);
 }
 
@@ -339,8 +339,9 @@ static inline float from_middles(const float *value, int step, int point)
     return value[step] + before * (value[step] - value[0]) + behind * (value[2 * step] - value[step]);
 }
 
-void thin_add(const FieldWork *work, const SkinBlock *block, float values[BLOCK_POINTS], const float more[BLOCK_POINTS])
+void thin_add(const FieldWork *work, const SkinBlock *block, size_t point, float values[BLOCK_POINTS])
 {
+    const float *own = work->mirrored + point, *more = work->more + point;
     float share[BLOCK_NEIGHBOURS], plane[9], line[3];
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) /* where no block is, there is none of its own */
         share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(work->blocks, block->neighbour[n])->thickening;
@@ -351,7 +352,7 @@ void thin_add(const FieldWork *work, const SkinBlock *block, float values[BLOCK_
             for (int i = 0; i < 3; i++) line[i] = from_middles(plane + i, 3, y);
             float along[BLOCK_AXIS];
             for (int x = 0; x < BLOCK_AXIS; x++) along[x] = from_middles(line, 1, x);
-            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * along[x];
+            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] = own[row + x] + more[row + x] * along[x];
         }
     }
 }
