@@ -6,8 +6,6 @@
 #include "contact/field.h"
 
 enum { BOUNDARY_GRAIN = 2, PART_AXIS = 4 };
-/* Prints of the obstacles near a block; see print_of(). */
-enum { NOT_LOOKED = 0, NONE_NEAR = 1 };
 
 /* So far [cells] outside of a flat surface F is 0 but for a ripple of S: what is farther from a wall has no image. */
 static const double IMAGE_REACH = 0.75;
@@ -66,10 +64,8 @@ typedef struct Part {
     size_t point; /* its first */
     float *mirrored, *gaps; /* of the block: where they go */
     double origin[3], spacing; /* of its points [m] */
-    const int *first;          /* of the part */
-    bool has_around, has_beside;
-    Near around; /* the obstacles near the block, once asked for */
-    Near beside; /* those near the part, likewise */
+    Near around;               /* the obstacles that may hide an image of its points */
+    Near close, beside;        /* those near it, and near a part of it */
 } Part;
 
 static void begin_part(Part *part, const FieldWork *work, int32_t b)
@@ -79,7 +75,6 @@ static void begin_part(Part *part, const FieldWork *work, int32_t b)
     part->block = blocks_at(blocks, b);
     part->point = (size_t)b * BLOCK_POINTS;
     part->spacing = work->cell_size / blocks->subdivision;
-    part->has_around = false;
     for (int a = 0; a < 3; a++) {
         const int64_t first = lattice_point(blocks->subdivision, part->block->place[a]);
         part->origin[a] = ((double)first - (double)field_shift(blocks)) * part->spacing;
@@ -100,39 +95,40 @@ static double middle_of(const Part *part, const int first[3], int axis, double m
     return sqrt(3.0) * half / part->work->blocks->subdivision;
 }
 
+/* Those of a list that are within `reach` [cells] of a place. */
+static void narrow(const Near *all, const double place[3], double reach, Near *some)
+{
+    some->cell_size = all->cell_size;
+    some->dimension = all->dimension;
+    some->at_end = all->at_end;
+    some->count = 0;
+    for (int i = 0; i < all->count; i++)
+        if (solid_gap(field_solid(all, all->obstacle[i]), place) < reach * all->cell_size) some->obstacle[some->count++] = all->obstacle[i];
+}
+
 /* A point is at most this far [cells] before or behind each plane that it is reflected in, and so an image is within twice that of all of them. What is half a point off does
  * not hide it. */
 static double images_reach(const FieldWork *work) { return FIELD_FACES * 2.0 * fmax(IMAGE_REACH, deepest(work)) + 0.5 / work->blocks->subdivision; }
 
-static void want_around(Part *part)
+static void near_block(Part *part)
 {
     static const int first[3] = {0, 0, 0};
     const Grid flat = {.dimension = 3};
     ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&part->work->boundary->colliders, .grid = &flat, .cell_size = part->work->cell_size};
     double middle[3];
-    if (part->has_around) return;
     const double half = middle_of(part, first, BLOCK_AXIS, middle);
     field_near(&part->around, &frame, middle, half + images_reach(part->work), false);
     field_keep(&part->around, part->work->groups);
-    part->has_around = true;
+    narrow(&part->around, middle, half + BESIDE_REACH, &part->close);
 }
 
-static void want_beside(Part *part)
+/* False: none is. */
+static bool near_part(Part *part, const int first[3])
 {
     double middle[3];
-    Near *beside = &part->beside;
-    if (part->has_beside) return;
-    want_around(part);
-    const double reach = (middle_of(part, part->first, PART_AXIS, middle) + BESIDE_REACH) * part->work->cell_size;
-    beside->cell_size = part->around.cell_size;
-    beside->dimension = part->around.dimension;
-    beside->at_end = part->around.at_end;
-    beside->count = 0;
-    for (int i = 0; i < part->around.count; i++) {
-        const Obstacle *o = part->around.obstacle[i];
-        if (solid_gap(field_solid(&part->around, o), middle) < reach) beside->obstacle[beside->count++] = o;
-    }
-    part->has_beside = true;
+    const double half = middle_of(part, first, PART_AXIS, middle);
+    narrow(&part->close, middle, half + BESIDE_REACH, &part->beside);
+    return part->beside.count > 0;
 }
 
 static void point_of(int i, double local[3])
@@ -172,48 +168,33 @@ static float field_at(const SkinBlock *block, const float *values, const double 
     return sum;
 }
 
-static const Obstacle *obstacles_of(const FieldWork *work) { return work->boundary->obstacle.data; }
+/* What a point sees of obstacles. */
+typedef struct Sight {
+    double gap;  /* how far [cells] the nearest is */
+    int count;   /* how many are within BESIDE_REACH */
+    const Obstacle *nearest;
+} Sight;
 
 static Sight look_around(const Part *part, const double place[3])
 {
     Sight sight = {.gap = INFINITY};
-    double least = INFINITY;
-    int within = 0;
     for (int i = 0; i < part->beside.count; i++) {
         const Obstacle *o = part->beside.obstacle[i];
         const double gap = solid_gap(field_solid(&part->beside, o), place) / part->beside.cell_size;
-        within += gap < BESIDE_REACH;
-        if (gap >= least) continue;
-        least = gap;
-        sight.nearest = (uint16_t)(o - obstacles_of(part->work));
+        sight.count += gap < BESIDE_REACH;
+        if (gap >= sight.gap) continue;
+        sight.gap = gap;
+        sight.nearest = o;
     }
-    sight.gap = (float)least;
-    sight.others = (uint16_t)(within > 1 ? within - 1 : 0);
     return sight;
-}
-
-/* It stays the same as long as the obstacles do, wherever matter goes. */
-static const Sight *sight_at(Part *part, int i, const double place[3])
-{
-    Sight *sight = part->work->sights + part->point + (size_t)i;
-    if (!isnan(sight->gap)) return sight;
-    want_beside(part);
-    *sight = look_around(part, place);
-    return sight;
-}
-
-static void forget_sights(const Part *part)
-{
-    Sight *sight = part->work->sights + part->point;
-    for (int i = 0; i < BLOCK_POINTS; i++) sight[i].gap = NAN;
 }
 
 /* The planes around a point: of an obstacle by itself that of its nearest place. A baked one may have hollows. */
 static int planes_at(const Part *part, const Sight *sight, const double place[3], Face face[FIELD_FACES])
 {
-    const Solid *solid = &obstacles_of(part->work)[sight->nearest].start;
-    if (sight->others > 0 || solid->grid) return field_faces(&part->beside, place, IMAGE_REACH, face);
-    face[0].distance = solid_distance(solid, place, face[0].normal) / part->work->cell_size;
+    const Solid *solid = field_solid(&part->beside, sight->nearest);
+    if (sight->count > 1 || solid->grid) return field_faces(&part->beside, place, IMAGE_REACH, face);
+    face[0].distance = solid_distance(solid, place, face[0].normal) / part->beside.cell_size;
     return 1;
 }
 
@@ -238,12 +219,11 @@ static float hidden_share(const Part *part, const double image[3])
 }
 
 /* F at a point and at all that it is reflected to. Of a point in an obstacle it is that of its reflection before it. */
-static float with_images(Part *part, const Sight *sight, const float *values, const double local[3], const double place[3], float at_point)
+static float with_images(const Part *part, const Sight *sight, const float *values, const double local[3], const double place[3], float at_point)
 {
     double image[3];
     Face face[FIELD_FACES];
     int before = 0;
-    want_beside(part);
     const int count = planes_at(part, sight, place, face);
     for (int f = 0; f < count; f++) before |= (face[f].distance < 0.0) << f;
     reflect(part, face, before, local, image);
@@ -269,12 +249,12 @@ static void mirror_point(Part *part, int i, const float *own, float *gap, float 
     double local[3], place[3];
     point_of(i, local);
     place_of(part, local, place);
-    const Sight *sight = sight_at(part, i, place);
-    *gap = sight->gap;
-    if (*gap < INFINITY) part->block->bounded = true;
+    const Sight sight = look_around(part, place);
+    *gap = (float)sight.gap;
+    part->block->bounded = true;
     if ((double)*gap <= -deepest(part->work) || (double)*gap >= IMAGE_REACH) return;
     /* Whole matter has an image like itself. */
-    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, sight, part->work->filling, local, place, *own);
+    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, &sight, part->work->filling, local, place, *own);
 }
 
 /* The first point of the n-th row of a part with this first point. */
@@ -314,16 +294,15 @@ static uint32_t rows_that_count(const Part *part, const int first[3])
 static void mirror_part(Part *part, const int first[3])
 {
     const uint32_t rows = rows_that_count(part, first);
-    part->first = first;
-    part->has_beside = false;
+    if (!rows || !near_part(part, first)) return;
     for (int n = 0; n < PART_AXIS * PART_AXIS; n++)
         if (rows >> n & 1) mirror_row(part, row_of(first, n));
 }
 
-/* Whether obstacles are near a block is known. */
 static void mirror_parts(Part *part)
 {
-    for (int n = 0; n < 8; n++) {
+    memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
+    for (int n = 0; n < 8 && part->close.count > 0; n++) {
         const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
         mirror_part(part, first);
     }
@@ -335,44 +314,41 @@ static void mirror_block(Part *part)
     const FieldWork *work = part->work;
     SkinBlock *block = part->block;
     float *mirrored = work->mirrored + part->point, *gaps = work->gaps + part->point;
-    const bool changed = block->changed, near = block->obstacles > NONE_NEAR, cleared = block->bounded || block->fresh || near;
+    const bool changed = block->changed, was_bounded = block->bounded || block->fresh;
     part->mirrored = changed ? mirrored : work->lines + part->point;
     part->gaps = changed ? gaps : work->sums + part->point;
     block->bounded = false;
-    memcpy(part->mirrored, work->filling + part->point, BLOCK_POINTS * sizeof(float));
-    for (int i = 0; i < BLOCK_POINTS && cleared; i++) part->gaps[i] = INFINITY;
-    if (near) mirror_parts(part);
+    if (was_bounded || part->close.count > 0)
+        for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
+    mirror_parts(part);
     if (changed) return;
     block->changed = field_store(mirrored, part->mirrored);
-    if (cleared && field_store(gaps, part->gaps)) block->changed = true;
+    if ((was_bounded || block->bounded) && field_store(gaps, part->gaps)) block->changed = true;
 }
 
-/* A number for the obstacles near a block as they are: others have another one. */
-static uint64_t print_of(Part *part)
+/* A number for the obstacles near a block as they are: others have another one. 0: there are none. */
+static uint64_t print_of(const Part *part)
 {
-    const Stand *stand = part->work->boundary->stand.data;
-    uint64_t print = NONE_NEAR;
-    want_around(part);
-    for (int i = 0; i < part->around.count; i++) {
-        const ptrdiff_t n = part->around.obstacle[i] - obstacles_of(part->work);
-        print = blocks_mix(blocks_mix(print, (uint64_t)n + 1), stand[n].surface);
+    const Boundary *boundary = part->work->boundary;
+    uint64_t print = 0;
+    for (int i = 0; i < part->around.count && part->close.count > 0; i++) {
+        const ptrdiff_t n = part->around.obstacle[i] - (const Obstacle *)boundary->obstacle.data;
+        print = blocks_mix(blocks_mix(print, (uint64_t)n + 1), ((const Stand *)boundary->stand.data)[n].surface);
     }
     return print;
 }
 
-/* Whether a block is to be worked out. Looks for obstacles where that matters, and where it is not known. */
+/* Whether a block is to be worked out; then the obstacles near it are known. */
 static bool is_due(Part *part)
 {
     SkinBlock *block = part->block;
-    const uint64_t was = block->obstacles;
+    part->around.count = part->close.count = 0;
     if (!block->due && !part->work->boundary->changed) return false;
-    if (block->filling_most <= least_that_counts(part->work->level))
-        block->obstacles = NOT_LOOKED;
-    else if (was == NOT_LOOKED || part->work->boundary->changed)
-        block->obstacles = print_of(part);
-    if (block->obstacles == was) return block->due;
-    forget_sights(part);
-    return true;
+    if (block->filling_most > least_that_counts(part->work->level)) near_block(part);
+    const uint64_t print = print_of(part);
+    const bool same = print == block->obstacles;
+    block->obstacles = print;
+    return block->due || !same;
 }
 
 static void mirror_blocks(void *context, int32_t begin, int32_t end)

@@ -15,13 +15,6 @@
 
 typedef struct Boundary Boundary;
 
-/* What a point sees of obstacles. */
-typedef struct Sight {
-    float gap;        /* how far [cells] the nearest is; NaN: nobody looked */
-    uint16_t nearest; /* which of the obstacles that is */
-    uint16_t others;  /* how many more are within BESIDE_REACH */
-} Sight;
-
 /* What an obstacle is to a surface. */
 typedef struct Stand {
     Solid solid;

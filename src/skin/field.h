@@ -35,7 +35,6 @@ typedef struct FieldWork {
     float *filling;      /* F */
     float *mirrored;     /* G, see boundary.h; F itself where no obstacle stands */
     float *gaps;         /* then null; how far [cells] obstacles are, negative inside; infinite where that does not matter */
-    struct Sight *sights; /* see boundary.h */
     float *more;         /* T, see thin.h; null without it */
     float *field;        /* what the surface is cut out of */
     const struct Boundary *boundary;

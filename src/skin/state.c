@@ -88,7 +88,7 @@ static bool reserve(World *world, Skin *skin, const SkinKey *key)
     return state_reserve(world, &skin->boxes, (size_t)skin->blocks.with_rows * BOX_POINTS, sizeof(float)) &&
            state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->lines, count, sizeof(float)) &&
            grow(world, &skin->filling, count, sizeof(float)) && grow(world, &skin->field, count, sizeof(float)) &&
-           (!key->bounded || (grow(world, &skin->mirrored, count, sizeof(float)) && grow(world, &skin->gaps, count, sizeof(float)) && grow(world, &skin->sights, count, sizeof(Sight)))) &&
+           (!key->bounded || (grow(world, &skin->mirrored, count, sizeof(float)) && grow(world, &skin->gaps, count, sizeof(float)))) &&
            (!key->keeps_thin || grow(world, &skin->more, count, sizeof(float))) &&
            grow(world, &skin->inside, count, sizeof(uint8_t)) && grow(world, &skin->start, count, sizeof(uint16_t));
 }
@@ -123,7 +123,6 @@ FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
         .filling = skin->filling.data,
         .mirrored = bounded ? skin->mirrored.data : skin->filling.data,
         .gaps = bounded ? skin->gaps.data : NULL,
-        .sights = skin->sights.data,
         .more = skin->key.keeps_thin ? skin->more.data : NULL,
         .field = skin->field.data,
         .boundary = &skin->boundary,
@@ -184,7 +183,7 @@ void state_free(World *world)
 {
     Skin *skin = world->skin;
     if (!skin) return;
-    Array *arrays[] = {&skin->boxes, &skin->sums,  &skin->lines,  &skin->filling, &skin->mirrored, &skin->gaps, &skin->sights, &skin->more,
+    Array *arrays[] = {&skin->boxes, &skin->sums,  &skin->lines,  &skin->filling, &skin->mirrored, &skin->gaps,       &skin->more,
                        &skin->field, &skin->spray, &skin->inside, &skin->start,   &skin->volumes,  &skin->values,     &skin->chunk_begin};
     boundary_free(&skin->boundary, &world->memory);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);

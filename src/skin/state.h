@@ -27,7 +27,7 @@ struct Skin {
     SkinBlocks blocks;
     Cases cases;
     const SkinKernels *kernels;
-    Array boxes, sums, lines, filling, mirrored, gaps, sights, more, field; /* see field.h */
+    Array boxes, sums, lines, filling, mirrored, gaps, more, field; /* see field.h */
     Array inside, start;                  /* see mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
     Boundary boundary;
