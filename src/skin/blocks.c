@@ -234,14 +234,21 @@ static void copy_rows(const Stretch *y, const Stretch *z, const float *const bes
         }
 }
 
-void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS])
+const float *blocks_layer(const SkinBlocks *blocks, const Layer *layer, int32_t b)
+{
+    const char *block = (const char *)blocks_at(blocks, b);
+    while (layer->below && !*(const bool *)(const void *)(block + layer->flag)) layer = layer->below;
+    return layer->values + (size_t)b * BLOCK_POINTS;
+}
+
+void blocks_gather(const SkinBlocks *blocks, const SkinBlock *block, const Layer *layer, float box[BOX_POINTS])
 {
     static const float nothing[BLOCK_POINTS];
     for (int n = 0; n < BLOCK_NEIGHBOURS; n += 3) {
         const float *beside[3];
         for (int side = 0; side < 3; side++) {
             const int32_t other = block->neighbour[n + side];
-            beside[side] = other == GRID_NOWHERE ? nothing : values + (size_t)other * BLOCK_POINTS;
+            beside[side] = other == GRID_NOWHERE ? nothing : blocks_layer(blocks, layer, other);
         }
         copy_rows(&seen[n / 3 % 3], &seen[n / 9], beside, box);
     }

@@ -32,7 +32,8 @@ typedef struct SkinBlock {
     uint32_t first_run, runs;
     uint64_t print;                      /* of its particles: as long as they stay the same, it does */
     uint64_t obstacles;                  /* the same of the obstacles near it, see boundary.h */
-    bool bounded;                        /* obstacles are near */
+    bool bounded;                        /* obstacles are near: it has G of its own */
+    bool ended;                          /* it has a field of its own, see make.h */
 
     /* Of the present stage, see make.h. */
     bool fresh;   /* it was not there in the last surface */
@@ -109,8 +110,16 @@ void blocks_compare(SkinBlocks *blocks, Pool *pool, const SkinMatter *matter);
 void blocks_forget(SkinBlocks *blocks);
 void blocks_free(SkinBlocks *blocks, Memory *memory);
 
-/* Of an array with BLOCK_POINTS numbers per block: writes those of a box; 0 where no block is. */
-void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS]);
+/* BLOCK_POINTS numbers per block. Where a flag is not set, which stands there in SkinBlock, a block has those of the layer below. */
+typedef struct Layer {
+    const float *values;
+    size_t flag;
+    const struct Layer *below; /* null: all have their own */
+} Layer;
+
+const float *blocks_layer(const SkinBlocks *blocks, const Layer *layer, int32_t b);
+/* Writes the numbers of a box; 0 where no block is. */
+void blocks_gather(const SkinBlocks *blocks, const SkinBlock *block, const Layer *layer, float box[BOX_POINTS]);
 /* Of an array with a box for each block that has particles, as they are listed: what the boxes that are splatted say of the points of a block, added up. */
 void blocks_sum(const SkinBlocks *blocks, const SkinKernels *kernels, const SkinBlock *block, const float *boxes, float sum[BLOCK_POINTS]);
 

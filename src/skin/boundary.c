@@ -301,7 +301,9 @@ static void mirror_part(Part *part, const int first[3])
 
 static void mirror_parts(Part *part)
 {
-    memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
+    part->block->bounded = false;
+    for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
+    if (part->close.count > 0) memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
     for (int n = 0; n < 8 && part->close.count > 0; n++) {
         const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
         mirror_part(part, first);
@@ -314,16 +316,15 @@ static void mirror_block(Part *part)
     const FieldWork *work = part->work;
     SkinBlock *block = part->block;
     float *mirrored = work->mirrored + part->point, *gaps = work->gaps + part->point;
-    const bool changed = block->changed, was_bounded = block->bounded || block->fresh;
+    const bool changed = block->changed, was_bounded = block->bounded;
+    if (!was_bounded && !block->fresh && part->close.count == 0) return;
     part->mirrored = changed ? mirrored : work->lines + part->point;
     part->gaps = changed ? gaps : work->sums + part->point;
-    block->bounded = false;
-    if (was_bounded || part->close.count > 0)
-        for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
     mirror_parts(part);
     if (changed) return;
-    block->changed = field_store(mirrored, part->mirrored);
-    if ((was_bounded || block->bounded) && field_store(gaps, part->gaps)) block->changed = true;
+    block->changed = block->bounded != was_bounded;
+    if (block->bounded && field_store(mirrored, part->mirrored)) block->changed = true;
+    if (field_store(gaps, part->gaps)) block->changed = true;
 }
 
 /* A number for the obstacles near a block as they are: others have another one. 0: there are none. */

@@ -115,6 +115,12 @@ void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS])
     }
 }
 
+/* Whether the rows along x within a range are all that a block has: the filter writes whole rows. */
+static bool covers_planes(const CellBox *range)
+{
+    return range->low[1] == 0 && range->high[1] == BLOCK_AXIS - 1 && range->low[2] == 0 && range->high[2] == BLOCK_AXIS - 1;
+}
+
 static void filter_blocks(void *context, int32_t begin, int32_t end)
 {
     const SplatJob *job = context;
@@ -125,7 +131,7 @@ static void filter_blocks(void *context, int32_t begin, int32_t end)
         const float *const beside[3] = {points_beside(job, block, -1), points_beside(job, block, 0), points_beside(job, block, 1)};
         float *out = (job->axis == 2 && block->changed ? job->changed : job->to) + (size_t)b * BLOCK_POINTS;
         if (!block->wanted || (job->axis == 2 && !block->due)) continue; /* who only helps keeps its values */
-        memset(out, 0, BLOCK_POINTS * sizeof *out);
+        if (!covers_planes(&block->reached)) memset(out, 0, BLOCK_POINTS * sizeof *out);
         job->work->kernels->filter(&filter_of[blocks->subdivision], &block->reached, job->axis, beside, out);
     }
 }

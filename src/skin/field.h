@@ -33,10 +33,11 @@ typedef struct FieldWork {
     float *boxes;        /* BOX_POINTS per block with particles: scratch */
     float *sums, *lines; /* BLOCK_POINTS per block, and so are all that follow: scratch */
     float *filling;      /* F */
-    float *mirrored;     /* G, see boundary.h; F itself where no obstacle stands */
-    float *gaps;         /* then null; how far [cells] obstacles are, negative inside; infinite where that does not matter */
+    float *mirrored;     /* G, see boundary.h, in blocks that are bounded; null where no obstacle stands */
+    float *gaps;         /* then null, too; how far [cells] obstacles are, negative inside; infinite where that does not matter */
     float *more;         /* T, see thin.h; null without it */
-    float *field;        /* what the surface is cut out of */
+    float *field;        /* what the surface is cut out of, in blocks that are ended */
+    const Layer *mirrored_layer;
     const struct Boundary *boundary;
     uint32_t groups; /* of the materials */
     float level;

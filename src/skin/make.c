@@ -7,22 +7,22 @@
 
 enum { MAKE_GRAIN = 4 };
 
-static void finish_block(const FieldWork *work, SkinBlock *block, size_t point)
+static void finish_block(const FieldWork *work, SkinBlock *block, int32_t b)
 {
+    const size_t point = (size_t)b * BLOCK_POINTS;
     float *values = work->field + point;
+    block->ended = block->raised || block->bounded;
+    block->least = block->filling_least;
+    block->most = block->filling_most;
+    if (!block->ended) return;
     if (block->raised) {
-        thin_add(work, block, point, values);
+        thin_add(work, block, b, values);
         field_close_off(block, values);
     } else {
         memcpy(values, work->mirrored + point, BLOCK_POINTS * sizeof *values);
     }
     if (block->bounded) boundary_cut(work, values, work->gaps + point);
-    if (block->raised || block->bounded) {
-        work->kernels->bound(values, &block->least, &block->most);
-    } else {
-        block->least = block->filling_least;
-        block->most = block->filling_most;
-    }
+    work->kernels->bound(values, &block->least, &block->most);
 }
 
 static void finish_blocks(void *context, int32_t begin, int32_t end)
@@ -32,7 +32,7 @@ static void finish_blocks(void *context, int32_t begin, int32_t end)
         const int32_t b = blocks_number(work->blocks, i);
         SkinBlock *block = blocks_at(work->blocks, b);
         block->changed = block->changed || (block->raised && block->due);
-        if (block->changed) finish_block(work, block, (size_t)b * BLOCK_POINTS);
+        if (block->changed) finish_block(work, block, b);
     }
 }
 

@@ -52,7 +52,7 @@ static void mark_blocks(void *context, int32_t begin, int32_t end)
         SkinBlock *block = blocks_at(mesh->blocks, b);
         if (!block->changed) continue;
         if (block->least < mesh->level && block->most >= mesh->level)
-            find_inside(mesh->field + (size_t)b * BLOCK_POINTS, mesh->level, block->inside);
+            find_inside(blocks_layer(mesh->blocks, mesh->field, b), mesh->level, block->inside);
         else
             memset(block->inside, block->most >= mesh->level ? 0xFF : 0, sizeof block->inside);
     }
@@ -238,7 +238,7 @@ static void write_places(void *context, int32_t begin, int32_t end)
         job.block = blocks_at(job.mesh->blocks, b);
         job.box = box;
         if (!job.block->vertices) continue;
-        blocks_gather(job.block, job.mesh->field, box);
+        blocks_gather(job.mesh->blocks, job.block, job.mesh->field, box);
         visit_edges(job.mesh, b, box, write_place, &job);
     }
 }
@@ -272,9 +272,9 @@ static void write_means(void *context, int32_t begin, int32_t end)
         float box[BOX_POINTS], value_box[BOX_POINTS], weight_box[BOX_POINTS];
         const SkinBlock *block = blocks_at(job.mesh->blocks, b);
         if (!block->vertices) continue;
-        blocks_gather(block, job.mesh->field, box);
-        blocks_gather(block, job.values, value_box);
-        blocks_gather(block, job.weights, weight_box);
+        blocks_gather(job.mesh->blocks, block, job.mesh->field, box);
+        blocks_gather(job.mesh->blocks, block, &(Layer){.values = job.values}, value_box);
+        blocks_gather(job.mesh->blocks, block, &(Layer){.values = job.weights}, weight_box);
         job.value_box = value_box;
         job.weight_box = weight_box;
         visit_edges(job.mesh, b, box, write_mean, &job);

@@ -12,8 +12,8 @@ typedef struct SkinMesh {
     const SkinBlocks *blocks;
     const Cases *cases;
     Pool *pool;
-    const float *field; /* BLOCK_POINTS per block, and so are these */
-    uint8_t *inside;    /* of the cube above the point, if it is cut: its inside corners */
+    const Layer *field;
+    uint8_t *inside;    /* per point: of the cube above it, if it is cut, its inside corners */
     uint16_t *start;    /* there too: vertices of the block before those of the point */
     float level;
     double spacing; /* of points [m] */

@@ -98,7 +98,11 @@ static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
     pthread_mutex_lock(&world->making);
     const bool found = blocks_find(&skin->blocks, &world->memory, matter);
     pthread_mutex_unlock(&world->making);
-    return found && reserve(world, skin, &skin->key);
+    if (!found || !reserve(world, skin, &skin->key)) return false;
+    skin->filling_layer = (Layer){.values = skin->filling.data};
+    skin->mirrored_layer = (Layer){skin->mirrored.data, offsetof(SkinBlock, bounded), &skin->filling_layer};
+    skin->field_layer = (Layer){skin->field.data, offsetof(SkinBlock, ended), &skin->mirrored_layer};
+    return true;
 }
 
 SkinMatter state_matter(const World *world, const SkinKey *key)
@@ -121,10 +125,11 @@ FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
         .sums = skin->sums.data,
         .lines = skin->lines.data,
         .filling = skin->filling.data,
-        .mirrored = bounded ? skin->mirrored.data : skin->filling.data,
+        .mirrored = bounded ? skin->mirrored.data : NULL,
         .gaps = bounded ? skin->gaps.data : NULL,
         .more = skin->key.keeps_thin ? skin->more.data : NULL,
         .field = skin->field.data,
+        .mirrored_layer = &skin->mirrored_layer,
         .boundary = &skin->boundary,
         .groups = skin->key.groups,
         .level = skin->key.level,
@@ -138,7 +143,7 @@ SkinMesh state_mesh(const World *world, const Skin *skin)
         .blocks = &skin->blocks,
         .cases = &skin->cases,
         .pool = world->pool,
-        .field = skin->field.data,
+        .field = &skin->field_layer,
         .inside = skin->inside.data,
         .start = skin->start.data,
         .level = skin->key.level,

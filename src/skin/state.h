@@ -28,6 +28,7 @@ struct Skin {
     Cases cases;
     const SkinKernels *kernels;
     Array boxes, sums, lines, filling, mirrored, gaps, more, field; /* see field.h */
+    Layer filling_layer, mirrored_layer, field_layer;
     Array inside, start;                  /* see mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
     Boundary boundary;

@@ -81,7 +81,7 @@ static void visit_cells(const FieldWork *work, SkinBlock *block, WithRow *with, 
 {
     const float enough = enough_of(work), shift = field_shift(work->blocks);
     float near[BOX_POINTS], least[BLOCK_POINTS];
-    blocks_gather(block, work->mirrored, near);
+    blocks_gather(work->blocks, block, work->mirrored_layer, near);
     least_of_cells(work->blocks, near, least);
     for (uint32_t r = 0; r < block->runs; r++) {
         const SiteRun *run = blocks_run(work->blocks, block->first_run + r);
@@ -233,13 +233,13 @@ static void find_open(const float *gaps, float *open, int count)
     for (int i = 0; i < count; i++) open[i] = gaps[i] > 0.0f ? 1.0f : 0.0f;
 }
 
-static void weigh_corners(const FieldWork *work, SkinBlock *block, const float *own, const float *more)
+static void weigh_corners(const FieldWork *work, SkinBlock *block, int32_t b)
 {
     float room[BLOCK_POINTS];
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
-    if (block->bounded) find_open(work->gaps + (own - work->mirrored), room, BLOCK_POINTS);
+    if (block->bounded) find_open(work->gaps + first_point(b), room, BLOCK_POINTS);
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= CORNER_WEIGHT;
-    weigh_places(work, block, own, more, room);
+    weigh_places(work, block, blocks_layer(work->blocks, work->mirrored_layer, b), work->more + first_point(b), room);
 }
 
 static void weigh_middles(const FieldWork *work, SkinBlock *block)
@@ -248,14 +248,14 @@ static void weigh_middles(const FieldWork *work, SkinBlock *block)
     float box[BOX_POINTS], own[BLOCK_POINTS], more[BLOCK_POINTS], room[BLOCK_POINTS];
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
     if (block->bounded) {
-        blocks_gather(block, work->gaps, box);
+        blocks_gather(work->blocks, block, &(Layer){.values = work->gaps}, box);
         find_open(box, box, BOX_POINTS);
         means(box, room);
     }
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= MIDDLE_WEIGHT;
-    blocks_gather(block, work->mirrored, box);
+    blocks_gather(work->blocks, block, work->mirrored_layer, box);
     means(box, own);
-    blocks_gather(block, work->more, box);
+    blocks_gather(work->blocks, block, &(Layer){.values = work->more}, box);
     means(box, more);
     weigh_places(work, block, own, more, room);
 }
@@ -265,7 +265,7 @@ static void weigh_block(const FieldWork *work, SkinBlock *block, int32_t b)
     block->thin = block->runs > 0 ? -block->spray : 0.0f;
     memset(block->enclosed, 0, sizeof block->enclosed);
     if (!block->raised) return;
-    weigh_corners(work, block, work->mirrored + first_point(b), work->more + first_point(b));
+    weigh_corners(work, block, b);
     weigh_middles(work, block);
 }
 
@@ -339,9 +339,9 @@ static inline float from_middles(const float *value, int step, int point)
     return value[step] + before * (value[step] - value[0]) + behind * (value[2 * step] - value[step]);
 }
 
-void thin_add(const FieldWork *work, const SkinBlock *block, size_t point, float values[BLOCK_POINTS])
+void thin_add(const FieldWork *work, const SkinBlock *block, int32_t b, float values[BLOCK_POINTS])
 {
-    const float *own = work->mirrored + point, *more = work->more + point;
+    const float *own = blocks_layer(work->blocks, work->mirrored_layer, b), *more = work->more + first_point(b);
     float share[BLOCK_NEIGHBOURS], plane[9], line[3];
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) /* where no block is, there is none of its own */
         share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(work->blocks, block->neighbour[n])->thickening;

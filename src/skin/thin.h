@@ -24,7 +24,7 @@ void thin_find(const FieldWork *work);
 /* Writes 1 for each row of spray, else 0: rows without a block are spray, too. */
 void thin_find_spray(const FieldWork *work, uint8_t *spray);
 
-/* Writes G + k T of a block, which has this first point. */
-void thin_add(const FieldWork *work, const SkinBlock *block, size_t point, float values[BLOCK_POINTS]);
+/* Writes G + k T of a block with this number. */
+void thin_add(const FieldWork *work, const SkinBlock *block, int32_t b, float values[BLOCK_POINTS]);
 
 #endif
