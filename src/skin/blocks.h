@@ -64,7 +64,7 @@ typedef struct SkinBlocks {
     Sites sites;
 } SkinBlocks;
 
-static inline SkinBlock *blocks_at(const SkinBlocks *blocks, int32_t b) { return places_at(&blocks->block, b); }
+static inline SkinBlock *blocks_at(const SkinBlocks *blocks, int32_t b) { return (SkinBlock *)blocks->block.thing.data + b; }
 /* The number of the block that stands at `i` in the list. */
 static inline int32_t blocks_number(const SkinBlocks *blocks, int32_t i) { return ((const int32_t *)blocks->list.data)[i]; }
 static inline const SiteRun *blocks_run(const SkinBlocks *blocks, uint32_t r) { return (const SiteRun *)blocks->sites.run.data + r; }
