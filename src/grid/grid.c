@@ -172,13 +172,6 @@ FoundBlock *grid_found(const Grid *grid, const int32_t place[3])
     return slot ? (FoundBlock *)grid->found.data + (slot - 1) : NULL;
 }
 
-void grid_neighbour_offset(int n, int dimension, int32_t offset[3])
-{
-    offset[0] = n % 3 - 1;
-    offset[1] = n / 3 % 3 - 1;
-    offset[2] = dimension == 3 ? n / 9 - 1 : 0;
-}
-
 /* Whether some of the cells lie at the lowest side of each axis where the offset is negative, and some at the highest where it is positive. */
 static bool touches(uint64_t cells, const int32_t offset[3])
 {

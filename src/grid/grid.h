@@ -153,7 +153,12 @@ bool grid_is_sound(const Grid *grid);
 void grid_free_part(Grid *part, Memory *memory);
 
 /* The offset of neighbour n of a block: -1, 0 or 1 per axis, x fastest. */
-void grid_neighbour_offset(int n, int dimension, int32_t offset[3]);
+static inline void grid_neighbour_offset(int n, int dimension, int32_t offset[3])
+{
+    offset[0] = n % 3 - 1;
+    offset[1] = n / 3 % 3 - 1;
+    offset[2] = dimension == 3 ? n / 9 - 1 : 0;
+}
 
 /* Bits per axis when the place of a block is packed into 64. */
 enum { GRID_COORDINATE_BITS = 21 };

@@ -318,6 +318,7 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
     uint32_t row;
     for (uint32_t i = 0; i < count; i++)
         if (!particles_row(p, ids[i], &row)) return edit_no_particle(ids[i], i);
+    if (count == 0) return PBMPM_OK; /* rows stay where they are */
     for (uint32_t i = 0; i < count && world->sleep.on; i++) {
         particles_row(p, ids[i], &row);
         sleep_wake_row(world, row);
@@ -327,10 +328,8 @@ pbmpm_result edit_remove(World *world, const pbmpm_particle_id *ids, uint32_t co
         particles_row(p, ids[i], &row);
         p->status[row] = K_REMOVED;
     }
-    if (count) {
-        particles_compact(p, world->sleep.rows);
-        world_expire_views(world);
-    }
+    particles_compact(p, world->sleep.rows);
+    world_expire_views(world);
     return PBMPM_OK;
 }
 
@@ -348,19 +347,18 @@ pbmpm_result edit_remove_in(World *world, const pbmpm_shape *shape, uint32_t *re
     const Solid solid = solid_among(shape, world->def.dimension, &world->baked);
     Particles *p = &world->particles;
     uint32_t count = 0;
-    for (uint32_t row = 0; row < p->count && world->sleep.on; row++)
-        if (is_inside(world, &solid, row)) sleep_wake_row(world, row);
-    if (world->sleep.on) sleep_settle(world);
-    for (uint32_t row = world->sleep.rows; row < p->count; row++) {
+    for (uint32_t row = 0; row < p->count; row++) {
         if (!is_inside(world, &solid, row)) continue;
-        p->status[row] = K_REMOVED;
+        if (world->sleep.on) sleep_wake_row(world, row);
         count++;
     }
     if (removed) *removed = count;
-    if (count) {
-        particles_compact(p, world->sleep.rows);
-        world_expire_views(world);
-    }
+    if (count == 0) return PBMPM_OK; /* rows stay where they are */
+    if (world->sleep.on) sleep_settle(world);
+    for (uint32_t row = world->sleep.rows; row < p->count; row++)
+        if (is_inside(world, &solid, row)) p->status[row] = K_REMOVED;
+    particles_compact(p, world->sleep.rows);
+    world_expire_views(world);
     return PBMPM_OK;
 }
 

@@ -58,6 +58,13 @@ const DistanceGrid *baked_find(const BakedTable *table, pbmpm_baked_id id)
     return baked->generation == id.generation ? &baked->grid : NULL;
 }
 
+uint32_t baked_generation(const BakedTable *table, const DistanceGrid *grid)
+{
+    for (uint32_t i = 0; grid && i < PBMPM_MAX_BAKED; i++)
+        if (&table->slot[i].grid == grid) return table->slot[i].generation;
+    return 0;
+}
+
 pbmpm_baked_info baked_describe(const DistanceGrid *grid)
 {
     pbmpm_baked_info info = {.size = sizeof info, .dimension = grid->dimension, .spacing = (float)grid->spacing, .bytes = distance_grid_bytes(grid)};

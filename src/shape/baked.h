@@ -25,6 +25,9 @@ void baked_free(BakedTable *table, Memory *memory);
 /* Null if not live. */
 const DistanceGrid *baked_find(const BakedTable *table, pbmpm_baked_id id);
 
+/* That of a live one: no other had it before at this place. Null has 0. */
+uint32_t baked_generation(const BakedTable *table, const DistanceGrid *grid);
+
 pbmpm_baked_info baked_describe(const DistanceGrid *grid);
 
 #endif

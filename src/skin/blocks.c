@@ -2,177 +2,47 @@
 
 #include <string.h>
 
-enum { LINK_GRAIN = 64, SLOTS_LEAST = 256 };
+enum { BLOCK_GRAIN = 64 };
 
-/* grid_neighbour_offset(), worked out once. */
-static const int32_t way_of[BLOCK_NEIGHBOURS][3] = {
-    {-1, -1, -1}, {0, -1, -1}, {1, -1, -1}, {-1, 0, -1}, {0, 0, -1}, {1, 0, -1}, {-1, 1, -1}, {0, 1, -1}, {1, 1, -1},
-    {-1, -1, 0},  {0, -1, 0},  {1, -1, 0},  {-1, 0, 0},  {0, 0, 0},  {1, 0, 0},  {-1, 1, 0},  {0, 1, 0},  {1, 1, 0},
-    {-1, -1, 1},  {0, -1, 1},  {1, -1, 1},  {-1, 0, 1},  {0, 0, 1},  {1, 0, 1},  {-1, 1, 1},  {0, 1, 1},  {1, 1, 1},
-};
+static void offset_of(int n, int32_t way[3]) { grid_neighbour_offset(n, 3, way); }
 
 /* ---- Finding ---- */
 
-static void place_beside(const SkinBlock *block, int n, int32_t place[3])
+/* Puts the block at a place into the list, unless it is there; GRID_NOWHERE: no memory. */
+static int32_t list_block(SkinBlocks *blocks, Memory *memory, const int32_t place[3])
 {
-    for (int a = 0; a < 3; a++) place[a] = block->place[a] + way_of[n][a];
-}
-
-static int32_t *slot_of(const SkinBlocks *blocks, const int32_t place[3])
-{
-    int32_t *table = blocks->table.data;
-    const uint64_t mask = (uint64_t)blocks->slots - 1;
-    uint64_t slot = grid_hash(place) & mask;
-    while (table[slot] && memcmp(blocks_at(blocks, table[slot] - 1)->place, place, 3 * sizeof *place) != 0) slot = (slot + 1) & mask;
-    return &table[slot];
-}
-
-static int32_t block_at(const SkinBlocks *blocks, const int32_t place[3]) { return blocks->slots ? *slot_of(blocks, place) - 1 : GRID_NOWHERE; }
-
-static void fill_table(SkinBlocks *blocks)
-{
-    if (blocks->slots) memset(blocks->table.data, 0, (size_t)blocks->slots * sizeof(int32_t));
-    for (int32_t b = 0; b < blocks->count; b++) *slot_of(blocks, blocks_at(blocks, b)->place) = b + 1;
-}
-
-/* At least half of the slots stay free. */
-static bool grow_table(SkinBlocks *blocks, Memory *memory)
-{
-    if (blocks->slots >= 2 * (blocks->count + 1)) return true;
-    const int32_t slots = blocks->slots ? 2 * blocks->slots : SLOTS_LEAST;
-    if (!array_reserve(memory, &blocks->table, (size_t)slots, sizeof(int32_t))) return false;
-    blocks->slots = slots;
-    fill_table(blocks);
-    return true;
-}
-
-/* The block at a place, which is made if there is none; GRID_NOWHERE: no memory. */
-static int32_t want_block(SkinBlocks *blocks, Memory *memory, const int32_t place[3])
-{
-    const int32_t found = block_at(blocks, place);
-    if (found != GRID_NOWHERE) return found;
+    const int32_t b = places_want(&blocks->block, memory, place);
+    if (b == GRID_NOWHERE) return b;
+    SkinBlock *block = blocks_at(blocks, b);
+    if (block->listed == blocks->surface) return b;
     const size_t count = (size_t)blocks->count;
-    if (!grow_table(blocks, memory) || !array_grow(memory, &blocks->block, count + 1, sizeof(SkinBlock), count * sizeof(SkinBlock))) return GRID_NOWHERE;
-    SkinBlock *block = blocks_at(blocks, blocks->count);
-    *block = (SkinBlock){.cells = cells_none(), .splatted = cells_none()};
-    memcpy(block->place, place, sizeof block->place);
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) block->neighbour[n] = GRID_NOWHERE;
-    *slot_of(blocks, place) = ++blocks->count;
-    return blocks->count - 1;
+    if (!array_grow(memory, &blocks->list, count + 1, sizeof b, count * sizeof b)) return GRID_NOWHERE;
+    ((int32_t *)blocks->list.data)[count] = b;
+    block->anew = block->fresh = block->listed == 0;
+    blocks->others |= block->fresh;
+    block->listed = blocks->surface;
+    block->at = blocks->count++;
+    block->runs = 0;
+    block->cells = block->splatted = cells_none();
+    return b;
 }
 
-static int32_t floor_divide(int32_t a, int32_t b) { return a / b - (a % b < 0); }
-
-/* The end of the rows from one on that count and are in the block; bit k of `cells` tells for each axis that one is in cell k. */
-static uint32_t follow_rows(const SkinBlocks *blocks, SkinBlock *block, const SkinMatter *matter, uint32_t row)
+static bool list_sites(SkinBlocks *blocks, Memory *memory)
 {
-    const Particles *p = matter->particles;
-    const uint32_t cells = (uint32_t)blocks_cells(blocks);
-    uint32_t found[3] = {0}, first[3];
-    for (int a = 0; a < 3; a++) first[a] = (uint32_t)(blocks->anchor[a] + block->place[a] * (int32_t)cells);
-    for (; row < p->count && matter_has(matter, row); row++) {
-        const uint32_t x = (uint32_t)p->cell[0][row] - first[0], y = (uint32_t)p->cell[1][row] - first[1], z = (uint32_t)p->cell[2][row] - first[2];
-        if ((x | y | z) >= cells) break; /* cells is a power of two */
-        found[0] |= 1u << x;
-        found[1] |= 1u << y;
-        found[2] |= 1u << z;
-    }
-    for (int a = 0; a < 3; a++) block->found[a] |= (uint8_t)found[a];
-    return row;
-}
-
-/* The run that begins with a row; false: no memory. */
-static bool find_run(SkinBlocks *blocks, Memory *memory, const Particles *p, uint32_t row, BlockRun *run)
-{
-    int32_t place[3];
-    for (int a = 0; a < 3; a++) place[a] = floor_divide(p->cell[a][row] - blocks->anchor[a], blocks_cells(blocks));
-    *run = (BlockRun){want_block(blocks, memory, place), row, row + 1};
-    return run->block != GRID_NOWHERE;
-}
-
-static bool find_runs(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
-{
-    const Particles *p = matter->particles;
-    uint32_t row = 0;
-    while (row < p->count) {
-        BlockRun run;
-        if (!matter_has(matter, row)) {
-            row++;
-            continue;
-        }
-        if (!find_run(blocks, memory, p, row, &run)) return false;
-        SkinBlock *block = blocks_at(blocks, run.block);
-        run.end = row = follow_rows(blocks, block, matter, row);
-        block->runs++;
-        block->volume += (float)(run.end - run.begin) * matter_volume(matter, run.begin);
-        const size_t count = (size_t)blocks->runs++;
-        if (!array_grow(memory, &blocks->found_run, count + 1, sizeof run, count * sizeof run)) return false;
-        ((BlockRun *)blocks->found_run.data)[count] = run;
-    }
-    return true;
-}
-
-static void bound_cells(SkinBlocks *blocks)
-{
-    for (int32_t b = 0; b < blocks->count; b++) {
+    for (int32_t s = 0; s < blocks->sites.site.count; s++) {
+        const Site *site = sites_at(&blocks->sites, s);
+        if (site->spray) continue;
+        const int32_t b = list_block(blocks, memory, site->place);
+        if (b == GRID_NOWHERE) return false;
         SkinBlock *block = blocks_at(blocks, b);
+        block->first_run = site->first_run;
+        block->runs = site->runs;
         for (int a = 0; a < 3; a++) {
-            block->cells.low[a] = __builtin_ctz(block->found[a]);
-            block->cells.high[a] = 31 - __builtin_clz(block->found[a]);
+            block->cells.low[a] = __builtin_ctz(site->cells[a]);
+            block->cells.high[a] = 31 - __builtin_clz(site->cells[a]);
         }
     }
-}
-
-/* What it takes for more than spray [cells]: drops of fewer particles are better drawn as points. */
-static const float SPRAY_MOST = 1.0f;
-
-static bool is_spray(const SkinBlocks *blocks, const SkinBlock *block)
-{
-    float volume = block->volume;
-    for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
-        if (n == BLOCK_NEIGHBOURS / 2) continue; /* that is itself */
-        int32_t place[3];
-        place_beside(block, n, place);
-        const int32_t other = block_at(blocks, place);
-        if (other != GRID_NOWHERE) volume += blocks_at(blocks, other)->volume;
-    }
-    return volume < SPRAY_MOST;
-}
-
-/* Leaves out the blocks of spray, and their runs. */
-static void drop_spray(SkinBlocks *blocks)
-{
-    BlockRun *run = blocks->found_run.data;
-    int32_t blocks_kept = 0, runs_kept = 0;
-    for (int32_t b = 0; b < blocks->count; b++) blocks_at(blocks, b)->wanted = !is_spray(blocks, blocks_at(blocks, b));
-    for (int32_t b = 0; b < blocks->count; b++) blocks_at(blocks, b)->kept_as = blocks_at(blocks, b)->wanted ? blocks_kept++ : GRID_NOWHERE;
-    for (int32_t r = 0; r < blocks->runs; r++) {
-        const int32_t block = blocks_at(blocks, run[r].block)->kept_as;
-        if (block != GRID_NOWHERE) run[runs_kept++] = (BlockRun){block, run[r].begin, run[r].end};
-    }
-    for (int32_t b = 0; b < blocks->count; b++)
-        if (blocks_at(blocks, b)->wanted) *blocks_at(blocks, blocks_at(blocks, b)->kept_as) = *blocks_at(blocks, b);
-    blocks->count = blocks->with_rows = blocks_kept;
-    blocks->runs = runs_kept;
-    fill_table(blocks);
-}
-
-/* Block by block, each in the order of rows. */
-static bool sort_runs(SkinBlocks *blocks, Memory *memory)
-{
-    if (!array_reserve(memory, &blocks->run, (size_t)blocks->runs, sizeof(BlockRun))) return false;
-    uint32_t first = 0;
-    for (int32_t b = 0; b < blocks->with_rows; b++) {
-        SkinBlock *block = blocks_at(blocks, b);
-        block->first_run = first;
-        first += block->runs;
-        block->runs = 0;
-    }
-    const BlockRun *found = blocks->found_run.data;
-    for (int32_t r = 0; r < blocks->runs; r++) {
-        SkinBlock *block = blocks_at(blocks, found[r].block);
-        ((BlockRun *)blocks->run.data)[block->first_run + block->runs++] = found[r];
-    }
+    blocks->with_rows = blocks->count;
     return true;
 }
 
@@ -200,50 +70,146 @@ static bool leads_to(const SkinBlocks *blocks, const CellBox *cells, Reach reach
     return true;
 }
 
-static bool find_touched(SkinBlocks *blocks, Memory *memory)
+static bool list_touched(SkinBlocks *blocks, Memory *memory)
 {
-    for (int32_t b = 0; b < blocks->with_rows; b++)
+    for (int32_t i = 0; i < blocks->with_rows; i++)
         for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
-            const SkinBlock *block = blocks_at(blocks, b);
+            const SkinBlock *block = blocks_at(blocks, blocks_number(blocks, i));
             int32_t place[3];
-            place_beside(block, n, place);
-            if (leads_to(blocks, &block->cells, touched[blocks->subdivision], way_of[n]) && want_block(blocks, memory, place) == GRID_NOWHERE) return false;
+            offset_of(n, place);
+            if (!leads_to(blocks, &block->cells, touched[blocks->subdivision], place)) continue;
+            for (int a = 0; a < 3; a++) place[a] += block->place[a];
+            if (list_block(blocks, memory, place) == GRID_NOWHERE) return false;
         }
     return true;
 }
 
-bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
+/* Those of the last surface that this one has not. */
+static void drop_others(SkinBlocks *blocks)
 {
-    blocks->count = blocks->with_rows = blocks->runs = blocks->slots = 0;
-    grid_drop_anchor(matter->particles, blocks->anchor);
-    if (!find_runs(blocks, memory, matter)) return false;
-    bound_cells(blocks);
-    drop_spray(blocks);
-    return sort_runs(blocks, memory) && find_touched(blocks, memory);
-}
-
-/* Each looks for half of its neighbours, and tells them. */
-static void link_blocks(void *context, int32_t begin, int32_t end)
-{
-    const SkinBlocks *blocks = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(blocks, b);
-        block->neighbour[BLOCK_NEIGHBOURS / 2] = b;
-        for (int n = 0; n < BLOCK_NEIGHBOURS / 2; n++) {
-            int32_t place[3];
-            place_beside(block, n, place);
-            const int32_t other = block->neighbour[n] = block_at(blocks, place);
-            if (other != GRID_NOWHERE) blocks_at(blocks, other)->neighbour[BLOCK_NEIGHBOURS - 1 - n] = b;
-        }
+    for (int32_t b = 0; b < blocks->block.count; b++) {
+        const uint64_t listed = blocks_at(blocks, b)->listed;
+        if (!listed || listed == blocks->surface) continue;
+        places_drop(&blocks->block, b);
+        blocks->others = true;
     }
 }
 
-void blocks_link(SkinBlocks *blocks, Pool *pool) { pool_for(pool, blocks->count, LINK_GRAIN, link_blocks, blocks); }
+bool blocks_find(SkinBlocks *blocks, Memory *memory, const SkinMatter *matter)
+{
+    blocks->block.size = sizeof(SkinBlock);
+    blocks->count = 0;
+    blocks->others = false;
+    blocks->surface++;
+    if (!sites_find(&blocks->sites, memory, matter, blocks->subdivision) || !list_sites(blocks, memory) || !list_touched(blocks, memory)) return false;
+    drop_others(blocks);
+    return true;
+}
+
+/* ---- What changed ---- */
+
+typedef struct CompareJob {
+    const SkinBlocks *blocks;
+    const SkinMatter *matter;
+} CompareJob;
+
+static void link_block(const SkinBlocks *blocks, SkinBlock *block)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
+        int32_t place[3];
+        offset_of(n, place);
+        for (int a = 0; a < 3; a++) place[a] += block->place[a];
+        const int32_t other = places_find(&blocks->block, place);
+        block->anew |= other != block->neighbour[n];
+        block->neighbour[n] = other;
+    }
+}
+
+static uint64_t pair_of(const void *low, const void *high)
+{
+    uint32_t word[2];
+    memcpy(&word[0], low, sizeof word[0]);
+    memcpy(&word[1], high, sizeof word[1]);
+    return word[0] | (uint64_t)word[1] << 32;
+}
+
+/* All that the field takes from particles, in their order. Each step of it keeps two numbers apart that are apart, so with 64 bits one change in 2^64 goes
+ * unseen. Four rows of steps need not wait for each other. */
+static uint64_t print_of(const CompareJob *job, const SkinBlock *block)
+{
+    const Particles *p = job->matter->particles;
+    uint64_t print[4] = {1, 2, 3, 4};
+    for (uint32_t r = 0; r < block->runs; r++) {
+        const SiteRun *run = blocks_run(job->blocks, block->first_run + r);
+        for (uint32_t row = run->begin; row < run->end; row++) {
+            const float volume = matter_volume(job->matter, row);
+            print[0] = blocks_mix(print[0], pair_of(&p->cell[0][row], &p->cell[1][row]));
+            print[2] = blocks_mix(print[2], pair_of(&p->fraction[0][row], &p->fraction[1][row]));
+            print[3] = blocks_mix(print[3], pair_of(&volume, &volume));
+            print[1] = blocks_mix(print[1], pair_of(&p->cell[2][row], &p->fraction[2][row]));
+        }
+    }
+    return blocks_mix(blocks_mix(blocks_mix(print[0], print[1]), print[2]), print[3]);
+}
+
+static void compare_blocks(void *context, int32_t begin, int32_t end)
+{
+    const CompareJob *job = context;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(job->blocks, blocks_number(job->blocks, i));
+        const uint64_t print = print_of(job, block);
+        if (job->blocks->others) link_block(job->blocks, block);
+        block->changed = block->anew || print != block->print;
+        block->print = print;
+    }
+}
+
+void blocks_compare(SkinBlocks *blocks, Pool *pool, const SkinMatter *matter)
+{
+    const CompareJob job = {blocks, matter};
+    pool_for(pool, blocks->count, BLOCK_GRAIN, compare_blocks, (void *)(uintptr_t)&job);
+}
+
+void blocks_forget(SkinBlocks *blocks)
+{
+    places_clear(&blocks->block);
+    blocks->count = blocks->with_rows = 0;
+}
 
 void blocks_free(SkinBlocks *blocks, Memory *memory)
 {
-    Array *arrays[] = {&blocks->block, &blocks->run, &blocks->found_run, &blocks->table};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
+    places_free(&blocks->block, memory);
+    sites_free(&blocks->sites, memory);
+    array_free(memory, &blocks->list);
+}
+
+/* ---- Neighbours ---- */
+
+bool blocks_beside(const SkinBlocks *blocks, const SkinBlock *block, size_t flag)
+{
+    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
+        if (block->neighbour[n] != GRID_NOWHERE && *((const bool *)(const void *)blocks_at(blocks, block->neighbour[n]) + flag)) return true;
+    return false;
+}
+
+typedef struct SpreadJob {
+    const SkinBlocks *blocks;
+    size_t from, to;
+} SpreadJob;
+
+static void spread_over(void *context, int32_t begin, int32_t end)
+{
+    const SpreadJob *job = context;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(job->blocks, blocks_number(job->blocks, i));
+        *((bool *)(void *)block + job->to) = blocks_beside(job->blocks, block, job->from);
+    }
+}
+
+void blocks_spread(const SkinBlocks *blocks, Pool *pool, size_t from, size_t to)
+{
+    SpreadJob job = {blocks, from, to};
+    pool_for(pool, blocks->count, BLOCK_GRAIN, spread_over, &job);
 }
 
 /* ---- Boxes ---- */
@@ -268,14 +234,21 @@ static void copy_rows(const Stretch *y, const Stretch *z, const float *const bes
         }
 }
 
-void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_POINTS])
+const float *blocks_layer(const SkinBlocks *blocks, const Layer *layer, int32_t b)
+{
+    const char *block = (const char *)blocks_at(blocks, b);
+    while (layer->below && !*(const bool *)(const void *)(block + layer->flag)) layer = layer->below;
+    return layer->values + (size_t)b * BLOCK_POINTS;
+}
+
+void blocks_gather(const SkinBlocks *blocks, const SkinBlock *block, const Layer *layer, float box[BOX_POINTS])
 {
     static const float nothing[BLOCK_POINTS];
     for (int n = 0; n < BLOCK_NEIGHBOURS; n += 3) {
         const float *beside[3];
         for (int side = 0; side < 3; side++) {
             const int32_t other = block->neighbour[n + side];
-            beside[side] = other == GRID_NOWHERE ? nothing : values + (size_t)other * BLOCK_POINTS;
+            beside[side] = other == GRID_NOWHERE ? nothing : blocks_layer(blocks, layer, other);
         }
         copy_rows(&seen[n / 3 % 3], &seen[n / 9], beside, box);
     }
@@ -284,19 +257,21 @@ void blocks_gather(const SkinBlock *block, const float *values, float box[BOX_PO
 /* The box of a neighbour, if what it says of the block is not nothing. */
 static const float *box_beside(const SkinBlocks *blocks, const SkinBlock *block, int n, const float *boxes)
 {
-    const int32_t other = block->neighbour[n];
-    if (other == GRID_NOWHERE || !leads_to(blocks, &blocks_at(blocks, other)->splatted, splatted[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) return NULL;
-    return boxes + (size_t)other * BOX_POINTS;
+    int32_t way[3];
+    if (block->neighbour[n] == GRID_NOWHERE) return NULL;
+    const SkinBlock *other = blocks_at(blocks, block->neighbour[n]);
+    offset_of(BLOCK_NEIGHBOURS - 1 - n, way);
+    return leads_to(blocks, &other->splatted, splatted[blocks->subdivision], way) ? boxes + (size_t)other->at * BOX_POINTS : NULL;
 }
 
-void blocks_sum(const SkinBlocks *blocks, const SkinKernels *kernels, int32_t b, const float *boxes, float sum[BLOCK_POINTS])
+void blocks_sum(const SkinBlocks *blocks, const SkinKernels *kernels, const SkinBlock *block, const float *boxes, float sum[BLOCK_POINTS])
 {
     memset(sum, 0, BLOCK_POINTS * sizeof *sum);
     for (int n = 0; n < BLOCK_NEIGHBOURS; n += 3) {
         const Stretch *y = &seen[2 - n / 3 % 3], *z = &seen[2 - n / 9]; /* the neighbour at `way` sees this block at -way */
         const float *box[3];
         for (int side = 0; side < 3; side++) {
-            box[side] = box_beside(blocks, blocks_at(blocks, b), n + side, boxes);
+            box[side] = box_beside(blocks, block, n + side, boxes);
             if (box[side]) box[side] += (z->of_box * BOX_AXIS + y->of_box) * BOX_AXIS;
         }
         if (box[0] || box[1] || box[2]) kernels->add(box, y->count, z->count, sum + (z->of_block * BLOCK_AXIS + y->of_block) * BLOCK_AXIS);
@@ -328,10 +303,13 @@ void blocks_find_reached(const SkinBlocks *blocks, SkinBlock *block)
 {
     CellBox reached = cells_none();
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) {
+        int32_t way[3], back[3];
         if (block->neighbour[n] == GRID_NOWHERE) continue;
         const CellBox *cells = &blocks_at(blocks, block->neighbour[n])->splatted;
-        if (!leads_to(blocks, cells, changed[blocks->subdivision], way_of[BLOCK_NEIGHBOURS - 1 - n])) continue;
-        const CellBox from = reached_from(blocks, cells, way_of[n]);
+        offset_of(n, way);
+        offset_of(BLOCK_NEIGHBOURS - 1 - n, back);
+        if (!leads_to(blocks, cells, changed[blocks->subdivision], back)) continue;
+        const CellBox from = reached_from(blocks, cells, way);
         cells_add(&reached, from.low);
         cells_add(&reached, from.high);
     }

@@ -14,22 +14,37 @@ static const double IMAGE_REACH = 0.75;
 static const double BESIDE_REACH = 1.25;
 /* Of F at a flat surface, per cell: S W at 0. */
 static const float FLAT_SLOPE = 29.0f / 32.0f;
+/* The points that cubes at the surface have in obstacles are less deep [cells]. */
+static double deepest(const FieldWork *work) { return 1.0 / work->blocks->subdivision; }
 
-bool boundary_find(Boundary *boundary, World *world, bool *changed)
+static Stand stand_of(const BakedTable *baked, const Obstacle *o)
+{
+    Stand stand;
+    memset(&stand, 0, sizeof stand); /* its padding, too */
+    memcpy(&stand.solid, &o->start, sizeof stand.solid);
+    stand.meets = o->meets;
+    stand.baked = baked_generation(baked, o->start.grid);
+    return stand;
+}
+
+bool boundary_find(Boundary *boundary, World *world)
 {
     const size_t room = world->colliders.room + DOMAIN_WALLS;
-    if (!array_reserve(&world->memory, &boundary->obstacle, room, sizeof(Obstacle)) || !array_reserve(&world->memory, &boundary->stood, room, sizeof(Solid))) return false;
+    if (!array_reserve(&world->memory, &boundary->obstacle, room, sizeof(Obstacle)) || !array_reserve(&world->memory, &boundary->stand, room, sizeof(Stand))) return false;
     boundary->colliders = world->colliders;
     boundary->colliders.obstacle = boundary->obstacle.data;
     colliders_begin_substep(&boundary->colliders, &world->domain, world->def.dimension, 0, 1);
     const int count = boundary->colliders.obstacle_count;
-    *changed = count != boundary->stands;
+    boundary->changed = count != boundary->stands;
     boundary->stands = count;
+    boundary->surface++;
     for (int i = 0; i < count; i++) {
-        Solid *stood = (Solid *)boundary->stood.data + i;
-        const Solid *stands = &boundary->colliders.obstacle[i].start;
-        *changed = *changed || memcmp(stood, stands, sizeof *stands) != 0;
-        *stood = *stands;
+        Stand *stood = (Stand *)boundary->stand.data + i, stands = stand_of(&world->baked, &boundary->colliders.obstacle[i]);
+        stands.surface = stood->surface;
+        if (memcmp(stood, &stands, sizeof stands) == 0) continue;
+        stands.surface = boundary->surface;
+        *stood = stands;
+        boundary->changed = true;
     }
     return true;
 }
@@ -37,33 +52,31 @@ bool boundary_find(Boundary *boundary, World *world, bool *changed)
 void boundary_free(Boundary *boundary, Memory *memory)
 {
     array_free(memory, &boundary->obstacle);
-    array_free(memory, &boundary->stood);
+    array_free(memory, &boundary->stand);
 }
 
 /* ---- Distances ---- */
-
-typedef struct BoundaryJob {
-    const FieldWork *work;
-    float level, *values;
-} BoundaryJob;
 
 /* A block whose points are looked at. */
 typedef struct Part {
     const FieldWork *work;
     SkinBlock *block;
+    size_t point; /* its first */
+    float *mirrored, *gaps; /* of the block: where they go */
     double origin[3], spacing; /* of its points [m] */
-    Near around;               /* the obstacles near the block */
-    Near beside;               /* those near a part of it */
+    Near around;               /* the obstacles that may hide an image of its points */
+    Near close, beside;        /* those near it, and near a part of it */
 } Part;
 
-static void begin_part(Part *part, const FieldWork *work, SkinBlock *block)
+static void begin_part(Part *part, const FieldWork *work, int32_t b)
 {
     const SkinBlocks *blocks = work->blocks;
     part->work = work;
-    part->block = block;
+    part->block = blocks_at(blocks, b);
+    part->point = (size_t)b * BLOCK_POINTS;
     part->spacing = work->cell_size / blocks->subdivision;
     for (int a = 0; a < 3; a++) {
-        const int64_t first = (int64_t)blocks->anchor[a] * blocks->subdivision + (int64_t)block->place[a] * BLOCK_AXIS;
+        const int64_t first = lattice_point(blocks->subdivision, part->block->place[a]);
         part->origin[a] = ((double)first - (double)field_shift(blocks)) * part->spacing;
     }
 }
@@ -82,6 +95,21 @@ static double middle_of(const Part *part, const int first[3], int axis, double m
     return sqrt(3.0) * half / part->work->blocks->subdivision;
 }
 
+/* Those of a list that are within `reach` [cells] of a place. */
+static void narrow(const Near *all, const double place[3], double reach, Near *some)
+{
+    some->cell_size = all->cell_size;
+    some->dimension = all->dimension;
+    some->at_end = all->at_end;
+    some->count = 0;
+    for (int i = 0; i < all->count; i++)
+        if (solid_gap(field_solid(all, all->obstacle[i]), place) < reach * all->cell_size) some->obstacle[some->count++] = all->obstacle[i];
+}
+
+/* A point is at most this far [cells] before or behind each plane that it is reflected in, and so an image is within twice that of all of them. What is half a point off does
+ * not hide it. */
+static double images_reach(const FieldWork *work) { return FIELD_FACES * 2.0 * fmax(IMAGE_REACH, deepest(work)) + 0.5 / work->blocks->subdivision; }
+
 static void near_block(Part *part)
 {
     static const int first[3] = {0, 0, 0};
@@ -89,25 +117,18 @@ static void near_block(Part *part)
     ContactFrame frame = {.colliders = (Colliders *)(uintptr_t)&part->work->boundary->colliders, .grid = &flat, .cell_size = part->work->cell_size};
     double middle[3];
     const double half = middle_of(part, first, BLOCK_AXIS, middle);
-    field_near(&part->around, &frame, middle, half + IMAGE_REACH, false);
+    field_near(&part->around, &frame, middle, half + images_reach(part->work), false);
     field_keep(&part->around, part->work->groups);
+    narrow(&part->around, middle, half + BESIDE_REACH, &part->close);
 }
 
-/* Of those near the block; false: none. */
+/* False: none is. */
 static bool near_part(Part *part, const int first[3])
 {
     double middle[3];
-    const double reach = (middle_of(part, first, PART_AXIS, middle) + BESIDE_REACH) * part->work->cell_size;
-    Near *beside = &part->beside;
-    beside->cell_size = part->around.cell_size;
-    beside->dimension = part->around.dimension;
-    beside->at_end = part->around.at_end;
-    beside->count = 0;
-    for (int i = 0; i < part->around.count; i++) {
-        const Obstacle *o = part->around.obstacle[i];
-        if (solid_gap(field_solid(&part->around, o), middle) < reach) beside->obstacle[beside->count++] = o;
-    }
-    return beside->count > 0;
+    const double half = middle_of(part, first, PART_AXIS, middle);
+    narrow(&part->close, middle, half + BESIDE_REACH, &part->beside);
+    return part->beside.count > 0;
 }
 
 static void point_of(int i, double local[3])
@@ -223,21 +244,18 @@ static float flat_at(float gap) { return 0.5f + FLAT_SLOPE * gap; }
 static float cut_at(float level, float gap) { return level + FLAT_SLOPE * gap; }
 
 /* Measures how far the obstacles are from a point that counts, and writes what it has with its images. */
-static void mirror_point(const BoundaryJob *job, Part *part, int i, const float *own, float *gap, float *mirrored)
+static void mirror_point(Part *part, int i, const float *own, float *gap, float *mirrored)
 {
-    const double deepest = 1.0 / job->work->blocks->subdivision; /* the points that cubes at the surface have in obstacles */
     double local[3], place[3];
     point_of(i, local);
     place_of(part, local, place);
     const Sight sight = look_around(part, place);
     *gap = (float)sight.gap;
     part->block->bounded = true;
-    if ((double)*gap <= -deepest || (double)*gap >= IMAGE_REACH) return;
+    if ((double)*gap <= -deepest(part->work) || (double)*gap >= IMAGE_REACH) return;
     /* Whole matter has an image like itself. */
-    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, &sight, job->values, local, place, *own);
+    *mirrored = *own >= flat_at(*gap) ? *own + flat_at(-*gap) : with_images(part, &sight, part->work->filling, local, place, *own);
 }
-
-static size_t first_point(const BoundaryJob *job, const Part *part) { return (size_t)(part->block - blocks_at(job->work->blocks, 0)) * BLOCK_POINTS; }
 
 /* The first point of the n-th row of a part with this first point. */
 static int row_of(const int first[3], int n) { return ((first[2] + n / PART_AXIS) * BLOCK_AXIS + first[1] + n % PART_AXIS) * BLOCK_AXIS + first[0]; }
@@ -251,101 +269,109 @@ static bool counts(const float *values, float least)
 }
 
 /* From one point to the next the gap changes by no more than their distance. Points so far off that neither an image nor the cut changes them are passed over. */
-static void mirror_row(const BoundaryJob *job, Part *part, int first)
+static void mirror_row(Part *part, int first)
 {
-    const double spacing = 1.0 / job->work->blocks->subdivision;
-    const size_t point = first_point(job, part) + (size_t)first;
-    const float *own = job->values + point, least = least_that_counts(job->level);
+    const FieldWork *work = part->work;
+    const double spacing = 1.0 / work->blocks->subdivision;
+    const float *own = work->filling + part->point + first, least = least_that_counts(work->level);
     double at_least = -INFINITY;
     for (int x = 0; x < PART_AXIS; x++, at_least -= spacing) {
-        if (own[x] <= least || (at_least >= IMAGE_REACH && cut_at(job->level, (float)at_least) >= own[x])) continue;
-        mirror_point(job, part, first + x, &own[x], &job->work->gaps[point + (size_t)x], &job->work->lines[point + (size_t)x]);
-        at_least = (double)job->work->gaps[point + (size_t)x];
+        if (own[x] <= least || (at_least >= IMAGE_REACH && cut_at(work->level, (float)at_least) >= own[x])) continue;
+        mirror_point(part, first + x, &own[x], &part->gaps[first + x], &part->mirrored[first + x]);
+        at_least = (double)part->gaps[first + x];
     }
 }
 
 /* The rows of a part that count; bit n is the n-th. */
-static uint32_t rows_that_count(const BoundaryJob *job, const Part *part, const int first[3])
+static uint32_t rows_that_count(const Part *part, const int first[3])
 {
     uint32_t rows = 0;
     for (int n = 0; n < PART_AXIS * PART_AXIS; n++)
-        rows |= (uint32_t)counts(job->values + first_point(job, part) + row_of(first, n), least_that_counts(job->level)) << n;
+        rows |= (uint32_t)counts(part->work->filling + part->point + row_of(first, n), least_that_counts(part->work->level)) << n;
     return rows;
 }
 
-static void mirror_part(const BoundaryJob *job, Part *part, const int first[3])
+static void mirror_part(Part *part, const int first[3])
 {
-    const uint32_t rows = rows_that_count(job, part, first);
+    const uint32_t rows = rows_that_count(part, first);
     if (!rows || !near_part(part, first)) return;
     for (int n = 0; n < PART_AXIS * PART_AXIS; n++)
-        if (rows >> n & 1) mirror_row(job, part, row_of(first, n));
+        if (rows >> n & 1) mirror_row(part, row_of(first, n));
+}
+
+static void mirror_parts(Part *part)
+{
+    part->block->bounded = false;
+    for (int i = 0; i < BLOCK_POINTS; i++) part->gaps[i] = INFINITY;
+    if (part->close.count > 0) memcpy(part->mirrored, part->work->filling + part->point, BLOCK_POINTS * sizeof(float));
+    for (int n = 0; n < 8 && part->close.count > 0; n++) {
+        const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
+        mirror_part(part, first);
+    }
+}
+
+/* Of a block whose F has changed, all has. Of others it is seen when it is there. */
+static void mirror_block(Part *part)
+{
+    const FieldWork *work = part->work;
+    SkinBlock *block = part->block;
+    float *mirrored = work->mirrored + part->point, *gaps = work->gaps + part->point;
+    const bool changed = block->changed, was_bounded = block->bounded;
+    if (!was_bounded && !block->fresh && part->close.count == 0) return;
+    part->mirrored = changed ? mirrored : work->lines + part->point;
+    part->gaps = changed ? gaps : work->sums + part->point;
+    mirror_parts(part);
+    if (changed) return;
+    block->changed = block->bounded != was_bounded;
+    if (block->bounded && field_store(mirrored, part->mirrored)) block->changed = true;
+    if (field_store(gaps, part->gaps)) block->changed = true;
+}
+
+/* A number for the obstacles near a block as they are: others have another one. 0: there are none. */
+static uint64_t print_of(const Part *part)
+{
+    const Boundary *boundary = part->work->boundary;
+    uint64_t print = 0;
+    for (int i = 0; i < part->around.count && part->close.count > 0; i++) {
+        const ptrdiff_t n = part->around.obstacle[i] - (const Obstacle *)boundary->obstacle.data;
+        print = blocks_mix(blocks_mix(print, (uint64_t)n + 1), ((const Stand *)boundary->stand.data)[n].surface);
+    }
+    return print;
+}
+
+/* Whether a block is to be worked out; then the obstacles near it are known. */
+static bool is_due(Part *part)
+{
+    SkinBlock *block = part->block;
+    part->around.count = part->close.count = 0;
+    if (!block->due && !part->work->boundary->changed) return false;
+    if (block->filling_most > least_that_counts(part->work->level)) near_block(part);
+    const uint64_t print = print_of(part);
+    const bool same = print == block->obstacles;
+    block->obstacles = print;
+    return block->due || !same;
 }
 
 static void mirror_blocks(void *context, int32_t begin, int32_t end)
 {
-    const BoundaryJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        const size_t point = (size_t)b * BLOCK_POINTS;
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
         Part part;
-        block->bounded = false;
-        if (block->most <= least_that_counts(job->level)) continue;
-        begin_part(&part, job->work, block);
-        near_block(&part);
-        if (part.around.count == 0) continue;
-        for (size_t i = point; i < point + BLOCK_POINTS; i++) job->work->gaps[i] = INFINITY;
-        memcpy(job->work->lines + point, job->values + point, BLOCK_POINTS * sizeof(float));
-        for (int n = 0; n < 8; n++) {
-            const int first[3] = {(n & 1) * PART_AXIS, (n >> 1 & 1) * PART_AXIS, (n >> 2) * PART_AXIS};
-            mirror_part(job, &part, first);
-        }
+        begin_part(&part, work, blocks_number(work->blocks, i));
+        if (is_due(&part)) mirror_block(&part);
     }
 }
 
-static bool is_beside_bounded(const SkinBlocks *blocks, const SkinBlock *block)
+void boundary_mirror(const FieldWork *work)
 {
-    for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
-        if (block->neighbour[n] != GRID_NOWHERE && blocks_at(blocks, block->neighbour[n])->bounded) return true;
-    return false;
+    blocks_spread(work->blocks, work->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due));
+    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, mirror_blocks, (void *)(uintptr_t)work);
 }
 
-static void take_mirrored(void *context, int32_t begin, int32_t end)
+void boundary_cut(const FieldWork *work, float values[BLOCK_POINTS], const float gaps[BLOCK_POINTS])
 {
-    const BoundaryJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        const SkinBlock *block = blocks_at(job->work->blocks, b);
-        const size_t point = (size_t)b * BLOCK_POINTS;
-        if (block->bounded)
-            memcpy(job->values + point, job->work->lines + point, BLOCK_POINTS * sizeof(float)); /* it grew, so the least is no more than it is */
-        else if (is_beside_bounded(job->work->blocks, block)) /* who reads gaps reads those of neighbours, too */
-            for (size_t i = point; i < point + BLOCK_POINTS; i++) job->work->gaps[i] = INFINITY;
+    for (int i = 0; i < BLOCK_POINTS; i++) {
+        const float most = cut_at(work->level, gaps[i]);
+        values[i] = values[i] < most ? values[i] : most;
     }
-}
-
-void boundary_mirror(const FieldWork *work, float level, float *values)
-{
-    BoundaryJob job = {work, level, values};
-    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, mirror_blocks, &job);
-    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, take_mirrored, &job);
-}
-
-static void cut_blocks(void *context, int32_t begin, int32_t end)
-{
-    const BoundaryJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        const size_t first = (size_t)b * BLOCK_POINTS;
-        if (!block->bounded) continue;
-        for (size_t i = first; i < first + BLOCK_POINTS; i++) {
-            const float most = cut_at(job->level, job->work->gaps[i]);
-            job->values[i] = job->values[i] < most ? job->values[i] : most;
-        }
-        field_bound(job->work, block, job->values + first);
-    }
-}
-
-void boundary_cut(const FieldWork *work, float level, float *values)
-{
-    BoundaryJob job = {work, level, values};
-    pool_for(work->pool, work->blocks->count, BOUNDARY_GRAIN, cut_blocks, &job);
 }

@@ -15,21 +15,32 @@
 
 typedef struct Boundary Boundary;
 
+/* What an obstacle is to a surface. */
+typedef struct Stand {
+    Solid solid;
+    uint32_t meets;    /* groups of materials */
+    uint32_t baked;    /* the generation of its baked solid, or 0 */
+    uint64_t surface;  /* the last one before which it became this */
+} Stand;
+
 /* The obstacles where they stand now. */
 struct Boundary {
     Colliders colliders; /* of which this has the list of obstacles alone */
-    Array obstacle, stood; /* Obstacle; Solid of each, of the last surface */
+    Array obstacle, stand; /* Obstacle; Stand of each */
     int stands;
+    uint64_t surface; /* counts the times that they were found */
+    bool changed;     /* in the last of them */
 };
 
-/* Lists the obstacles. *changed: they are not those of the last time. False: no memory. */
-bool boundary_find(Boundary *boundary, World *world, bool *changed);
+/* Lists the obstacles, and notes which of them are not as they were. False: no memory. */
+bool boundary_find(Boundary *boundary, World *world);
 void boundary_free(Boundary *boundary, Memory *memory);
 
-/* Measures how far obstacles are from the points of the lattice where that matters, and makes G of F. */
-void boundary_mirror(const FieldWork *work, float level, float *values);
+/* Makes G of F, and measures how far obstacles are where that matters: in blocks that are changed, beside them, and where obstacles changed. Those where either is not
+ * what it was are changed now. */
+void boundary_mirror(const FieldWork *work);
 
-/* Ends matter at the obstacles. */
-void boundary_cut(const FieldWork *work, float level, float *values);
+/* Ends the matter of a bounded block at the obstacles. */
+void boundary_cut(const FieldWork *work, float values[BLOCK_POINTS], const float gaps[BLOCK_POINTS]);
 
 #endif

@@ -31,19 +31,27 @@ typedef struct FieldWork {
     Pool *pool;
     const SkinKernels *kernels;
     float *boxes;        /* BOX_POINTS per block with particles: scratch */
-    float *sums, *lines; /* BLOCK_POINTS per block: scratch */
-    float *gaps;         /* likewise, in bounded blocks: how far [cells] obstacles are, negative inside; infinite where that does not matter */
-    uint8_t *spray;      /* per row, see thin.h */
+    float *sums, *lines; /* BLOCK_POINTS per block, and so are all that follow: scratch */
+    float *filling;      /* F */
+    float *mirrored;     /* G, see boundary.h, in blocks that are bounded; null where no obstacle stands */
+    float *gaps;         /* then null, too; how far [cells] obstacles are, negative inside; infinite where that does not matter */
+    float *more;         /* T, see thin.h; null without it */
+    float *field;        /* what the surface is cut out of, in blocks that are ended */
+    const Layer *mirrored_layer;
     const struct Boundary *boundary;
     uint32_t groups; /* of the materials */
+    float level;
     double cell_size;
 } FieldWork;
 
 /* From a place in points, as blocks_locate() has it, to one on the lattice. */
 static inline float field_shift(const SkinBlocks *blocks) { return blocks->subdivision == 2 ? 0.5f : 0.0f; }
 
-/* Writes F to `values`, BLOCK_POINTS per block; with `at_surface` only where the surface needs it. Notes the least and the most of each block. */
-void field_make(const FieldWork *work, FieldAmount *amount, int channel, bool at_surface, float *values);
+/* Makes F of the particles' volumes, where blocks are `changed` and beside them: those are changed now. Notes its least and most. */
+void field_fill(const FieldWork *work);
+
+/* Writes sums of what particles count to `values`, where the surface is. */
+void field_make(const FieldWork *work, FieldAmount *amount, int channel, float *values);
 
 enum { SPLAT_MOST = 64 };
 
@@ -59,12 +67,13 @@ void field_splat(const FieldWork *work, FieldSplat *splat, const float local[3],
 void field_splat_rest(const FieldWork *work, FieldSplat *splat);
 /* A particle's amount is per cell; per point it is as many times as much as there are points in a cell. */
 float field_points_per_cell(const SkinBlocks *blocks);
-/* Makes F of the boxes that are splatted, in the blocks that they reach: those are `wanted`. */
-void field_collect(const FieldWork *work, float *values);
+/* Writes the field of the boxes that are splatted to `values`, in the blocks that are `due` and that these reach. Those that `help` are worked on, and those of them that boxes
+ * reach are `wanted`. Those of blocks that are `changed` go to `changed`. */
+void field_collect(const FieldWork *work, float *values, float *changed);
+/* Keeps a block's numbers; whether they are not those that were kept. */
+bool field_store(float kept[BLOCK_POINTS], const float made[BLOCK_POINTS]);
 /* Points next to a missing block below are out of all particles' reach, though S may leave a ripple there. They are outside, so that the missing block
  * has no vertices: thus the surface is closed whatever the field is. */
 void field_close_off(const SkinBlock *block, float values[BLOCK_POINTS]);
-/* Notes the least and the most of a block. */
-void field_bound(const FieldWork *work, SkinBlock *block, const float values[BLOCK_POINTS]);
 
 #endif

@@ -47,10 +47,12 @@ static void find_inside(const float values[BLOCK_POINTS], float level, uint64_t 
 static void mark_blocks(void *context, int32_t begin, int32_t end)
 {
     const SkinMesh *mesh = context;
-    for (int32_t b = begin; b < end; b++) {
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(mesh->blocks, i);
         SkinBlock *block = blocks_at(mesh->blocks, b);
+        if (!block->changed) continue;
         if (block->least < mesh->level && block->most >= mesh->level)
-            find_inside(mesh->field + (size_t)b * BLOCK_POINTS, mesh->level, block->inside);
+            find_inside(blocks_layer(mesh->blocks, mesh->field, b), mesh->level, block->inside);
         else
             memset(block->inside, block->most >= mesh->level ? 0xFF : 0, sizeof block->inside);
     }
@@ -125,26 +127,32 @@ static void count_block(const SkinMesh *mesh, int32_t b)
 static void count_blocks(void *context, int32_t begin, int32_t end)
 {
     const SkinMesh *mesh = context;
-    for (int32_t b = begin; b < end; b++) {
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(mesh->blocks, i);
         SkinBlock *block = blocks_at(mesh->blocks, b);
+        if (!block->due) continue;
         block->vertices = block->triangles = 0;
         memset(block->cut, 0, sizeof block->cut);
         if (may_cut(mesh, block)) count_block(mesh, b);
     }
 }
 
-void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
+int32_t mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles)
 {
+    int32_t changed = 0;
     *vertices = *triangles = 0;
+    blocks_spread(mesh->blocks, mesh->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due)); /* cubes have corners in the blocks above */
     pool_for(mesh->pool, mesh->blocks->count, MESH_GRAIN, mark_blocks, (void *)mesh);
     pool_for(mesh->pool, mesh->blocks->count, MESH_GRAIN, count_blocks, (void *)mesh);
-    for (int32_t b = 0; b < mesh->blocks->count; b++) {
-        SkinBlock *block = blocks_at(mesh->blocks, b);
+    for (int32_t i = 0; i < mesh->blocks->count; i++) {
+        SkinBlock *block = blocks_at(mesh->blocks, blocks_number(mesh->blocks, i));
         block->first_vertex = (uint32_t)*vertices;
         block->first_triangle = (uint32_t)*triangles;
         *vertices += block->vertices;
         *triangles += block->triangles;
+        changed += block->changed;
     }
+    return changed;
 }
 
 /* ---- Vertices ---- */
@@ -212,7 +220,7 @@ static void write_place(const CutEdge *edge, void *context)
     const SkinMesh *mesh = job->mesh;
     float position[3], normal[3];
     for (int a = 0; a < 3; a++) {
-        const int64_t point = ((int64_t)mesh->blocks->anchor[a] * mesh->blocks->subdivision) + (int64_t)job->block->place[a] * BLOCK_AXIS + edge->point[a];
+        const int64_t point = lattice_point(mesh->blocks->subdivision, job->block->place[a]) + edge->point[a];
         position[a] = (float)(mesh->spacing * ((double)point + mesh->first + (a == edge->axis ? (double)edge->share : 0.0)));
     }
     put(job->positions, edge->vertex, position, 3);
@@ -223,13 +231,14 @@ static void write_place(const CutEdge *edge, void *context)
 
 static void write_places(void *context, int32_t begin, int32_t end)
 {
-    for (int32_t b = begin; b < end; b++) {
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(((const PlacesJob *)context)->mesh->blocks, i);
         PlacesJob job = *(const PlacesJob *)context;
         float box[BOX_POINTS];
         job.block = blocks_at(job.mesh->blocks, b);
         job.box = box;
         if (!job.block->vertices) continue;
-        blocks_gather(job.block, job.mesh->field, box);
+        blocks_gather(job.mesh->blocks, job.block, job.mesh->field, box);
         visit_edges(job.mesh, b, box, write_place, &job);
     }
 }
@@ -257,14 +266,15 @@ static void write_mean(const CutEdge *edge, void *context)
 
 static void write_means(void *context, int32_t begin, int32_t end)
 {
-    for (int32_t b = begin; b < end; b++) {
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(((const MeanJob *)context)->mesh->blocks, i);
         MeanJob job = *(const MeanJob *)context;
         float box[BOX_POINTS], value_box[BOX_POINTS], weight_box[BOX_POINTS];
         const SkinBlock *block = blocks_at(job.mesh->blocks, b);
         if (!block->vertices) continue;
-        blocks_gather(block, job.mesh->field, box);
-        blocks_gather(block, job.values, value_box);
-        blocks_gather(block, job.weights, weight_box);
+        blocks_gather(job.mesh->blocks, block, job.mesh->field, box);
+        blocks_gather(job.mesh->blocks, block, &(Layer){.values = job.values}, value_box);
+        blocks_gather(job.mesh->blocks, block, &(Layer){.values = job.weights}, weight_box);
         job.value_box = value_box;
         job.weight_box = weight_box;
         visit_edges(job.mesh, b, box, write_mean, &job);
@@ -339,8 +349,10 @@ static void write_block(const IndicesJob *job, int32_t b)
 static void write_indices(void *context, int32_t begin, int32_t end)
 {
     const IndicesJob *job = context;
-    for (int32_t b = begin; b < end; b++)
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(job->mesh->blocks, i);
         if (blocks_at(job->mesh->blocks, b)->triangles) write_block(job, b);
+    }
 }
 
 void mesh_write_indices(const SkinMesh *mesh, void *indices, uint32_t index_bytes)

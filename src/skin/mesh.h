@@ -12,8 +12,8 @@ typedef struct SkinMesh {
     const SkinBlocks *blocks;
     const Cases *cases;
     Pool *pool;
-    const float *field; /* BLOCK_POINTS per block, and so are these */
-    uint8_t *inside;    /* of the cube above the point, if it is cut: its inside corners */
+    const Layer *field;
+    uint8_t *inside;    /* per point: of the cube above it, if it is cut, its inside corners */
     uint16_t *start;    /* there too: vertices of the block before those of the point */
     float level;
     double spacing; /* of points [m] */
@@ -26,8 +26,8 @@ typedef struct MeshStream {
     size_t stride;
 } MeshStream;
 
-/* Counts, and numbers the vertices. */
-void mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
+/* Counts where blocks are changed, and numbers the vertices. Returns how many are. */
+int32_t mesh_count(const SkinMesh *mesh, uint64_t *vertices, uint64_t *triangles);
 
 void mesh_write_places(const SkinMesh *mesh, MeshStream positions, MeshStream normals);
 /* Three per triangle, of 2 or 4 bytes. */

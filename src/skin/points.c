@@ -6,6 +6,7 @@
 #include "base/result.h"
 #include "skin/state.h"
 #include "skin/skin.h"
+#include "skin/thin.h"
 
 enum { CHUNK_ROWS = 1024, WHITE = -1 };
 
@@ -88,8 +89,13 @@ static void choose_colours(PointsJob *job)
 static pbmpm_result find_spray(World *world, Skin *skin, SkinKey *key, PointsJob *job)
 {
     const pbmpm_result result = state_make(world, skin, key);
+    const uint32_t count = world->particles.count;
+    if (result != PBMPM_OK) return result;
+    if (!state_reserve(world, &skin->spray, count, sizeof(uint8_t))) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the spray among %u particles", count);
+    const FieldWork work = state_work(world, skin, &job->matter);
+    thin_find_spray(&work, skin->spray.data);
     job->outside = skin->spray.data;
-    return result;
+    return PBMPM_OK;
 }
 
 static pbmpm_result make_points(World *world, Skin *skin, PointsJob *job, uint32_t capacity, uint32_t *count)
@@ -97,7 +103,7 @@ static pbmpm_result make_points(World *world, Skin *skin, PointsJob *job, uint32
     pbmpm_surface_def chosen = skin_def_defaults();
     chosen.materials = job->def->materials;
     chosen.material_count = job->def->material_count;
-    SkinKey key = state_key(&chosen);
+    SkinKey key = state_key(world, &chosen);
     job->matter = state_matter(world, &key);
     const pbmpm_result result = job->def->spray_only ? find_spray(world, skin, &key, job) : PBMPM_OK;
     if (result != PBMPM_OK) return result;

@@ -59,7 +59,7 @@ static void share_of(const SkinMatter *matter, uint32_t row, uint32_t count, int
 /* Means of what particles have, over their volumes. */
 static pbmpm_result write_means(World *world, Skin *skin, const pbmpm_surface_def *def, const pbmpm_surface_mesh *mesh)
 {
-    const size_t count = (size_t)skin->blocks.count * BLOCK_POINTS;
+    const size_t count = (size_t)skin->blocks.block.count * BLOCK_POINTS;
     if (!mesh->velocities && !mesh->weights) return PBMPM_OK;
     if (!state_reserve(world, &skin->volumes, count, sizeof(float)) || !state_reserve(world, &skin->values, count, sizeof(float)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for means over %d blocks", skin->blocks.count);
@@ -68,13 +68,13 @@ static pbmpm_result write_means(World *world, Skin *skin, const pbmpm_surface_de
     const SkinMesh made = state_mesh(world, skin);
     const MeshStream velocities = stream_of(mesh, mesh->velocities, 3), weights = stream_of(mesh, mesh->weights, def->material_count);
     float *volumes = skin->volumes.data, *values = skin->values.data;
-    field_make(&work, field_volume, 0, true, volumes);
+    field_make(&work, field_volume, 0, volumes);
     for (int a = 0; a < 3 && velocities.base; a++) {
-        field_make(&work, motion_of, a, true, values);
+        field_make(&work, motion_of, a, values);
         mesh_write_mean(&made, values, volumes, component_of(velocities, (size_t)a));
     }
     for (uint32_t m = 0; m < def->material_count && weights.base; m++) {
-        field_make(&work, share_of, (int)def->materials[m].index, true, values);
+        field_make(&work, share_of, (int)def->materials[m].index, values);
         mesh_write_mean(&made, values, volumes, component_of(weights, m));
     }
     return PBMPM_OK;
@@ -95,7 +95,7 @@ static pbmpm_result find_room(const Skin *skin, const pbmpm_surface_def *def, co
 
 static pbmpm_result extract(World *world, Skin *skin, const pbmpm_surface_def *def, pbmpm_surface_mesh *mesh)
 {
-    SkinKey key = state_key(def);
+    SkinKey key = state_key(world, def);
     pbmpm_result result = state_make(world, skin, &key);
     if (result != PBMPM_OK) return result;
     if (skin->vertices > UINT32_MAX || 3 * skin->triangles > UINT32_MAX) return fail(PBMPM_ERROR_CAPACITY, "the surface has more than 2^32 - 1 indices");

@@ -4,7 +4,7 @@
 
 #include "base/cpu.h"
 #include "base/result.h"
-#include "skin/thin.h"
+#include "skin/make.h"
 
 Skin *state_take(World *world, pbmpm_result *result)
 {
@@ -42,6 +42,15 @@ bool state_reserve(World *world, Array *array, size_t count, size_t size)
     return room;
 }
 
+/* The same, and what is in it stays. */
+static bool grow(World *world, Array *array, size_t count, size_t size)
+{
+    pthread_mutex_lock(&world->making);
+    const bool room = array_grow(&world->memory, array, count, size, array->bytes);
+    pthread_mutex_unlock(&world->making);
+    return room;
+}
+
 const char *state_list_problem(const pbmpm_material_id *materials, uint32_t count)
 {
     uint8_t chosen[PBMPM_MAX_MATERIALS] = {0};
@@ -53,16 +62,35 @@ const char *state_list_problem(const pbmpm_material_id *materials, uint32_t coun
     return NULL;
 }
 
-SkinKey state_key(const pbmpm_surface_def *def)
+SkinKey state_key(const World *world, const pbmpm_surface_def *def)
 {
+    const Materials *materials = &world->materials;
+    uint8_t chosen[PBMPM_MAX_MATERIALS] = {0};
     SkinKey key;
     memset(&key, 0, sizeof key); /* its padding, too */
     key.subdivision = (int)def->subdivision;
     key.level = def->level;
     key.keeps_thin = def->keeps_thin != 0;
-    for (uint32_t i = 0; i < def->material_count; i++) key.chosen[def->materials[i].index] = 1;
-    if (!def->material_count) memset(key.chosen, 1, sizeof key.chosen);
+    for (uint32_t i = 0; i < def->material_count; i++) chosen[def->materials[i].index] = 1;
+    if (!def->material_count) memset(chosen, 1, sizeof chosen);
+    for (size_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        if (!chosen[slot] || !materials->generation[slot]) continue;
+        key.cells_per_mass[slot] = materials->kernel[slot].inverse_density;
+        key.stretches[slot] = !material_flows(&materials->def[slot]);
+        key.groups |= materials->def[slot].groups;
+    }
     return key;
+}
+
+static bool reserve(World *world, Skin *skin, const SkinKey *key)
+{
+    const size_t count = (size_t)skin->blocks.block.count * BLOCK_POINTS;
+    return state_reserve(world, &skin->boxes, (size_t)skin->blocks.with_rows * BOX_POINTS, sizeof(float)) &&
+           state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->lines, count, sizeof(float)) &&
+           grow(world, &skin->filling, count, sizeof(float)) && grow(world, &skin->field, count, sizeof(float)) &&
+           (!key->bounded || (grow(world, &skin->mirrored, count, sizeof(float)) && grow(world, &skin->gaps, count, sizeof(float)))) &&
+           (!key->keeps_thin || grow(world, &skin->more, count, sizeof(float))) &&
+           grow(world, &skin->inside, count, sizeof(uint8_t)) && grow(world, &skin->start, count, sizeof(uint16_t));
 }
 
 static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
@@ -70,32 +98,24 @@ static bool find_blocks(World *world, Skin *skin, const SkinMatter *matter)
     pthread_mutex_lock(&world->making);
     const bool found = blocks_find(&skin->blocks, &world->memory, matter);
     pthread_mutex_unlock(&world->making);
-    if (!found) return false;
-    const size_t count = (size_t)skin->blocks.count * BLOCK_POINTS;
-    return state_reserve(world, &skin->boxes, (size_t)skin->blocks.with_rows * BOX_POINTS, sizeof(float)) &&
-           state_reserve(world, &skin->sums, count, sizeof(float)) && state_reserve(world, &skin->lines, count, sizeof(float)) &&
-           state_reserve(world, &skin->field, count, sizeof(float)) &&
-           (skin->boundary.stands == 0 || state_reserve(world, &skin->gaps, count, sizeof(float))) &&
-           state_reserve(world, &skin->spray, world->particles.count, sizeof(uint8_t)) &&
-           state_reserve(world, &skin->inside, count, sizeof(uint8_t)) && state_reserve(world, &skin->start, count, sizeof(uint16_t));
+    if (!found || !reserve(world, skin, &skin->key)) return false;
+    skin->filling_layer = (Layer){.values = skin->filling.data};
+    skin->mirrored_layer = (Layer){skin->mirrored.data, offsetof(SkinBlock, bounded), &skin->filling_layer};
+    skin->field_layer = (Layer){skin->field.data, offsetof(SkinBlock, ended), &skin->mirrored_layer};
+    return true;
 }
 
 SkinMatter state_matter(const World *world, const SkinKey *key)
 {
     SkinMatter matter = {.particles = &world->particles};
-    for (size_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        if (!key->chosen[slot] || !world->materials.generation[slot]) continue;
-        matter.cells_per_mass[slot] = world->materials.kernel[slot].inverse_density;
-        matter.stretches[slot] = !material_flows(&world->materials.def[slot]);
-    }
+    memcpy(matter.cells_per_mass, key->cells_per_mass, sizeof matter.cells_per_mass);
+    memcpy(matter.stretches, key->stretches, sizeof matter.stretches);
     return matter;
 }
 
 FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
 {
-    uint32_t groups = 0;
-    for (size_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (matter->cells_per_mass[slot] != 0.0f) groups |= world->materials.def[slot].groups;
+    const bool bounded = skin->key.bounded;
     return (FieldWork){
         .blocks = &skin->blocks,
         .matter = matter,
@@ -104,10 +124,15 @@ FieldWork state_work(const World *world, Skin *skin, const SkinMatter *matter)
         .boxes = skin->boxes.data,
         .sums = skin->sums.data,
         .lines = skin->lines.data,
-        .gaps = skin->gaps.data,
-        .spray = skin->spray.data,
+        .filling = skin->filling.data,
+        .mirrored = bounded ? skin->mirrored.data : NULL,
+        .gaps = bounded ? skin->gaps.data : NULL,
+        .more = skin->key.keeps_thin ? skin->more.data : NULL,
+        .field = skin->field.data,
+        .mirrored_layer = &skin->mirrored_layer,
         .boundary = &skin->boundary,
-        .groups = groups,
+        .groups = skin->key.groups,
+        .level = skin->key.level,
         .cell_size = (double)world->def.cell_size,
     };
 }
@@ -118,7 +143,7 @@ SkinMesh state_mesh(const World *world, const Skin *skin)
         .blocks = &skin->blocks,
         .cases = &skin->cases,
         .pool = world->pool,
-        .field = skin->field.data,
+        .field = &skin->field_layer,
         .inside = skin->inside.data,
         .start = skin->start.data,
         .level = skin->key.level,
@@ -127,29 +152,35 @@ SkinMesh state_mesh(const World *world, const Skin *skin)
     };
 }
 
+/* Brings what is kept up to date. False: no memory. */
+static bool make(World *world, Skin *skin)
+{
+    const SkinMatter matter = state_matter(world, &skin->key);
+    if (!find_blocks(world, skin, &matter)) return false;
+    const FieldWork work = state_work(world, skin, &matter);
+    const SkinMesh mesh = state_mesh(world, skin);
+    blocks_compare(&skin->blocks, world->pool, &matter);
+    make_field(&work);
+    skin->changed = mesh_count(&mesh, &skin->vertices, &skin->triangles);
+    return true;
+}
+
 pbmpm_result state_make(World *world, Skin *skin, SkinKey *key)
 {
-    bool moved;
-    key->generation = world->generation;
+    const uint64_t generation = skin->generation;
+    skin->generation = 0;
     pthread_mutex_lock(&world->making);
-    const bool bounded = boundary_find(&skin->boundary, world, &moved);
+    const bool found = boundary_find(&skin->boundary, world);
     pthread_mutex_unlock(&world->making);
-    if (!bounded) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the obstacles around a surface");
-    if (!moved && memcmp(&skin->key, key, sizeof *key) == 0) return PBMPM_OK;
-    skin->key.generation = 0;
-    skin->blocks.subdivision = key->subdivision;
-    const SkinMatter matter = state_matter(world, key);
-    if (!find_blocks(world, skin, &matter)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a surface of %d blocks", skin->blocks.count);
-    const FieldWork work = state_work(world, skin, &matter);
-    blocks_link(&skin->blocks, world->pool);
-    if (world->particles.count > 0) memset(skin->spray.data, 1, world->particles.count); /* blocks of spray are left out of the field */
-    field_make(&work, field_volume, 0, false, skin->field.data);
-    if (skin->boundary.stands) boundary_mirror(&work, key->level, skin->field.data);
-    if (key->keeps_thin) thin_add(&work, key->level, skin->field.data);
-    if (skin->boundary.stands) boundary_cut(&work, key->level, skin->field.data);
+    key->bounded = skin->boundary.stands > 0;
+    const bool same = found && generation && memcmp(&skin->key, key, sizeof *key) == 0;
+    if (!same) blocks_forget(&skin->blocks);
+    if (!found) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the obstacles around a surface");
     skin->key = *key;
-    const SkinMesh mesh = state_mesh(world, skin);
-    mesh_count(&mesh, &skin->vertices, &skin->triangles);
+    skin->blocks.subdivision = key->subdivision;
+    if ((!same || skin->boundary.changed || generation != world->generation) && !make(world, skin))
+        return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a surface of %d blocks", skin->blocks.count);
+    skin->generation = world->generation;
     return PBMPM_OK;
 }
 
@@ -157,8 +188,8 @@ void state_free(World *world)
 {
     Skin *skin = world->skin;
     if (!skin) return;
-    Array *arrays[] = {&skin->boxes,   &skin->sums,   &skin->lines,   &skin->field,   &skin->inside,     &skin->start,
-                       &skin->volumes, &skin->values, &skin->gaps,   &skin->spray, &skin->chunk_begin};
+    Array *arrays[] = {&skin->boxes, &skin->sums,  &skin->lines,  &skin->filling, &skin->mirrored, &skin->gaps,       &skin->more,
+                       &skin->field, &skin->spray, &skin->inside, &skin->start,   &skin->volumes,  &skin->values,     &skin->chunk_begin};
     boundary_free(&skin->boundary, &world->memory);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     blocks_free(&skin->blocks, &world->memory);

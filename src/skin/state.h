@@ -10,27 +10,31 @@
 #include "skin/mesh.h"
 #include "world/world.h"
 
-/* What a field depends on beside the particles. */
+/* What a field depends on beside where particles are and where obstacles stand. */
 typedef struct SkinKey {
-    uint64_t generation; /* of the particles; 0: there is no field */
     int subdivision;
     float level;
-    bool keeps_thin;
-    uint8_t chosen[PBMPM_MAX_MATERIALS];
+    bool keeps_thin, bounded; /* `bounded`: there are obstacles */
+    uint32_t groups;          /* of the materials */
+    float cells_per_mass[PBMPM_MAX_MATERIALS]; /* see matter.h */
+    uint8_t stretches[PBMPM_MAX_MATERIALS];
 } SkinKey;
 
 struct Skin {
     bool busy; /* guarded by world->making */
+    uint64_t generation; /* of the particles; 0: nothing is kept */
     SkinKey key;
     SkinBlocks blocks;
     Cases cases;
     const SkinKernels *kernels;
-    Array boxes, sums, lines, field, inside, start; /* see field.h and mesh.h */
+    Array boxes, sums, lines, filling, mirrored, gaps, more, field; /* see field.h */
+    Layer filling_layer, mirrored_layer, field_layer;
+    Array inside, start;                  /* see mesh.h */
     Array volumes, values;                /* sums for means, per block as `field` */
-    Array gaps, spray;                    /* see field.h */
     Boundary boundary;
-    Array chunk_begin;                    /* of points, see points.c */
+    Array spray, chunk_begin;             /* of points, see points.c */
     uint64_t vertices, triangles;
+    int32_t changed; /* blocks whose field was not what it had been, of the last time that it was made */
 };
 
 /* The state, which is the caller's until state_give(). *result says why there is none. */
@@ -44,9 +48,9 @@ bool state_reserve(World *world, Array *array, size_t count, size_t size);
 const char *state_list_problem(const pbmpm_material_id *materials, uint32_t count);
 
 /* A key of these; an empty list means all. Keys are compared as bytes. */
-SkinKey state_key(const pbmpm_surface_def *def);
+SkinKey state_key(const World *world, const pbmpm_surface_def *def);
 
-/* Works the field out that a key tells of, unless it is there, and counts the mesh. The generation of the key is the world's. */
+/* Works the field out that a key tells of, where it is not what is kept, and counts the mesh. */
 pbmpm_result state_make(World *world, Skin *skin, SkinKey *key);
 
 void state_free(World *world);

@@ -12,11 +12,6 @@ static const float THIN_SHARE = 116.0f / 105.0f, THICKEN_MOST = 4.0f;
 /* The most of k: with it s is up to 7, and a particle alone would ask for 6. */
 static const float SHARE_MOST = 2.0f;
 
-typedef struct ThinJob {
-    const FieldWork *work;
-    float level, *values, *more; /* F, T */
-} ThinJob;
-
 static size_t first_point(int32_t b) { return (size_t)b * BLOCK_POINTS; }
 
 /* ---- T ---- */
@@ -44,7 +39,7 @@ static float between(const float box[BOX_POINTS], const float local[3], float sh
 static bool is_thick(const SkinBlocks *blocks, const SkinBlock *block, float enough)
 {
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++)
-        if (block->neighbour[n] == GRID_NOWHERE || blocks_at(blocks, block->neighbour[n])->least < enough) return false;
+        if (block->neighbour[n] == GRID_NOWHERE || blocks_at(blocks, block->neighbour[n])->filling_least < enough) return false;
     return true;
 }
 
@@ -77,15 +72,44 @@ static void least_of_cells(const SkinBlocks *blocks, const float near[BOX_POINTS
     }
 }
 
-/* Notes who is spray, and adds what a row gives to T. */
-static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, const float local[3], float filling, FieldSplat *splat)
+/* A row where F is not enough. */
+typedef void WithRow(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context);
+
+static float enough_of(const FieldWork *work) { return THIN_SHARE * work->level; }
+
+static void visit_cells(const FieldWork *work, SkinBlock *block, WithRow *with, void *context)
 {
-    const FieldWork *work = job->work;
-    const float enough = THIN_SHARE * job->level, amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
+    const float enough = enough_of(work), shift = field_shift(work->blocks);
+    float near[BOX_POINTS], least[BLOCK_POINTS];
+    blocks_gather(work->blocks, block, work->mirrored_layer, near);
+    least_of_cells(work->blocks, near, least);
+    for (uint32_t r = 0; r < block->runs; r++) {
+        const SiteRun *run = blocks_run(work->blocks, block->first_run + r);
+        for (uint32_t row = run->begin; row < run->end; row++) {
+            float local[3];
+            int32_t cell[3];
+            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
+            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
+            blocks_locate(work->blocks, block, work->matter->particles, row, local);
+            const float filling = between(near, local, shift);
+            if (filling < enough) with(work, block, row, local, filling, context);
+        }
+    }
+}
+
+static void visit_rows(const FieldWork *work, SkinBlock *block, WithRow *with, void *context)
+{
+    if (block->runs > 0 && !is_thick(work->blocks, block, enough_of(work))) visit_cells(work, block, with, context);
+}
+
+/* Adds what a row gives to T, or counts it as spray. */
+static void thicken_row(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context)
+{
+    FieldSplat *splat = context;
+    const float enough = enough_of(work), amount = field_points_per_cell(work->blocks) * matter_volume(work->matter, row);
     const float times = THICKEN_MOST * filling > enough ? enough / filling : THICKEN_MOST;
     int32_t cell[3];
-    work->spray[row] = filling <= ALONE;
-    if (work->spray[row]) {
+    if (filling <= ALONE) {
         block->spray += amount;
         return;
     }
@@ -95,42 +119,99 @@ static void thicken_row(const ThinJob *job, SkinBlock *block, uint32_t row, cons
     cells_add(&block->splatted, cell);
 }
 
-static void thicken_block(const ThinJob *job, SkinBlock *block, float *box)
+/* Fills a block's box with what its particles give to T. */
+static void thicken_block(const FieldWork *work, SkinBlock *block)
 {
-    const FieldWork *work = job->work;
-    const float enough = THIN_SHARE * job->level, shift = field_shift(work->blocks);
-    FieldSplat splat = {.box = box, .count = 0};
-    float near[BOX_POINTS], least[BLOCK_POINTS];
-    blocks_gather(block, job->values, near);
-    least_of_cells(work->blocks, near, least);
-    for (uint32_t r = 0; r < block->runs; r++) {
-        const BlockRun *run = blocks_run(work->blocks, block->first_run + r);
-        for (uint32_t row = run->begin; row < run->end; row++) {
-            float local[3];
-            int32_t cell[3];
-            blocks_cell(work->blocks, block, work->matter->particles, row, cell);
-            if (least[(cell[2] * BLOCK_AXIS + cell[1]) * BLOCK_AXIS + cell[0]] >= enough) continue;
-            blocks_locate(work->blocks, block, work->matter->particles, row, local);
-            const float filling = between(near, local, shift);
-            if (filling < enough) thicken_row(job, block, row, local, filling, &splat);
-        }
-    }
+    FieldSplat splat = {.box = work->boxes + (size_t)block->at * BOX_POINTS, .count = 0};
+    block->splatted = cells_none();
+    block->spray = 0.0f;
+    visit_rows(work, block, thicken_row, &splat);
     field_splat_rest(work, &splat);
+    block->thickens = cells_any(&block->splatted);
 }
 
-static void thicken_blocks(void *context, int32_t begin, int32_t end)
+static void thicken_due(void *context, int32_t begin, int32_t end)
 {
-    const ThinJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(work->blocks, blocks_number(work->blocks, i));
+        const bool did = block->thickens;
         block->splatted = cells_none();
-        block->spray = 0.0f;
-        for (uint32_t r = 0; r < block->runs; r++) {
-            const BlockRun *run = blocks_run(job->work->blocks, block->first_run + r);
-            memset(job->work->spray + run->begin, 0, run->end - run->begin);
-        }
-        if (!is_thick(job->work->blocks, block, THIN_SHARE * job->level)) thicken_block(job, block, job->work->boxes + (size_t)b * BOX_POINTS);
+        if (block->due) thicken_block(work, block);
+        block->told = block->due && (did || block->thickens || block->anew);
     }
+}
+
+/* Boxes are no more: those that others need are filled once more. */
+static void thicken_helpers(void *context, int32_t begin, int32_t end)
+{
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(work->blocks, blocks_number(work->blocks, i));
+        if (block->helps && block->thickens && !cells_any(&block->splatted)) thicken_block(work, block);
+    }
+}
+
+static void store_more(void *context, int32_t begin, int32_t end)
+{
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(work->blocks, i);
+        SkinBlock *block = blocks_at(work->blocks, b);
+        const bool was = block->raised || block->anew;
+        if (!block->due) continue;
+        block->raised = block->wanted;
+        if (block->wanted && !block->changed) block->changed = field_store(work->more + first_point(b), work->lines + first_point(b));
+        if (block->wanted || !was) continue;
+        memset(work->more + first_point(b), 0, BLOCK_POINTS * sizeof(float));
+        block->changed = true;
+    }
+}
+
+static void find_more(const FieldWork *work)
+{
+    const SkinBlocks *blocks = work->blocks;
+    blocks_spread(blocks, work->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due));
+    pool_for(work->pool, blocks->count, THIN_GRAIN, thicken_due, (void *)(uintptr_t)work);
+    blocks_spread(blocks, work->pool, offsetof(SkinBlock, told), offsetof(SkinBlock, due));
+    blocks_spread(blocks, work->pool, offsetof(SkinBlock, due), offsetof(SkinBlock, helps));
+    pool_for(work->pool, blocks->with_rows, THIN_GRAIN, thicken_helpers, (void *)(uintptr_t)work);
+    field_collect(work, work->lines, work->more);
+    pool_for(work->pool, blocks->count, THIN_GRAIN, store_more, (void *)(uintptr_t)work);
+}
+
+/* ---- Spray ---- */
+
+typedef struct SprayJob {
+    const FieldWork *work;
+    uint8_t *spray;
+} SprayJob;
+
+static void note_spray(const FieldWork *work, SkinBlock *block, uint32_t row, const float local[3], float filling, void *context)
+{
+    (void)work, (void)block, (void)local;
+    ((uint8_t *)context)[row] = filling <= ALONE;
+}
+
+static void find_spray(void *context, int32_t begin, int32_t end)
+{
+    const SprayJob *job = context;
+    const SkinBlocks *blocks = job->work->blocks;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(blocks, blocks_number(blocks, i));
+        for (uint32_t r = 0; r < block->runs; r++) {
+            const SiteRun *run = blocks_run(blocks, block->first_run + r);
+            memset(job->spray + run->begin, 0, run->end - run->begin);
+        }
+        visit_rows(job->work, block, note_spray, job->spray);
+    }
+}
+
+void thin_find_spray(const FieldWork *work, uint8_t *spray)
+{
+    SprayJob job = {work, spray};
+    if (work->matter->particles->count > 0) memset(spray, 1, work->matter->particles->count);
+    pool_for(work->pool, work->blocks->with_rows, THIN_GRAIN, find_spray, &job);
 }
 
 /* ---- k ---- */
@@ -141,9 +222,9 @@ static float share_at(float step) { return step * SHARE_MOST / THICKENINGS; }
 static const float MIDDLE_WEIGHT = 2.0f / 3.0f, CORNER_WEIGHT = 1.0f / 3.0f;
 
 /* Of places where F and T have these values: what there is, and what each share makes the surface enclose. `room`: what a place counts. */
-static void weigh_places(const ThinJob *job, SkinBlock *block, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
+static void weigh_places(const FieldWork *work, SkinBlock *block, const float own[BLOCK_POINTS], const float more[BLOCK_POINTS], const float room[BLOCK_POINTS])
 {
-    job->work->kernels->weigh(own, more, room, job->level, share_at(1.0f), block->enclosed, &block->thin);
+    work->kernels->weigh(own, more, room, work->level, share_at(1.0f), block->enclosed, &block->thin);
 }
 
 /* 1 in the open, 0 in obstacles. */
@@ -152,51 +233,55 @@ static void find_open(const float *gaps, float *open, int count)
     for (int i = 0; i < count; i++) open[i] = gaps[i] > 0.0f ? 1.0f : 0.0f;
 }
 
-static void weigh_corners(const ThinJob *job, SkinBlock *block, const float *own, const float *more)
+static void weigh_corners(const FieldWork *work, SkinBlock *block, int32_t b)
 {
     float room[BLOCK_POINTS];
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
-    if (block->bounded) find_open(job->work->gaps + (own - job->values), room, BLOCK_POINTS);
+    if (block->bounded) find_open(work->gaps + first_point(b), room, BLOCK_POINTS);
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= CORNER_WEIGHT;
-    weigh_places(job, block, own, more, room);
+    weigh_places(work, block, blocks_layer(work->blocks, work->mirrored_layer, b), work->more + first_point(b), room);
 }
 
-static void weigh_middles(const ThinJob *job, SkinBlock *block)
+static void weigh_middles(const FieldWork *work, SkinBlock *block)
 {
-    SurfaceMeans *means = job->work->kernels->means;
+    SurfaceMeans *means = work->kernels->means;
     float box[BOX_POINTS], own[BLOCK_POINTS], more[BLOCK_POINTS], room[BLOCK_POINTS];
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] = 1.0f;
     if (block->bounded) {
-        blocks_gather(block, job->work->gaps, box);
+        blocks_gather(work->blocks, block, &(Layer){.values = work->gaps}, box);
         find_open(box, box, BOX_POINTS);
         means(box, room);
     }
     for (int i = 0; i < BLOCK_POINTS; i++) room[i] *= MIDDLE_WEIGHT;
-    blocks_gather(block, job->values, box);
+    blocks_gather(work->blocks, block, work->mirrored_layer, box);
     means(box, own);
-    blocks_gather(block, job->more, box);
+    blocks_gather(work->blocks, block, &(Layer){.values = work->more}, box);
     means(box, more);
-    weigh_places(job, block, own, more, room);
+    weigh_places(work, block, own, more, room);
 }
 
-/* Where T reaches no block, it is 0. */
-static void clear_more(void *context, int32_t begin, int32_t end)
+static void weigh_block(const FieldWork *work, SkinBlock *block, int32_t b)
 {
-    const ThinJob *job = context;
-    for (int32_t b = begin; b < end; b++)
-        if (!blocks_at(job->work->blocks, b)->wanted) memset(job->more + first_point(b), 0, BLOCK_POINTS * sizeof(float));
+    block->thin = block->runs > 0 ? -block->spray : 0.0f;
+    memset(block->enclosed, 0, sizeof block->enclosed);
+    if (!block->raised) return;
+    weigh_corners(work, block, b);
+    weigh_middles(work, block);
 }
 
 static void weigh_blocks(void *context, int32_t begin, int32_t end)
 {
-    const ThinJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        block->thin = b < job->work->blocks->with_rows ? -block->spray : 0.0f;
-        memset(block->enclosed, 0, sizeof block->enclosed);
-        if (!block->wanted) continue;
-        weigh_corners(job, block, job->values + first_point(b), job->more + first_point(b));
-        weigh_middles(job, block);
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        const int32_t b = blocks_number(work->blocks, i);
+        SkinBlock *block = blocks_at(work->blocks, b);
+        float enclosed[THICKENINGS + 1];
+        const float thin = block->thin;
+        memcpy(enclosed, block->enclosed, sizeof enclosed);
+        block->told = block->anew;
+        if (!block->due) continue;
+        weigh_block(work, block, b);
+        if (thin != block->thin || memcmp(enclosed, block->enclosed, sizeof enclosed) != 0) block->told = true;
     }
 }
 
@@ -218,8 +303,28 @@ static void choose_share(const SkinBlocks *blocks, SkinBlock *block)
 
 static void choose_shares(void *context, int32_t begin, int32_t end)
 {
-    const ThinJob *job = context;
-    for (int32_t b = begin; b < end; b++) choose_share(job->work->blocks, blocks_at(job->work->blocks, b));
+    const FieldWork *work = context;
+    for (int32_t i = begin; i < end; i++) {
+        SkinBlock *block = blocks_at(work->blocks, blocks_number(work->blocks, i));
+        const float thickening = block->thickening;
+        if (block->due) choose_share(work->blocks, block);
+        block->told = block->anew || thickening != block->thickening;
+    }
+}
+
+static void find_shares(const FieldWork *work)
+{
+    const SkinBlocks *blocks = work->blocks;
+    blocks_spread(blocks, work->pool, offsetof(SkinBlock, changed), offsetof(SkinBlock, due));
+    pool_for(work->pool, blocks->count, THIN_GRAIN, weigh_blocks, (void *)(uintptr_t)work);
+    blocks_spread(blocks, work->pool, offsetof(SkinBlock, told), offsetof(SkinBlock, due));
+    pool_for(work->pool, blocks->count, THIN_GRAIN, choose_shares, (void *)(uintptr_t)work);
+}
+
+void thin_find(const FieldWork *work)
+{
+    find_more(work);
+    find_shares(work);
 }
 
 /* ---- F + k T ---- */
@@ -234,40 +339,20 @@ static inline float from_middles(const float *value, int step, int point)
     return value[step] + before * (value[step] - value[0]) + behind * (value[2 * step] - value[step]);
 }
 
-static void add_block(const ThinJob *job, SkinBlock *block, float *values, const float *more)
+void thin_add(const FieldWork *work, const SkinBlock *block, int32_t b, float values[BLOCK_POINTS])
 {
+    const float *own = blocks_layer(work->blocks, work->mirrored_layer, b), *more = work->more + first_point(b);
     float share[BLOCK_NEIGHBOURS], plane[9], line[3];
     for (int n = 0; n < BLOCK_NEIGHBOURS; n++) /* where no block is, there is none of its own */
-        share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(job->work->blocks, block->neighbour[n])->thickening;
+        share[n] = block->neighbour[n] == GRID_NOWHERE ? block->thickening : blocks_at(work->blocks, block->neighbour[n])->thickening;
     for (int z = 0; z < BLOCK_AXIS; z++) {
         for (int i = 0; i < 9; i++) plane[i] = from_middles(share + i, 9, z);
         for (int y = 0; y < BLOCK_AXIS; y++) {
             const int row = (z * BLOCK_AXIS + y) * BLOCK_AXIS;
             for (int i = 0; i < 3; i++) line[i] = from_middles(plane + i, 3, y);
-            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] += more[row + x] * from_middles(line, 1, x);
+            float along[BLOCK_AXIS];
+            for (int x = 0; x < BLOCK_AXIS; x++) along[x] = from_middles(line, 1, x);
+            for (int x = 0; x < BLOCK_AXIS; x++) values[row + x] = own[row + x] + more[row + x] * along[x];
         }
     }
-    field_close_off(block, values);
-    field_bound(job->work, block, values);
-}
-
-static void add_blocks(void *context, int32_t begin, int32_t end)
-{
-    const ThinJob *job = context;
-    for (int32_t b = begin; b < end; b++) {
-        SkinBlock *block = blocks_at(job->work->blocks, b);
-        if (block->wanted) add_block(job, block, job->values + first_point(b), job->more + first_point(b));
-    }
-}
-
-void thin_add(const FieldWork *work, float level, float *values)
-{
-    const int32_t count = work->blocks->count;
-    ThinJob job = {work, level, values, work->lines};
-    pool_for(work->pool, work->blocks->with_rows, THIN_GRAIN, thicken_blocks, &job);
-    field_collect(work, job.more);
-    pool_for(work->pool, count, THIN_GRAIN, clear_more, &job);
-    pool_for(work->pool, count, THIN_GRAIN, weigh_blocks, &job);
-    pool_for(work->pool, count, THIN_GRAIN, choose_shares, &job);
-    pool_for(work->pool, count, THIN_GRAIN, add_blocks, &job);
 }

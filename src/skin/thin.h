@@ -18,7 +18,13 @@
 
 #include "skin/field.h"
 
-/* Adds k T to F, and notes which particles are spray. */
-void thin_add(const FieldWork *work, float level, float *values);
+/* Works out T and k where blocks are changed and what follows from it. Those whose T is not what it was are changed now, too; those whose k
+ * is not are `told`. */
+void thin_find(const FieldWork *work);
+/* Writes 1 for each row of spray, else 0: rows without a block are spray, too. */
+void thin_find_spray(const FieldWork *work, uint8_t *spray);
+
+/* Writes G + k T of a block with this number. */
+void thin_add(const FieldWork *work, const SkinBlock *block, int32_t b, float values[BLOCK_POINTS]);
 
 #endif

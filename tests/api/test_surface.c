@@ -271,6 +271,56 @@ static void test_obstacles_count_where_they_stand(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, alone, volume_of(extract(0, world, &def)));
 }
 
+/* A hollow of boxes and a ball, off the grid, with uneven matter in it; all moved by whole cells. */
+static pbmpm_world_id hollow(const int cells[3])
+{
+    enum { COUNT = 12000 };
+    static float positions[3 * COUNT];
+    static const float boxes[][6] = {{0, -0.6f, 0, 3, 0.53f, 3}, {-1.17f, 0, 0, 0.3f, 2, 3}, {0, 0, 1.21f, 3, 2, 0.3f}, {0.6f, 0.1f, 0.35f, 0.31f, 0.29f, 0.17f}, {-0.2f, 0.33f, -0.4f, 0.22f, 0.4f, 0.09f}};
+    uint32_t random = 3;
+    float shift[3];
+    const pbmpm_world_id world = space(0.125f, COUNT, 1);
+    pbmpm_particles_def particles;
+    for (int a = 0; a < 3; a++) shift[a] = 0.125f * (float)cells[a];
+    for (size_t b = 0; b < sizeof boxes / sizeof *boxes; b++)
+        create_collider(world, box_shape(boxes[b][0] + shift[0], boxes[b][1] + shift[1], boxes[b][2] + shift[2], boxes[b][3], boxes[b][4], boxes[b][5]), false);
+    create_collider(world, sphere_shape(0.3f + shift[0], 0.2f + shift[1], -0.5f + shift[2], 0.3f), false);
+    for (int i = 0; i < 3 * COUNT; i++) positions[i] = ldexpf(floorf(ldexpf(random_float(&random, i % 3 == 1 ? -0.07f : -0.95f, i % 3 == 1 ? 0.8f : 0.95f), 12)), -12) + shift[i % 3];
+    OK(pbmpm_particles_def_init(&particles, sizeof particles));
+    particles.material = create_material(world, PBMPM_LIQUID);
+    particles.count = COUNT;
+    particles.positions = positions;
+    OK(pbmpm_particles_add(world, &particles, NULL));
+    return world;
+}
+
+/* The blocks that it is worked out in leave no trace in a surface, wherever they begin, and on whichever side of the origin. */
+static void test_blocks_leave_no_trace(void)
+{
+    pbmpm_surface_def def = definition();
+    def.keeps_thin = 0; /* of thin matter each block takes a share of its own */
+    for (def.subdivision = 1; def.subdivision <= 2; def.subdivision++)
+        for (int i = 0; i < 6; i++) {
+            static const int places[6][3] = {{0, 0, 0}, {1, 2, 3}, {-1, -6, -3}, {-102, 3, -37}, {-3, 5, -2}, {2, -5, 3}};
+            const pbmpm_world_id world = hollow(places[i]);
+            const mesh *it = extract(i > 0, world, &def);
+            check_closed(it);
+            OK(pbmpm_world_destroy(world));
+            if (i == 0) continue;
+            TEST_ASSERT_EQUAL_UINT32(made[0].vertices, it->vertices);
+            for (int a = 0; a < 3; a++) {
+                double sum = 0.0, square = 0.0;
+                for (uint32_t v = 0; v < it->vertices; v++) {
+                    const double before = (double)made[0].positions[3 * v + (uint32_t)a], now = (double)it->positions[3 * v + (uint32_t)a] - 0.125 * places[i][a];
+                    sum += now - before;
+                    square += now * now - before * before;
+                }
+                TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, sum / it->vertices);
+                TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, square / it->vertices);
+            }
+        }
+}
+
 /* Films on both sides of a plate, thinner than a cell, are no images of each other. */
 static void test_a_plate_between_films(void)
 {
@@ -760,6 +810,7 @@ int main(void)
     RUN_TEST(test_a_pool_ends_at_the_walls);
     RUN_TEST(test_walls_are_flat);
     RUN_TEST(test_obstacles_count_where_they_stand);
+    RUN_TEST(test_blocks_leave_no_trace);
     RUN_TEST(test_a_plate_between_films);
     RUN_TEST(test_loose_matter);
     RUN_TEST(test_clouds_are_closed);

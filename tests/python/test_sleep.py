@@ -78,3 +78,17 @@ def test_one_drop_wakes_what_it_touches_and_no_more() -> None:
 def places_by_id(world: pbmpm.World) -> dict[tuple[int, int], np.ndarray]:
     """The position of each particle."""
     return {tuple(key): place for key, place in zip(world.ids.copy().tolist(), world.positions.copy(), strict=True)}
+
+
+def test_to_remove_nothing_moves_no_row() -> None:
+    """Nor when matter is about to wake: views that are still valid showed other rows."""
+    with pbmpm.World(3, CELL, capacity=30_000, threads=1, sleeping=True, sleep_time=0.05) as world:
+        world.fill(pbmpm.Box((0, 0, 0), (1, 0.4, 1)), world.add_material(pbmpm.Liquid()))
+        for _ in range(6):
+            world.step(1 / RATE)
+        assert world.stats.particles_asleep == len(world)
+        world.add_collider(pbmpm.Sphere((-1, 0, -1), 0.2))
+        before = world.ids.array().copy()
+        assert world.remove_in(pbmpm.Sphere((50, 0, 0), 0.1)) == 0
+        world.remove(np.zeros((0, 2), np.uint32))
+        assert np.array_equal(world.ids.array(), before)

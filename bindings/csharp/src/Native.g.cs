@@ -2638,7 +2638,7 @@ namespace Pbmpm.Native
         public static extern Result pbmpm_surface_def_init(SurfaceDef* def, UIntPtr size);
 
         /// <summary>Makes the surface. `def` may be null: the defaults. With all pointers null it only counts. A host whose buffers were too small enlarges them and calls again:
-        /// what the first call worked out is kept until the particles change.
+        /// what the first call worked out is kept.
         ///
         /// Spray is no part of it: particles that are alone, and drops of less than a cell with nothing else within some 4 cells. pbmpm_surface_points() with
         /// spray_only has them.
