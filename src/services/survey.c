@@ -716,14 +716,17 @@ static bool is_clamped(const World *world, uint32_t row)
 static void look_at_particles(const World *world, Survey *survey)
 {
     const Particles *p = &world->particles;
+    double square = 0.0;
     for (uint32_t row = 0; row < p->count; row++) {
         Heap *heap = &survey->heap[p->material[row]];
         double speed2 = 0.0;
         for (int a = 0; a < p->dimension; a++) speed2 += (double)p->velocity[a][row] * (double)p->velocity[a][row];
+        square += speed2;
         heap->particles++;
         heap->speed = fmax(heap->speed, sqrt(speed2));
         if (material_is_solid(&world->materials, p->material[row]) && is_clamped(world, row)) heap->clamped += 1.0;
     }
+    survey->moves = sqrt(square / fmax(p->count, 1.0));
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
         if (survey->heap[slot].particles > 0) survey->heap[slot].clamped /= survey->heap[slot].particles;
 }

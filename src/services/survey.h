@@ -27,6 +27,7 @@ typedef struct Heap {
 
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
+    double moves;    /* root mean square speed of all particles [m/s] */
     bool obstructed; /* whether an obstacle with edges, or that is round, stands in liquid: one whose surface bulges there, or a ball or a
                       * capsule lower than it */
 } Survey;
