@@ -66,10 +66,18 @@ static double stirring(const Adviser *adviser, uint32_t slot, double factor)
     return (f > SHALLOW ? fmax(rests, DEEP * few * few * f * f) : rests) * cell_speed;
 }
 
+/* What runs out does not rest anyway. */
+static bool is_drained(const World *world)
+{
+    bool drained = false;
+    for (uint32_t d = 0; d < world->sinks.used; d++) drained = drained || (world->sinks.slot[d].generation != 0 && world->sinks.slot[d].def.enabled);
+    return drained;
+}
+
 void advise_pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && !is_drained(world); slot++) {
         const double speed = stirring(adviser, slot, 1.0);
         if (!adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
@@ -85,9 +93,8 @@ void advise_pool_stirs(Adviser *adviser)
 /* Whether something else than gravity moves liquid: what floats in it rocks for long. */
 static bool is_driven(const World *world)
 {
-    bool driven = adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_SAND) || adviser_any_present(world, PBMPM_VISCO);
+    bool driven = is_drained(world) || adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_SAND) || adviser_any_present(world, PBMPM_VISCO);
     for (uint32_t e = 0; e < world->emitters.used; e++) driven = driven || (world->emitters.slot[e].generation != 0 && world->emitters.slot[e].def.enabled);
-    for (uint32_t d = 0; d < world->sinks.used; d++) driven = driven || (world->sinks.slot[d].generation != 0 && world->sinks.slot[d].def.enabled);
     for (uint32_t i = 0; i < world->forces.used; i++) driven = driven || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.enabled);
     for (uint32_t c = 0; c < world->colliders.used; c++) driven = driven || (world_feels(world, &world->colliders.slot[c]) && world->colliders.slot[c].def.kinematic);
     return driven;
@@ -123,7 +130,8 @@ void advise_ball_stirs(Adviser *adviser)
     const double fall = gravity_fall(world, &adviser->substep);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > FALL; slot++) {
         const double moves = adviser->survey.heap[slot].moves;
-        if (!adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || moves < unseen_wave(adviser, slot)) continue;
+        if (adviser->survey.heap[slot].depth == 0.0 || !adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
+        if (moves < unseen_wave(adviser, slot) && !adviser->survey.ball_dry) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED,
                                .text = "water that splashes over a ball goes on moving at this rate"};
         adviser_by_substeps(adviser, sqrt(fall / FALL), &advice);

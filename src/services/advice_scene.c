@@ -300,18 +300,18 @@ static double moved(const Adviser *adviser)
 
 /* Pressures and stresses hold motion back: what is unfinished moves too far, and is wrong by at most what moves. Where matter rests the prediction counts what moves nothing, see
  * solvers/dual/dual_error.h: 0.1 cells in a pool that moves by 0.02.
- * In a body the error falls as 1 / N with N iterations (jellies and clay that land, of 5 to 20). A liquid's falls as N^-0.4 and about in proportion to the substep (pools, rafts and slots, of 5
- * to 40 iterations and 1 to 4 substeps; through slots runs what is nearer to truth with substeps, too: tests/field/run.py slot --settings 60x5,60x20,120x5,240x5). */
+ * In a body the error falls as 1 / N with N iterations (jellies and clay that land, of 5 to 20). A liquid's falls as N^-0.4 with 5 to 40 iterations, and as s^-1.25 with 1 to 4 substeps (pools,
+ * rafts, slots and waterfalls: powers of 0.9 to 1.6). What runs through slots is nearer to the truth with substeps, too (tests/field/run.py slot --settings 60x5,60x20,120x5,240x5). */
 void advise_not_solved(Adviser *adviser)
 {
-    static const double SEEN = 0.05; /* cells per substep */
+    static const double SEEN = 0.05, POWER = 1.25; /* cells per substep; see above */
     const double error = fmin(adviser->world->record.predicted_error, moved(adviser));
     const bool wet = adviser_any_present(adviser->world, PBMPM_LIQUID);
     if (error <= SEEN) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_NOT_SOLVED, .figure = (float)error, .bound = (float)SEEN, .came_true = 1,
                            .text = wet ? "the last substep is far from solved: liquid flows as if pressed less, and bodies are too soft"
                                        : "the last substep is far from solved: stiffness and contact are not what they should be"};
-    if (wet) adviser_by_substeps(adviser, error / SEEN, &advice);
+    if (wet) adviser_by_substeps(adviser, pow(error / SEEN, 1.0 / POWER), &advice);
     else adviser_by_iterations(adviser, error / SEEN, &advice);
     adviser_give(adviser, advice);
 }

@@ -546,8 +546,18 @@ static bool is_ball_below(const World *world, const Cells *cells, const Solid *s
     return false;
 }
 
+static bool is_dry(const World *world, const Cells *cells, const Solid *solid)
+{
+    for (uint32_t i = 0; i < cells->count; i++) {
+        double point[3] = {0};
+        for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, &cells->share[i], a);
+        if (cells->share[i].group == 0 && solid_gap(solid, point) < 2.0 * (double)world->def.cell_size) return false;
+    }
+    return true;
+}
+
 /* Rigid bodies are left out: they float. */
-static bool any_ball_below(const World *world, const Cells *cells)
+static void look_at_balls(const World *world, const Cells *cells, Survey *survey)
 {
     enum { LOOKS = 256 };
     int looks = LOOKS;
@@ -555,9 +565,10 @@ static bool any_ball_below(const World *world, const Cells *cells)
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse)) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_ball_below(world, cells, &solid, &looks)) return true;
+        if (!is_ball_below(world, cells, &solid, &looks)) continue;
+        survey->ball_below = true;
+        survey->ball_dry = survey->ball_dry || is_dry(world, cells, &solid);
     }
-    return false;
 }
 
 /* ---- What is round, what tips ---- */
@@ -764,7 +775,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
-    survey->ball_below = any_ball_below(world, cells);
+    look_at_balls(world, cells, survey);
     find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];

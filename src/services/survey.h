@@ -31,6 +31,7 @@ typedef struct Heap {
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
     bool ball_below; /* whether a ball or a capsule stands lower than liquid that nothing parts from it */
+    bool ball_dry;   /* whether one of these is such that no liquid is within two cells of it */
 } Survey;
 
 /* Needs some bytes per particle, which it gives back. */
