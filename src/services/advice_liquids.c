@@ -129,10 +129,11 @@ void advise_ball_stirs(Adviser *adviser)
     const World *world = adviser->world;
     const double fall = gravity_fall(world, &adviser->substep);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > FALL; slot++) {
-        const double moves = adviser->survey.heap[slot].moves;
-        if (adviser->survey.heap[slot].depth == 0.0 || !adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
-        if (moves < unseen_wave(adviser, slot) && !adviser->survey.ball_dry) continue;
-        pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED,
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        const double moves = adviser->survey.heap[slot].moves, seen = unseen_wave(adviser, slot);
+        if (seen == 0.0 || !adviser_flows(def) || def->kinematic_viscosity > 0.0f || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
+        if (moves < seen && !adviser->survey.ball_dry) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)fmax(moves, seen), .bound = (float)CALM_SPEED,
                                .text = "water that splashes over a ball goes on moving at this rate"};
         adviser_by_substeps(adviser, sqrt(fall / FALL), &advice);
         adviser_give(adviser, advice);

@@ -153,15 +153,13 @@ void advise_enters_bodies(Adviser *adviser)
 {
     static const double MEETS = 2.0; /* cells per substep: see above */
     const World *world = adviser->world;
-    double liquid = 0.0, solid = 0.0;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        const pbmpm_material_kind kind = world->materials.def[slot].kind;
-        if (!adviser_present(world, slot) || kind == PBMPM_SAND) continue;
-        double *fastest = adviser_flows(&world->materials.def[slot]) ? &liquid : &solid;
-        *fastest = fmax(*fastest, fmax(adviser_cells(adviser, adviser->survey.heap[slot].speed), adviser_emitted_landing(adviser, slot)));
-    }
     const bool both = adviser_any_present(world, PBMPM_LIQUID) && (adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_VISCO));
-    const double cells = fmax(liquid, solid);
+    double speed = 0.0;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (world->materials.def[slot].kind != PBMPM_SAND) speed = fmax(speed, adviser->survey.heap[slot].speed);
+    for (uint32_t e = 0; e < world->emitters.used; e++)
+        if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
+    const double cells = adviser_cells(adviser, speed);
     if (!both || cells <= MEETS) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)cells, .bound = (float)MEETS,
                            .text = "liquid and bodies that meet at more than two cells per substep enter each other"};

@@ -383,30 +383,43 @@ static bool is_falling(const World *world, const Share *share)
     return speed > 0.0 && speed * speed > 2.0 * strength * (double)world->def.cell_size;
 }
 
+/* How many of these drops, which are sorted, are farther than the others by JUMP at least, if those are the fewer. */
+static uint32_t count_far(const double *drop, uint32_t count)
+{
+    static const double JUMP = 4.0; /* [cells] less may be between pieces */
+    double widest = JUMP;
+    uint32_t far = 0;
+    for (uint32_t i = 1; i < count && drop[i - 1] < INFINITY; i++) {
+        if (drop[i] - drop[i - 1] < widest) continue;
+        widest = drop[i] - drop[i - 1];
+        far = count - i;
+    }
+    return 2 * far < count ? far : 0;
+}
+
 /* Sorted by cell, bodies are found. */
 static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
-    static const double OPEN = 4.0; /* [cells] of room: less may be between pieces */
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     const uint32_t stride = stride_of(cells, slot);
-    double drops[2 * LOOKED_AT], open = 0.0, ends = 0.0;
-    uint32_t number = 0, count = 0;
+    double drops[2 * LOOKED_AT], resting[2 * LOOKED_AT]; /* of all; and of what does not fall yet, where nothing below is infinitely far */
+    uint32_t number = 0, count = 0, rests = 0;
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
         if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
         if (!is_end(cells, &cells->share[i], axis, way)) continue;
         const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
         if (drop < 0.0) continue;
         drops[count++] = drop < INFINITY ? drop : 0.0;
-        if (is_falling(world, &cells->share[i])) continue;
-        ends += stride;
-        if (drop >= OPEN) open += stride;
+        if (!is_falling(world, &cells->share[i])) resting[rests++] = drop;
     }
     if (count == 0) return;
     qsort(drops, count, sizeof *drops, by_size);
+    qsort(resting, rests, sizeof *resting, by_size);
     heap->drop_least = drops[0];
     heap->drop_half = drops[count / 2];
     heap->drop_most = drops[count - 1];
-    if (open < 0.5 * ends) heap->hole = world->def.dimension == 2 ? open : sqrt(open);
+    const double far = (double)stride * count_far(resting, rests);
+    heap->hole = world->def.dimension == 2 ? far : sqrt(far);
 }
 
 /* The share of a solid's upper side with liquid in its own cell or the one above, and no matter in the two above these. Sorted by cell. */

@@ -21,7 +21,7 @@ typedef struct Heap {
     double slide;      /* how far its surface may go down there, at most; sand */
     bool falls_both_ways; /* it has so to both sides along an axis */
     double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
-    double hole;       /* width [cells] of where nothing bears it, if most of it is borne; in 3D that of a square; sand */
+    double hole;       /* width [cells] of where it would fall farther than elsewhere by four cells at least; in 3D that of a square; solids */
     double film;       /* share of its upper side with a film of liquid on it, under air; solids */
     bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
