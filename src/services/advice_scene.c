@@ -265,7 +265,7 @@ void advise_volume_lost(Adviser *adviser)
         if (lost <= UNSEEN) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_VOLUME_LOST, .material = adviser_id_of(world, slot), .figure = (float)lost, .bound = (float)UNSEEN, .came_true = 1,
                                .text = "matter takes less room than it should, by this share: it is crushed"};
-        adviser_by_substeps(adviser, 2.0, &advice);
+        if (world->materials.def[slot].kind != PBMPM_SAND) adviser_by_substeps(adviser, 2.0, &advice); /* heaps below a hole are crushed as much at 120 and 240 Hz as at 60 */
         adviser_give(adviser, advice);
     }
 }
