@@ -19,7 +19,7 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
     PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
-                                            Or came true, of liquid alone that nothing drives: its speed is below that of a wave of half a cell, and seen */
+                                            Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
     PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, comes to rest too flat or runs too fast; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
                                             with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
@@ -30,8 +30,8 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
-    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be, or so fast that liquid and bodies enter each
-                                            other where they meet; the text tells which. Figure: [cells per substep] */
+    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
+                                            meet. Figure: [cells per substep] */
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */

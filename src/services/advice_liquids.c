@@ -108,11 +108,13 @@ static double unseen_wave(const Adviser *adviser, uint32_t slot)
     return depth > 0.0 ? 0.5 * cell * sqrt(gravity_strength(adviser->world) / (2.0 * depth)) : 0.0;
 }
 
-/* A pool whose surface looks level, and that moves all the same. */
+/* A pool whose surface looks level, and that moves all the same. Those that come to rest are slower than CALM_SPEED 1 to 5 s after they were filled (tests/field/run.py still_pool trough). */
 void advise_pool_moves(Adviser *adviser)
 {
+    static const double SETTLES = 5.0; /* [s] see above */
     const World *world = adviser->world;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && world->step_count > 0 && !is_driven(world); slot++) {
+    const double age = (double)world->step_count * world->settings.substeps * adviser->substep.dt;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && age >= SETTLES && !is_driven(world); slot++) {
         const double moves = adviser->survey.heap[slot].moves;
         if (!adviser_flows(&world->materials.def[slot]) || moves <= CALM_SPEED || moves >= unseen_wave(adviser, slot)) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED, .came_true = 1,

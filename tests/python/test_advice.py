@@ -170,7 +170,7 @@ def test_what_came_true_is_told_in_the_order_of_time() -> None:
 
         def advice(self) -> list[pbmpm.Advice]:
             figures = {code: 1.0 - abs(self.time - at) / 10 for code, at in worst.items()}
-            return [pbmpm.Advice(code, None, None, figure, 0.1, pbmpm.Change.NONE, 0, 0, True, code.name, "", "") for code, figure in figures.items()]
+            return [pbmpm.Advice(code, code.name, None, None, figure, 0.1, pbmpm.Change.NONE, 0, None, True) for code, figure in figures.items()]
 
     stage: Any = Stage()
     watch = AdviceWatch(stage, [])

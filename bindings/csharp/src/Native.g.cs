@@ -276,7 +276,7 @@ namespace Pbmpm
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
         /// <summary>a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
-        /// Or came true, of liquid alone that nothing drives: its speed is below that of a wave of half a cell, and seen</summary>
+        /// Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster</summary>
         PoolStirs = 5,
         /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
@@ -295,8 +295,8 @@ namespace Pbmpm
         ColliderTooFast = 11,
         /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
         ColliderTooThin = 12,
-        /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be, or so fast that liquid and bodies enter each
-        /// other where they meet; the text tells which. Figure: [cells per substep]</summary>
+        /// <summary>matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
+        /// meet. Figure: [cells per substep]</summary>
         StepTooLong = 13,
         /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
         /// overfull places; for liquids, of all liquids together</summary>
