@@ -53,7 +53,7 @@ static void limits_of_sand(Adviser *adviser, uint32_t slot)
     const double substeps = world->settings.substeps, fall = gravity_fall(world, &adviser->substep) * substeps * substeps; /* in a step: a rigid body moves once in it */
     if (adviser_any_present(world, PBMPM_LIQUID)) tell_limit(adviser, slot, "sand in liquid does not settle: both move as one mixture, and go on stirring");
     if (any_rigid(world) && fall > ROCKS) tell_limit(adviser, slot, "a rigid body on sand rocks and sinks in: more steps per second hold it better, substeps hardly do");
-    if (heap->hole > 0.0 && heap->drop_most >= FALLS) tell_limit(adviser, slot, "sand that runs out of a hole is crushed where it heaps up, to half its volume, and swells for some seconds");
+    if (heap->hole > 0.0 && heap->drop_most >= FALLS) tell_limit(adviser, slot, "sand that runs out of a hole is crushed by up to half where it heaps up, and swells for some seconds");
     if (heap->steep > STEEP) tell_limit(adviser, slot, "sand starts to slide up to eight degrees too steep");
     if (heap->steep > STEEP && slides_far(heap)) tell_limit(adviser, slot, "sand that slides far loses up to seven percent of its volume");
 }
