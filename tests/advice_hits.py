@@ -48,10 +48,11 @@ LIMITS = {
     "contact": "tips",
     "on sand": "on sand",
     "calm": "goes on|go on",
-    "afloat": "in a liquid",
+    "afloat": "in a liquid|film",
+    "bounce": "bounces",
     "modulus": "stays more strained",
 }
-"""What the text of a KNOWN_LIMIT says if it speaks of a subject. That of SAND_NOT_HELD tells if it speaks of slopes."""
+"""What the text of a KNOWN_LIMIT says if it speaks of a subject. That of SAND_NOT_HELD tells if it speaks of slopes or of what runs out."""
 
 SUBJECTS = (
     (r"^far_away", "modulus"),
@@ -86,6 +87,8 @@ def speaks(subject: str, item: Any) -> bool:
     name = item.code.name
     if name == "SAND_NOT_HELD" and "too flat" in item.text:
         return subject == "slope"
+    if name == "SAND_NOT_HELD" and "hole" in item.text:
+        return subject == "flow"
     return name in CODES[subject] or (name == "KNOWN_LIMIT" and subject in LIMITS and re.search(LIMITS[subject], item.text) is not None)
 
 

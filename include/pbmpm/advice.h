@@ -18,18 +18,20 @@ typedef enum pbmpm_advice_code {
     PBMPM_ADVICE_IGNORED = 3,          /**< a parameter that was changed does nothing here; the text names it. Figure: its value; bound: its default */
     PBMPM_ADVICE_POOL_TOO_DEEP = 4,    /**< a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
                                             the strain at the bottom */
-    PBMPM_ADVICE_POOL_STIRS = 5,       /**< dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three */
+    PBMPM_ADVICE_POOL_STIRS = 5,       /**< a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
+                                            Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster */
     PBMPM_ADVICE_MODULUS_NOT_HELD = 6, /**< the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own */
-    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, or comes to rest too flat; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
-                                            with the dual solver and beside liquid; else its mean strain. Crushed where it lands, or too flat: its speed there [cells per
-                                            substep] */
+    PBMPM_ADVICE_SAND_NOT_HELD = 7,    /**< sand is crushed, comes to rest too flat or runs too fast; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+                                            with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
+                                            speed there [cells per substep] */
     PBMPM_ADVICE_BODY_TOO_THIN = 8,    /**< a body is too thin for the grid. Figure: its thickness [cells] */
     PBMPM_ADVICE_BOUNCE_DAMPED = 9,    /**< the time step damps what bounces, with the dual solver and where bodies hit each other. Figure: substeps that the contact of an equally thick
                                             ball lasts (Hertz's theory) */
     PBMPM_ADVICE_ROLLING_BRAKED = 10,  /**< a round body rolls too slowly. Figure: half the width of its contact by Hertz's theory [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_FAST = 11, /**< an obstacle moves so fast that it skips past matter. Figure: its displacement in the next substep [cells] */
     PBMPM_ADVICE_COLLIDER_TOO_THIN = 12, /**< matter passes or reaches through. Figure: its thickness [cells] */
-    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep] */
+    PBMPM_ADVICE_STEP_TOO_LONG = 13,   /**< matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
+                                            meet. Figure: [cells per substep] */
     PBMPM_ADVICE_OVERLAPS = 17,        /**< before the first step: matter was put where there is other matter. Figure: share of the material that lies in
                                             overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
@@ -40,7 +42,7 @@ typedef enum pbmpm_advice_code {
     /* Came true: measured in the present state. */
     PBMPM_ADVICE_VOLUME_LOST = 14,     /**< matter takes less room than its rest volume. Figure: the share that is lost at least, the measured loss less two standard errors */
     PBMPM_ADVICE_STRAIN_CLAMPED = 15,  /**< a solid is strained to a bound of its material. Figure: share of its particles */
-    PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells] */
+    PBMPM_ADVICE_NOT_SOLVED = 16,      /**< the last substep's solution is far from done. Figure: its predicted error [cells], at most what matter moved by, root mean square */
     PBMPM_ADVICE_CODE_FORCE32 = 0x7fffffff
 } pbmpm_advice_code;
 

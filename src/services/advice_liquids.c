@@ -35,27 +35,109 @@ void advise_pool_too_deep(Adviser *adviser)
     }
 }
 
-/* What is missing from the pressure of a step stirs a pool: its rms speed is about STILL f^2 cells per substep, with f = g dt^2 depth / dx^2, at five iterations or more.
- * Pools of 12 to 36 cells of 1.25 to 5 cm between level and upright walls, on and off the grid, at 60 Hz x 5: 0.0010 to 0.0016 of it up to f = 4, in 3D 0.0002 to 0.0007 of
- * it up to 2.6. Fewer iterations stir more, in proportion. Around what stands in the water, and bulges, pools of 12 cells have 0.0017 to 0.039 of it, ten of thirteen less than AROUND
- * (tests/field/run.py furnished_pool creased_floor ball_in_pool still_pool deep_pool --settings 60x5). Liquids that store energy have no eddy damping and count as such. */
-static const double STILL = 0.0015, STILL_3D = 0.0007, AROUND = 0.012, CALM_SPEED = 0.01, CALM_ITERATIONS = 5.0;
+static const double CALM_SPEED = 0.01; /* [m/s] a fifth of a cell of 5 cm per second, which no eye sees */
+
+/* What is missing from the pressure of a step stirs a pool. With f = g dt^2 depth / dx^2 its rms speed is about RESTS f cells per substep, or 0.0013 g dt per cell of depth:
+ * pools of 6 to 48 cells of 1.25 to 10 cm behind upright walls off the grid have 0.0009 to 0.0025 of f, at 60 and 120 Hz, in 2D and 3D, with 2 to 20 iterations. Where gravity is
+ * oblique to the grid, by 10, 20 and 45 degrees, it is 0.0026 to 0.0098 of f (tests/field/run.py still_pool deep_pool --settings 60x5). Around steps, shelves, ridges and balls it is 0.0006
+ * to 0.0014 in ten of sixteen pools and up to 0.018, which nobody foretells; advise_pool_moves() tells it.
+ * Above SHALLOW the pressures of five iterations do not reach the bottom: the speed is about DEEP f^2, with 3 iterations four times as much, with 10 and 20 hardly more. */
+static const double RESTS = 0.0013, OBLIQUE = 0.0045, SHALLOW = 3.0, DEEP = 0.0015, DEEP_ITERATIONS = 5.0;
+
+/* Liquids that store energy have no eddy damping: that share of f^2 [cells per substep]. */
+static const double STORES = 0.012;
+
+/* Whether gravity pulls along no axis of the grid. */
+static bool pulls_obliquely(const World *world)
+{
+    int axes = 0;
+    for (int a = 0; a < world->def.dimension; a++) axes += world->settings.gravity[a] != 0.0f;
+    return axes > 1;
+}
+
+/* The rms speed [m/s] that is foreseen where f falls by the square of `factor`, see above. */
+static double stirring(const Adviser *adviser, uint32_t slot, double factor)
+{
+    const World *world = adviser->world;
+    const double f = gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].depth / (factor * factor);
+    const double cell_speed = factor * (double)world->def.cell_size / adviser->substep.dt, few = fmax(1.0, DEEP_ITERATIONS / world->settings.iterations);
+    if (world->materials.def[slot].bulk_modulus > 0.0f) return STORES * f * f * cell_speed;
+    const double rests = (pulls_obliquely(world) ? OBLIQUE : RESTS) * f;
+    return (f > SHALLOW ? fmax(rests, DEEP * few * few * f * f) : rests) * cell_speed;
+}
+
+/* What runs out does not rest anyway. */
+static bool is_drained(const World *world)
+{
+    bool drained = false;
+    for (uint32_t d = 0; d < world->sinks.used; d++) drained = drained || (world->sinks.slot[d].generation != 0 && world->sinks.slot[d].def.enabled);
+    return drained;
+}
 
 void advise_pool_stirs(Adviser *adviser)
 {
     const World *world = adviser->world;
-    const double cell_speed = (double)world->def.cell_size / adviser->substep.dt, few = fmax(1.0, CALM_ITERATIONS / world->settings.iterations);
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
-        const pbmpm_material_def *def = &world->materials.def[slot];
-        const double fall = gravity_fall(world, &adviser->substep) * adviser->survey.heap[slot].depth;
-        const bool around = adviser->survey.obstructed;
-        const double share = around || def->bulk_modulus > 0.0f ? AROUND : world->def.dimension == 2 ? STILL : STILL_3D;
-        const double speed = share * few * fall * fall * cell_speed;
-        if (!adviser_flows(def) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && !is_drained(world); slot++) {
+        const double speed = stirring(adviser, slot, 1.0);
+        if (!adviser_flows(&world->materials.def[slot]) || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL || speed <= CALM_SPEED) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)speed, .bound = (float)CALM_SPEED,
-                               .text = around ? "water goes on moving around what stands in it, at this rate"
-                                              : "a pool this deep goes on circling slowly at this rate"};
-        adviser_by_substeps(adviser, pow(speed / CALM_SPEED, 1.0 / 3.0), &advice); /* f falls with the square of the rate */
+                               .text = "a pool this deep goes on circling slowly at this rate"};
+        double factor = 1.0;
+        const double substeps = world->settings.substeps;
+        while (stirring(adviser, slot, factor) > CALM_SPEED && factor * substeps < PBMPM_MAX_SUBSTEPS) factor += 1.0 / substeps;
+        adviser_by_substeps(adviser, factor, &advice);
+        adviser_give(adviser, advice);
+    }
+}
+
+/* Whether something else than gravity moves liquid: what floats in it rocks for long. */
+static bool is_driven(const World *world)
+{
+    bool driven = is_drained(world) || adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_SAND) || adviser_any_present(world, PBMPM_VISCO);
+    for (uint32_t e = 0; e < world->emitters.used; e++) driven = driven || (world->emitters.slot[e].generation != 0 && world->emitters.slot[e].def.enabled);
+    for (uint32_t i = 0; i < world->forces.used; i++) driven = driven || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.enabled);
+    for (uint32_t c = 0; c < world->colliders.used; c++) driven = driven || (world_feels(world, &world->colliders.slot[c]) && world->colliders.slot[c].def.kinematic);
+    return driven;
+}
+
+/* The largest rms speed of water under a standing wave of the height a is a sqrt(g / (2 depth)) [m/s] (G. Airy, 1845: its energy is rho g a^2 / 4 per area). That of half a cell, which
+ * particles do not show. */
+static double unseen_wave(const Adviser *adviser, uint32_t slot)
+{
+    const double cell = (double)adviser->world->def.cell_size, depth = adviser->survey.heap[slot].depth * cell;
+    return depth > 0.0 ? 0.5 * cell * sqrt(gravity_strength(adviser->world) / (2.0 * depth)) : 0.0;
+}
+
+/* A pool whose surface looks level, and that moves all the same. Those that come to rest are slower than CALM_SPEED 1 to 5 s after they were filled (tests/field/run.py still_pool trough). */
+void advise_pool_moves(Adviser *adviser)
+{
+    static const double SETTLES = 5.0; /* [s] see above */
+    const World *world = adviser->world;
+    const double age = (double)world->step_count * world->settings.substeps * adviser->substep.dt;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && age >= SETTLES && !is_driven(world); slot++) {
+        const double moves = adviser->survey.heap[slot].moves;
+        if (!adviser_flows(&world->materials.def[slot]) || moves <= CALM_SPEED || moves >= unseen_wave(adviser, slot)) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)moves, .bound = (float)CALM_SPEED, .came_true = 1,
+                               .text = "the pool lies level, and its liquid moves on at this speed"};
+        adviser_by_substeps(adviser, moves / CALM_SPEED, &advice); /* by RESTS, above */
+        adviser_give(adviser, advice);
+    }
+}
+
+/* At 60 Hz water that fell over a ball moves for more than 30 s, and faster later; at 120 Hz, 0.014, and at 240 Hz it calms down (tests/field/run.py splash). */
+void advise_ball_stirs(Adviser *adviser)
+{
+    static const double FALL = 0.03; /* [cells] g dt^2 / dx, between the 0.055 and the 0.014 of these rates */
+    const World *world = adviser->world;
+    const double fall = gravity_fall(world, &adviser->substep);
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > FALL; slot++) {
+        const pbmpm_material_def *def = &world->materials.def[slot];
+        const double moves = adviser->survey.heap[slot].moves, seen = unseen_wave(adviser, slot);
+        if (seen == 0.0 || !adviser_flows(def) || def->kinematic_viscosity > 0.0f || adviser_solver_of(world, slot) != PBMPM_SOLVER_DUAL) continue;
+        if (moves < seen && !adviser->survey.ball_dry) continue;
+        pbmpm_advice advice = {.code = PBMPM_ADVICE_POOL_STIRS, .material = adviser_id_of(world, slot), .figure = (float)fmax(moves, seen), .bound = (float)CALM_SPEED,
+                               .text = "water that splashes over a ball goes on moving at this rate"};
+        adviser_by_substeps(adviser, sqrt(fall / FALL), &advice);
         adviser_give(adviser, advice);
     }
 }

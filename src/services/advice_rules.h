@@ -17,6 +17,7 @@ void advise_falls_forever(Adviser *adviser);
 void advise_collider_too_fast(Adviser *adviser);
 void advise_collider_too_thin(Adviser *adviser);
 void advise_step_too_long(Adviser *adviser);
+void advise_enters_bodies(Adviser *adviser);
 void advise_slips(Adviser *adviser);
 void advise_emitter_outside(Adviser *adviser);
 void advise_emitter_refused(Adviser *adviser);
@@ -31,18 +32,22 @@ void advise_ignored_parameters(Adviser *adviser);
 /* advice_liquids.c: pools */
 void advise_pool_too_deep(Adviser *adviser);
 void advise_pool_stirs(Adviser *adviser);
+void advise_pool_moves(Adviser *adviser);
+void advise_ball_stirs(Adviser *adviser);
 
 /* advice_solids.c: bodies */
 void advise_modulus_not_held(Adviser *adviser);
 void advise_body_too_thin(Adviser *adviser);
 void advise_bounce_damped(Adviser *adviser);
 void advise_hit_damped(Adviser *adviser);
+void advise_soft_bounce(Adviser *adviser);
 void advise_rolling_braked(Adviser *adviser);
 
 /* advice_sand.c: heaps */
 void advise_sand_not_held(Adviser *adviser);
 void advise_sand_lands(Adviser *adviser);
 void advise_sand_slides(Adviser *adviser);
+void advise_sand_runs(Adviser *adviser);
 void advise_no_friction(Adviser *adviser);
 
 /* advice_limits.c: what no setting mends */

@@ -89,6 +89,30 @@ void advise_bounce_damped(Adviser *adviser)
     }
 }
 
+/* What its own weight flattens a ball by (Hertz): (3 m g / (4 E' sqrt(R)))^(2/3) [m]. */
+static double sag_of(const Adviser *adviser, uint32_t slot)
+{
+    const pbmpm_material_def *def = &adviser->world->materials.def[slot];
+    const double radius = radius_of(adviser, slot), weight = 4.0 / 3.0 * PI * (double)def->density * radius * radius * radius * gravity_strength(adviser->world);
+    return pow(3.0 * weight / (4.0 * contact_modulus(def) * sqrt(radius)), 2.0 / 3.0);
+}
+
+/* Balls of eight cells and 3e4 to 1e6 Pa that fell by 0.8 and 1.7 sags bounce with nothing of their speed, by 2.7 to 3.8 with 0.46 to 0.57, by 5 with 0.65 and by 20 and more with 0.69 to 0.88, at
+ * 60 Hz x 5 (as tests/field/run.py bouncing_ball); by 0.8 sags at 240 Hz with 0.46. */
+void advise_soft_bounce(Adviser *adviser)
+{
+    static const double FALLS = 2.0, SAGS = 4.0; /* [cells] less is within the reach of splines before it lands; see above */
+    const World *world = adviser->world;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        const Heap *heap = &adviser->survey.heap[slot];
+        const bool ball = world->def.dimension == 3 && heap->round && heap->thickness > 0.0 && world->materials.def[slot].kind == PBMPM_ELASTIC;
+        if (!ball || heap->on_matter || heap->drop_least < FALLS || adviser_solver_of(world, slot) != PBMPM_SOLVER_PRIMAL) continue;
+        if (heap->drop_least * (double)world->def.cell_size >= SAGS * sag_of(adviser, slot)) continue;
+        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(world, slot),
+                                             .text = "a ball that falls by less than four times what its own weight flattens it hardly bounces"});
+    }
+}
+
 static bool solid_among_others(const World *world, uint32_t slot)
 {
     for (uint32_t other = 0; other < PBMPM_MAX_MATERIALS; other++)

@@ -115,6 +115,24 @@ bool adviser_lands(const World *world, uint32_t material, const double from[3])
     return ray_to_obstacle(world, material, from, along, PBMPM_MAX_CELL * (double)world->def.cell_size) < INFINITY;
 }
 
+double adviser_cells(const Adviser *adviser, double speed) { return speed * adviser->substep.dt / (double)adviser->world->def.cell_size; }
+
+double adviser_emitted_landing(const Adviser *adviser, uint32_t slot)
+{
+    const World *world = adviser->world;
+    double fastest = 0.0, along[3];
+    const double strength = gravity_direction(world, along), cell = (double)world->def.cell_size;
+    for (uint32_t e = 0; e < world->emitters.used && strength > 0.0; e++) {
+        const Emitter *emitter = &world->emitters.slot[e];
+        if (emitter->generation == 0 || !emitter->def.enabled || emitter->def.material.index != slot) continue;
+        const double from[3] = {(double)emitter->shape.position[0], (double)emitter->shape.position[1], (double)emitter->shape.position[2]};
+        const double far = PBMPM_MAX_CELL * cell, speed = (double)emitter->def.speed;
+        const double way = fmin(ray_to_obstacle(world, slot, from, along, far), ray_to_wall(world, from, along, far));
+        if (way < far) fastest = fmax(fastest, sqrt(speed * speed + 2.0 * strength * way) * adviser->substep.dt / cell);
+    }
+    return fastest;
+}
+
 const pbmpm_domain_wall *adviser_wall_below(const World *world)
 {
     for (int a = 0; a < world->def.dimension; a++) {

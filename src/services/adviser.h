@@ -45,6 +45,12 @@ pbmpm_material_id adviser_id_of(const World *world, uint32_t slot);
 /* Whether an obstacle stands below a point. */
 bool adviser_lands(const World *world, uint32_t material, const double from[3]);
 
+/* A speed [m/s] in cells per substep. */
+double adviser_cells(const Adviser *adviser, double speed);
+
+/* The fastest landing of what emitters bring of a material, on obstacles and walls [cells per substep]. */
+double adviser_emitted_landing(const Adviser *adviser, uint32_t slot);
+
 /* A wall of the domain where gravity leads, or NULL. */
 const pbmpm_domain_wall *adviser_wall_below(const World *world);
 

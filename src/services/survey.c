@@ -331,7 +331,7 @@ static Below below_of(Cells *cells, const int32_t cell[3], uint32_t body)
     return below;
 }
 
-/* Cells of free way along gravity's axis from the end of a body until other matter or an obstacle; 0 if there is none within FAR, and negative
+/* Cells of free way along gravity's axis from the end of a body until other matter or an obstacle; infinitely many if there is none within FAR, and negative
  * where the body goes on below. Tells if it is matter. */
 static double drop_of(const World *world, Cells *cells, uint32_t bottom, int axis, bool *on_matter)
 {
@@ -351,7 +351,7 @@ static double drop_of(const World *world, Cells *cells, uint32_t bottom, int axi
         *on_matter = true;
         return step;
     }
-    return room < FAR ? room : 0.0;
+    return room < FAR ? room : INFINITY;
 }
 
 static int by_size(const void *a, const void *b)
@@ -376,24 +376,74 @@ static uint32_t stride_of(const Cells *cells, uint32_t slot)
     return 1 + count / (8 * LOOKED_AT);
 }
 
+/* Whether it is faster than after a free fall through a cell: a stream is no slope, however it stands. */
+static bool is_falling(const World *world, const Share *share)
+{
+    const double strength = gravity_strength(world), speed = share->falling / (share->filling * strength);
+    return speed > 0.0 && speed * speed > 2.0 * strength * (double)world->def.cell_size;
+}
+
+/* How many of these drops, which are sorted, are farther than the others by JUMP at least, if those are the fewer. */
+static uint32_t count_far(const double *drop, uint32_t count)
+{
+    static const double JUMP = 4.0; /* [cells] less may be between pieces */
+    double widest = JUMP;
+    uint32_t far = 0;
+    for (uint32_t i = 1; i < count && drop[i - 1] < INFINITY; i++) {
+        if (drop[i] - drop[i - 1] < widest) continue;
+        widest = drop[i] - drop[i - 1];
+        far = count - i;
+    }
+    return 2 * far < count ? far : 0;
+}
+
 /* Sorted by cell, bodies are found. */
 static void measure_drops(const World *world, Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
     const int way = world->settings.gravity[axis] > 0.0f ? 1 : -1;
     const uint32_t stride = stride_of(cells, slot);
-    double drops[2 * LOOKED_AT];
-    uint32_t number = 0, count = 0;
+    double drops[2 * LOOKED_AT], resting[2 * LOOKED_AT]; /* of all; and of what does not fall yet, where nothing below is infinitely far */
+    uint32_t number = 0, count = 0, rests = 0;
     for (uint32_t i = 0; i < cells->count && count < 2 * LOOKED_AT; i++) {
         if (cells->share[i].group != slot + 1 || number++ % stride != 0) continue;
         if (!is_end(cells, &cells->share[i], axis, way)) continue;
         const double drop = drop_of(world, cells, i, axis, &heap->on_matter);
-        if (drop >= 0.0) drops[count++] = drop;
+        if (drop < 0.0) continue;
+        drops[count++] = drop < INFINITY ? drop : 0.0;
+        if (!is_falling(world, &cells->share[i])) resting[rests++] = drop;
     }
     if (count == 0) return;
     qsort(drops, count, sizeof *drops, by_size);
+    qsort(resting, rests, sizeof *resting, by_size);
     heap->drop_least = drops[0];
     heap->drop_half = drops[count / 2];
     heap->drop_most = drops[count - 1];
+    const double far = (double)stride * count_far(resting, rests);
+    heap->hole = world->def.dimension == 2 ? far : sqrt(far);
+}
+
+/* The share of a solid's upper side with liquid in its own cell or the one above, and no matter in the two above these. Sorted by cell. */
+static void measure_film(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
+{
+    const int up = world->settings.gravity[axis] > 0.0f ? -1 : 1;
+    const uint32_t stride = stride_of(cells, slot);
+    double tops = 0.0, filmed = 0.0;
+    uint32_t number = 0;
+    for (uint32_t i = 0; i < cells->count; i++) {
+        const Share *share = &cells->share[i];
+        if (share->group != slot + 1 || number++ % stride != 0 || !is_end(cells, share, axis, up)) continue;
+        int32_t cell[3] = {share->cell[0], share->cell[1], share->cell[2]};
+        bool wet = any_of_group(cells, cell, 0), free = true;
+        cell[axis] += up;
+        wet = wet || any_of_group(cells, cell, 0);
+        for (int step = 0; step < 2; step++) {
+            cell[axis] += up;
+            free = free && filling_at(cells, cell) == 0.0;
+        }
+        tops += 1.0;
+        filmed += wet && free;
+    }
+    if (tops > 0.0) heap->film = filmed / tops;
 }
 
 /* How far it goes down beside a cell, SIDE cells away, in a direction that falls more steeply than friction bears, by a cell, with no obstacle between: until matter or an
@@ -447,13 +497,6 @@ static unsigned steep_sides(const World *world, const Cells *cells, const Share 
     return sides;
 }
 
-/* Whether it is faster than after a free fall through a cell: a stream is no slope, however it stands. */
-static bool is_falling(const World *world, const Share *share)
-{
-    const double strength = gravity_strength(world), speed = share->falling / (share->filling * strength);
-    return speed > 0.0 && speed * speed > 2.0 * strength * (double)world->def.cell_size;
-}
-
 /* Which share of the surface of what does not fall is too steep, and whether it is to both sides along any axis. Sorted by cell. */
 static void measure_slopes(const World *world, const Cells *cells, int axis, uint32_t slot, Heap *heap)
 {
@@ -476,23 +519,7 @@ static void measure_slopes(const World *world, const Cells *cells, int axis, uin
     for (int a = 0; a < world->def.dimension; a++) heap->falls_both_ways = heap->falls_both_ways || (sides >> domain_place(a, false) & 3) == 3;
 }
 
-/* ---- Obstacles in liquid ---- */
-
-/* How much a solid's surface bulges near a point, per cell: the divergence of the direction away from it. Planes and the insides of corners have none. Half a cell
- * from it or nearer nothing is told: thin walls have another side. */
-static double bulge_at(const Solid *solid, const double point[3], int dimension, double cell)
-{
-    const double gap = solid_gap(solid, point);
-    double sum = 0.0;
-    if (gap < 0.5 * cell || gap > 2.0 * cell) return 0.0;
-    for (int a = 0; a < dimension; a++)
-        for (int step = -1; step <= 1; step += 2) {
-            double beside[3] = {point[0], point[1], point[2]};
-            beside[a] += step * 0.5 * cell;
-            sum += solid_gap(solid, beside) - gap;
-        }
-    return 4.0 * sum / cell;
-}
+/* ---- Balls in liquid ---- */
 
 /* Whether nothing stands between the middle of a cell and that of a solid. */
 static bool sees(const World *world, const Share *share, const Solid *solid)
@@ -532,26 +559,29 @@ static bool is_ball_below(const World *world, const Cells *cells, const Solid *s
     return false;
 }
 
-/* Rigid bodies are left out: they float. */
-static bool stands_in_liquid(const World *world, const Cells *cells)
+static bool is_dry(const World *world, const Cells *cells, const Solid *solid)
 {
-    static const double BULGES = 0.1; /* a ball of ten cells */
-    enum { MOST = 1 << 16, LOOKS = 256 };
-    const uint32_t stride = 1 + (uint32_t)((double)cells->count * world->colliders.used / MOST);
+    for (uint32_t i = 0; i < cells->count; i++) {
+        double point[3] = {0};
+        for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, &cells->share[i], a);
+        if (cells->share[i].group == 0 && solid_gap(solid, point) < 2.0 * (double)world->def.cell_size) return false;
+    }
+    return true;
+}
+
+/* Rigid bodies are left out: they float. */
+static void look_at_balls(const World *world, const Cells *cells, Survey *survey)
+{
+    enum { LOOKS = 256 };
     int looks = LOOKS;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
-        if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse) || collider->shape.kind == PBMPM_PLANE) continue;
+        if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse)) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
-        if (is_ball_below(world, cells, &solid, &looks)) return true;
-        for (uint32_t i = 0; i < cells->count; i += stride) {
-            if (cells->share[i].group != 0) continue;
-            double point[3] = {0};
-            for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, &cells->share[i], a);
-            if (bulge_at(&solid, point, world->def.dimension, (double)world->def.cell_size) > BULGES) return true;
-        }
+        if (!is_ball_below(world, cells, &solid, &looks)) continue;
+        survey->ball_below = true;
+        survey->ball_dry = survey->ball_dry || is_dry(world, cells, &solid);
     }
-    return false;
 }
 
 /* ---- What is round, what tips ---- */
@@ -721,11 +751,16 @@ static void look_at_particles(const World *world, Survey *survey)
         double speed2 = 0.0;
         for (int a = 0; a < p->dimension; a++) speed2 += (double)p->velocity[a][row] * (double)p->velocity[a][row];
         heap->particles++;
+        heap->moves += speed2;
         heap->speed = fmax(heap->speed, sqrt(speed2));
         if (material_is_solid(&world->materials, p->material[row]) && is_clamped(world, row)) heap->clamped += 1.0;
     }
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (survey->heap[slot].particles > 0) survey->heap[slot].clamped /= survey->heap[slot].particles;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {
+        Heap *heap = &survey->heap[slot];
+        if (heap->particles == 0) continue;
+        heap->moves = sqrt(heap->moves / heap->particles);
+        heap->clamped /= heap->particles;
+    }
 }
 
 /* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
@@ -753,13 +788,14 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     for (int a = 0; a < cells->dimension; a++) measure_runs(cells, a, runs[a]);
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
-    survey->obstructed = stands_in_liquid(world, cells);
+    look_at_balls(world, cells, survey);
     find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];
         if (heap->particles == 0 || !material_is_solid(&world->materials, slot)) continue;
         measure_drops(world, cells, down, slot, heap);
         if (world->materials.def[slot].kind == PBMPM_SAND) measure_slopes(world, cells, down, slot, heap);
+        else if (floats) measure_film(world, cells, down, slot, heap);
     }
     for (uint32_t i = 0; i < cells->count; i++) {
         const double part = cells->share[i].filling * pow(cells->share[i].thickness, THICKEST);

@@ -8,6 +8,7 @@
 typedef struct Heap {
     uint32_t particles;
     double speed;      /* the fastest [m/s] */
+    double moves;      /* root mean square speed [m/s] */
     double depth;      /* along the axis that gravity pulls along most; that of all liquids together for a liquid; 0 without gravity */
     double width;      /* the same across it, along the axis where that is least */
     double thickness;  /* the least over the axes, where it is thickest */
@@ -20,6 +21,8 @@ typedef struct Heap {
     double slide;      /* how far its surface may go down there, at most; sand */
     bool falls_both_ways; /* it has so to both sides along an axis */
     double drop_least, drop_half, drop_most; /* how far it falls freely before it lands, over places: of all, of half, of the farthest; 0 if it never lands; solids */
+    double hole;       /* width [cells] of where it would fall farther than elsewhere by four cells at least; in 3D that of a square; solids */
+    double film;       /* share of its upper side with a film of liquid on it, under air; solids */
     bool on_matter;    /* whether it stands on other matter, or falls onto it, anywhere; solids */
     double narrow;     /* share of a solid, among liquid, with obstacles less than five cells away on both sides along each axis across gravity */
     double clamped;    /* share of particles that are strained to a bound; solids */
@@ -27,8 +30,8 @@ typedef struct Heap {
 
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
-    bool obstructed; /* whether an obstacle with edges, or that is round, stands in liquid: one whose surface bulges there, or a ball or a
-                      * capsule lower than it */
+    bool ball_below; /* whether a ball or a capsule stands lower than liquid that nothing parts from it */
+    bool ball_dry;   /* whether one of these is such that no liquid is within two cells of it */
 } Survey;
 
 /* Needs some bytes per particle, which it gives back. */

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
 from test_scene_run import pbmpm_command
 
 import pbmpm
 from pbmpm import AdviceCode, Change
+from pbmpm.lab.advising import AdviceWatch
 from pbmpm.lab.parsing import parse_scene
 from pbmpm.lab.runner import OutputOptions, run_scene
 from pbmpm.lab.simulation import RunSettings, Simulation
@@ -155,6 +157,26 @@ def test_the_command_tells_of_what_has_passed(tmp_path: Path) -> None:
     assert said.startswith("came true at 0.")
     [row] = [row for row in json.loads(done.stdout)["advice_after"] if row["code"] == "volume_lost"]
     assert row["of"] == "sand" and 0.3 < row["time_s"] < 2.0 and row["figure"] > 0.1
+
+
+def test_what_came_true_is_told_in_the_order_of_time() -> None:
+    """Each at the time when it was worst, whatever the order of the codes."""
+    worst = {AdviceCode.VOLUME_LOST: 3.0, AdviceCode.NOT_SOLVED: 1.0, AdviceCode.STRAIN_CLAMPED: 2.0}
+
+    class Stage:
+        time = 0.0
+        materials: dict[str, pbmpm.Material] = {}
+        colliders: list[pbmpm.Collider] = []
+
+        def advice(self) -> list[pbmpm.Advice]:
+            figures = {code: 1.0 - abs(self.time - at) / 10 for code, at in worst.items()}
+            return [pbmpm.Advice(code, code.name, None, None, figure, 0.1, pbmpm.Change.NONE, 0, None, True) for code, figure in figures.items()]
+
+    stage: Any = Stage()
+    watch = AdviceWatch(stage, [])
+    for stage.time in range(5):
+        watch.look()
+    assert [row["time_s"] for row in watch.rows()] == [1.0, 2.0, 3.0]
 
 
 def hangs(world: pbmpm.World) -> bool:

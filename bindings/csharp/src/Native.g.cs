@@ -276,13 +276,14 @@ namespace Pbmpm
         /// <summary>a liquid is compressed by its weight. Figure: g dt^2 depth / dx^2, dt the substep's; with the paper's solver
         /// the strain at the bottom</summary>
         PoolTooDeep = 4,
-        /// <summary>dual solver: a pool does not come to rest. Figure: the rms speed [m/s] that is foreseen; two pools that look alike differ by a factor of three</summary>
+        /// <summary>a pool does not come to rest. Foreseen with the dual solver: figure the rms speed [m/s] that such pools have, within a factor of three.
+        /// Or came true: liquid alone that nothing drives moves so five seconds after its first step. A wave of half a cell is faster</summary>
         PoolStirs = 5,
         /// <summary>the iterations are too few for the material's modulus. Figure: the Young modulus [Pa] that acts; bound: its own</summary>
         ModulusNotHeld = 6,
-        /// <summary>sand is crushed, or comes to rest too flat; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
-        /// with the dual solver and beside liquid; else its mean strain. Crushed where it lands, or too flat: its speed there [cells per
-        /// substep]</summary>
+        /// <summary>sand is crushed, comes to rest too flat or runs too fast; the text tells which. Crushed by its weight: figure g dt^2 depth / dx^2, dt the substep's,
+        /// with the dual solver and beside liquid; else its mean strain. Crushed where it lands, too flat, or too fast through a hole: its
+        /// speed there [cells per substep]</summary>
         SandNotHeld = 7,
         /// <summary>a body is too thin for the grid. Figure: its thickness [cells]</summary>
         BodyTooThin = 8,
@@ -295,7 +296,8 @@ namespace Pbmpm
         ColliderTooFast = 11,
         /// <summary>matter passes or reaches through. Figure: its thickness [cells]</summary>
         ColliderTooThin = 12,
-        /// <summary>matter or an emitter's jet is faster than settings.max_displacement lets it be. Figure: [cells per substep]</summary>
+        /// <summary>matter or a jet is faster than settings.max_displacement lets it be. Or liquid and bodies enter each other where they
+        /// meet. Figure: [cells per substep]</summary>
         StepTooLong = 13,
         /// <summary>before the first step: matter was put where there is other matter. Figure: share of the material that lies in
         /// overfull places; for liquids, of all liquids together</summary>
@@ -313,7 +315,7 @@ namespace Pbmpm
         VolumeLost = 14,
         /// <summary>a solid is strained to a bound of its material. Figure: share of its particles</summary>
         StrainClamped = 15,
-        /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells]</summary>
+        /// <summary>the last substep's solution is far from done. Figure: its predicted error [cells], at most what matter moved by, root mean square</summary>
         NotSolved = 16,
     }
 

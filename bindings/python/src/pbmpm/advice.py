@@ -25,7 +25,7 @@ class AdviceCode(Choice):
     POOL_TOO_DEEP = ffi.integer_const("PBMPM_ADVICE_POOL_TOO_DEEP")  #: g dt^2 depth / dx^2; with the paper's solver the strain at the bottom
     POOL_STIRS = ffi.integer_const("PBMPM_ADVICE_POOL_STIRS")  #: rms speed of a pool that does not come to rest [m/s]
     MODULUS_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_MODULUS_NOT_HELD")  #: the Young modulus [Pa] that acts, and the material's own
-    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: g dt^2 depth / dx^2 of sand, its mean strain, or cells per substep where it slides or lands; the text tells which
+    SAND_NOT_HELD = ffi.integer_const("PBMPM_ADVICE_SAND_NOT_HELD")  #: g dt^2 depth / dx^2 of sand, its mean strain, or cells per substep where it slides, lands or runs out; the text tells which
     BODY_TOO_THIN = ffi.integer_const("PBMPM_ADVICE_BODY_TOO_THIN")  #: thickness of a body [cells]
     BOUNCE_DAMPED = ffi.integer_const("PBMPM_ADVICE_BOUNCE_DAMPED")  #: substeps that a contact lasts
     ROLLING_BRAKED = ffi.integer_const("PBMPM_ADVICE_ROLLING_BRAKED")  #: half the width that a round body rests on [cells]

@@ -45,9 +45,9 @@ class AdviceWatch:
                 self._worst[key] = (item, self._simulation.time)
 
     def _told(self) -> list[tuple[pbmpm.Advice, float]]:
-        """What was not said before the first step: the worst of each, and when that was [s]."""
+        """What was not said before the first step: the worst of each, and when that was [s], in the order of these times."""
         lasting = {key for key, count in self._seen.items() if count > self.FEW * self._looks} | self._last
-        return [found for key, found in self._worst.items() if key in lasting and key not in self._first]
+        return sorted((found for key, found in self._worst.items() if key in lasting and key not in self._first), key=lambda found: found[1])
 
     def lines(self) -> list[str]:
         """One line each."""
