@@ -12,6 +12,10 @@
 static const double DEEPEST = 1.0;
 static const float LEAST_SHARE = 1.0f / (48.0f * 48.0f * 48.0f); /* there, in a corner */
 
+/* Rest volume per open volume. Where nothing is open, in what overlapping obstacles closed on, nobody knows what there is room for: it counts as full. Were it counted as
+ * crushed, volume feedback would ask it to grow for ever where it cannot, and its pressures drive it round: at 480 Hz x 20 at 73 m/s, four times as fast as a fall through the tank. */
+static float density_of(float volume, float open) { return open > 0.0f ? volume / fmaxf(open, LEAST_SHARE) : 1.0f; }
+
 double open_share_at(const ContactFrame *frame, const double node[3], uint32_t groups)
 {
     Near near, some;
@@ -106,7 +110,7 @@ static void divide(void *context, int32_t begin, int32_t end)
     const OpenJob *job = context;
     const size_t cells = (size_t)job->frame->grid->block_cells;
     float *volume = job->frame->grid->node_volume.data;
-    for (size_t i = (size_t)begin * cells; i < (size_t)end * cells; i++) volume[i] /= fmaxf(job->open[i], LEAST_SHARE);
+    for (size_t i = (size_t)begin * cells; i < (size_t)end * cells; i++) volume[i] = density_of(volume[i], job->open[i]);
 }
 
 bool contacts_open_volume(const ContactFrame *frame, Memory *memory, Pool *pool, bool resting_only)
