@@ -31,7 +31,7 @@ typedef int32 int32_t;
 #define K_RUN_CELL_MASK 63
 
 #define K_LIQUID 0
-#define K_ELASTIC 1
+#define K_SOLID 1
 
 /* What is built, see materials.cmake. All but liquids have a deformation gradient F and share the code for it. */
 #if !defined PBMPM_WITH_LIQUID || !defined PBMPM_WITH_ELASTIC || !defined PBMPM_WITH_SAND || !defined PBMPM_WITH_VISCO
@@ -39,7 +39,7 @@ typedef int32 int32_t;
 #endif
 #define K_WITH_SOLIDS (PBMPM_WITH_ELASTIC || PBMPM_WITH_SAND || PBMPM_WITH_VISCO)
 
-/* How a K_ELASTIC material yields. */
+/* How a K_SOLID material yields. */
 #define K_NO_YIELD 0
 #define K_SAND 1
 #define K_VISCO 2
@@ -84,8 +84,8 @@ struct KernelMaterial {
     float shear;              /* elastic: c mu */
     float dilation;           /* elastic: c lambda; liquid: c K, FLT_MAX if incompressible */
     float inverse_stiffness;  /* liquid: 1 / (c K); 0 if incompressible */
-    float carried;            /* liquid: from a pressure [Pa] to the multiplier to start from */
-    float pascal;             /* liquid: from a multiplier to a pressure [Pa] */
+    float multiplier_per_pascal; /* liquid: from a pressure [Pa] to the multiplier to start from */
+    float pascal_per_multiplier; /* liquid: from a multiplier to a pressure [Pa] */
     float lightness;          /* from a pressure that a cell holds to the multiplier, see cells.isph */
     float viscous_share;      /* liquid: what viscosity makes of D in a substep, see viscosity.isph */
     /* How elastic matter yields, see plastic.isph. */
@@ -192,7 +192,7 @@ struct KernelPrimal {
 struct KernelCells {
     K_PTR(float) mass; /* sum h l m */
     K_PTR(float) growth; /* what the mean of tr D is to become */
-    K_PTR(float) strain; /* share of it that solids ask for; null unless they take part in the guess */
+    K_PTR(float) solid_growth; /* share of it that solids ask for; null unless they take part in the guess */
     K_PTR(float) softness; /* mean of 1 / (L J^2) */
     K_PTR(float) pressure;
     K_PTR(float) pressure_old;
@@ -200,7 +200,7 @@ struct KernelCells {
     K_PTR(float) change2; /* out, per node block: this and `uphill` as those of KernelDual, of the cells */
     K_PTR(float) uphill;
     float settle; /* share of what sand is compressed by beyond its pressure that a substep gives back */
-    int32_t elastic_guesses; /* whether `strain` is of elastic bodies too, or of sand alone */
+    int32_t elastic_guesses; /* whether `solid_growth` is of elastic bodies too, or of sand alone */
     int32_t probing; /* pressures of cells only: elastic particles are left alone, and liquids do not remember */
     float relaxation; /* w of the cells: the smallest of the liquids */
 };

@@ -36,7 +36,7 @@ static void visit_around(const FlowingSite *site, Visit *visit, double *sum)
 static double pressure_of(const ContactFrame *frame, const KernelMaterial *material, uint32_t row)
 {
     const double ratio = (double)frame->pressed->volume_ratio[row];
-    if (frame->pressure) return 0.25 * (double)frame->pressure[row] / (double)material->pascal;
+    if (frame->pressure) return 0.25 * (double)frame->pressure[row] / (double)material->pascal_per_multiplier;
     return 0.25 * (double)material->dilation * ratio * fmax(0.0, 1.0 - ratio);
 }
 

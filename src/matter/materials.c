@@ -115,7 +115,7 @@ void materials_set(Materials *materials, uint32_t slot, const pbmpm_material_def
     const bool liquid = def->kind == PBMPM_LIQUID;
     materials->def[slot] = *def;
     materials->kernel[slot] = (KernelMaterial){
-        .kind = liquid ? K_LIQUID : K_ELASTIC,
+        .kind = liquid ? K_LIQUID : K_SOLID,
         .relaxation = def->relaxation,
         .viscosity = liquid ? def->viscosity : 0.0f,
         .volume_feedback = material_flows(def) ? def->volume_feedback : 0.0f,

@@ -20,7 +20,7 @@ static void set_liquid(World *world, uint32_t slot, float stiffest)
     material->dilation = incompressible ? stiffest : (float)fmin(c * (double)def->bulk_modulus, 1e30);
     if (world->settings.solver == PBMPM_SOLVER_CONVERGENT) material->dilation = fminf(material->dilation, stiffest);
     material->inverse_stiffness = incompressible ? 0.0f : 1.0f / material->dilation;
-    material->pascal = (float)fmin(1.0 / c, 1e30);
+    material->pascal_per_multiplier = (float)fmin(1.0 / c, 1e30);
     material->viscous_share = (float)viscosity_share(world, def);
 }
 
@@ -39,7 +39,7 @@ void moduli_set_solid(World *world, uint32_t slot, double share)
     material->relaxation = def->relaxation;
     material->shear = (float)fmin(c * lame.mu, 1e30);
     material->dilation = (float)fmin(c * lame.lambda, 1e30);
-    if (material->yields == K_SAND) material->pascal = (float)fmin(1.0 / unit, 1e30);
+    if (material->yields == K_SAND) material->pascal_per_multiplier = (float)fmin(1.0 / unit, 1e30);
     plastic_set(world, slot, 1.0 + world->def.dimension * lame.lambda / (2.0 * lame.mu));
 }
 

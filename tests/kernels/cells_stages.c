@@ -147,7 +147,7 @@ void cells_check_solids(DualStage *stage)
     RefGrid growth = scene_scalars_of(scene, a->cells.growth), soft = scene_scalars_of(scene, a->cells.softness);
     RefGrid pressure = scene_scalars_of(scene, a->cells.pressure);
     scene_run_nodes(scene, scene->kernels->solids_mean);
-    RefGrid all_mass = scene_scalars_of(scene, a->cells.mass), strain = scene_scalars_of(scene, a->cells.strain);
+    RefGrid all_mass = scene_scalars_of(scene, a->cells.mass), strain = scene_scalars_of(scene, a->cells.solid_growth);
     RefGrid less = scene_scalars_of(scene, a->cells.growth), softness = scene_scalars_of(scene, a->cells.softness);
     RefGrid start = scene_scalars_of(scene, a->cells.pressure), old = scene_scalars_of(scene, a->cells.pressure_old);
     const double each = 24.0 * UNIT_ROUNDOFF;
@@ -204,7 +204,7 @@ void cells_check_push(DualStage *stage)
         const double light = lightness_of(&p);
         double Y[9] = {0}, S[9], expected = 0.0, bound = 0.0, error = 0.0;
         const bool liquid = p.material.kind == K_LIQUID;
-        for (int c = 0; c < centres.count && (liquid || a->cells.strain); c++) {
+        for (int c = 0; c < centres.count && (liquid || a->cells.solid_growth); c++) {
             const int64_t at = reference_index(&sum, centres.cell[c]);
             const double now = pressure.node[at].mass, change = momentum * (now - old.node[at].mass);
             expected += light * centres.weight[c] * (now + change);
@@ -214,7 +214,7 @@ void cells_check_push(DualStage *stage)
             check_near(expected, (double)a->dual.pressure[i], bound, "pressure of a particle", (long)i);
             for (int k = 0; k < n; k++) Y[k * 4] = (double)a->dual.pressure[i];
         } else {
-            if (a->cells.strain) check_isotropic(stage, i, expected, bound);
+            if (a->cells.solid_growth) check_isotropic(stage, i, expected, bound);
             dual_extrapolated(stage, i, Y);
         }
         dual_multiplier(stage, i, S);

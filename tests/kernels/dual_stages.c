@@ -197,7 +197,7 @@ void dual_check_begin(DualStage *stage)
         world->args.dual.momentum = 0.0f;
         for (int k = 0; k < 9; k++) {
             check_true(S[k] == Y[k], "the first multiplier is the one before as well", (long)i);
-            if (scene_particle(scene, i).material.kind == K_ELASTIC) check_true(S[k] == 0.0, "no stress at first", (long)i);
+            if (scene_particle(scene, i).material.kind == K_SOLID) check_true(S[k] == 0.0, "no stress at first", (long)i);
         }
     }
     free(start);

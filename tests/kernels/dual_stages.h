@@ -12,7 +12,7 @@ typedef struct DualStage {
     Scene scene;
     float *memory[DUAL_ARRAYS];
     RefGrid base; /* the predictor */
-    float *strain; /* for args.cells.strain, which is null: solids take no part in the guess */
+    float *strain; /* for args.cells.solid_growth, which is null: solids take no part in the guess */
 } DualStage;
 
 /* Opens a scene, sets its particles' pressures [Pa] at random and runs the kernels up to the predictor. */

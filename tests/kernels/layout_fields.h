@@ -2,7 +2,7 @@
 #define KERNEL_MATERIAL_FIELDS(FIELD)                                                                                          \
     FIELD(kind) FIELD(relaxation) FIELD(viscosity) FIELD(volume_feedback) FIELD(elasticity_ratio) FIELD(strain_min)           \
     FIELD(strain_max) FIELD(condition_max) FIELD(rebound_max) FIELD(growth_max) FIELD(head2) FIELD(pressure_max) FIELD(volume_share) FIELD(even_share) FIELD(inverse_density)  \
-    FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(carried) FIELD(pascal) FIELD(lightness) FIELD(viscous_share) \
+    FIELD(elastic_model) FIELD(shear) FIELD(dilation) FIELD(inverse_stiffness) FIELD(multiplier_per_pascal) FIELD(pascal_per_multiplier) FIELD(lightness) FIELD(viscous_share) \
     FIELD(yields) FIELD(friction) FIELD(cohesion) FIELD(looseness) FIELD(bulk_over_shear) FIELD(yield_strain) FIELD(excess_kept)
 
 #define KERNEL_ARGS_FIELDS(FIELD)                                                                                             \
@@ -19,7 +19,7 @@
     FIELD(dual.grains_carried) FIELD(dual.grains_free) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \
     FIELD(primal.block_share) FIELD(primal.block_energy) FIELD(primal.couple) FIELD(primal.among_liquid)                      \
     FIELD(primal.fed) FIELD(primal.held_pressure) FIELD(primal.sketch) FIELD(primal.node_gap) FIELD(primal.may_feed)          \
-    FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.strain) FIELD(cells.softness)              \
+    FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.solid_growth) FIELD(cells.softness)              \
     FIELD(cells.pressure) FIELD(cells.pressure_old) FIELD(cells.trace) FIELD(cells.change2) FIELD(cells.uphill)               \
     FIELD(cells.settle) FIELD(cells.elastic_guesses) FIELD(cells.probing) FIELD(cells.relaxation) FIELD(material)             \
     FIELD(iterations) FIELD(flip) FIELD(feedback_way) FIELD(quiet_way) FIELD(dt) FIELD(cells_per_metre) FIELD(gravity)        \

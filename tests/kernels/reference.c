@@ -478,7 +478,7 @@ void reference_integrate(const RefStep *step, const RefGrid *grid, RefParticle *
     memcpy(motion, d, sizeof motion);
     memcpy(way, d, sizeof way);
     if (reference_flips(step, p)) keep_fine_motion(step, p, D, d, motion);
-    if (p->material.kind == K_ELASTIC) {
+    if (p->material.kind == K_SOLID) {
         double gradient[9];
         reference_gradient(grid, p, gradient);
         integrate_elastic(step, p, gradient);

@@ -104,7 +104,7 @@ void stages_check_scatter(Scene *scene)
         if (after.status == K_NOT_FINITE) continue; /* see test_hard_cases.c */
         reference_start(&scene->step, p, d, D);
         expected_add(&expected, p, d, D, (BoundParticle){0});
-        if (!check_strain || p->material.kind != K_ELASTIC) continue;
+        if (!check_strain || p->material.kind != K_SOLID) continue;
         const RefParticle unlimited = *p;
         reference_limit_strain(scene->step.dimension, &p->material, p->deformation);
         check_deformation(scene, p, &after, unlimited.deformation, 0.0, (long)i);

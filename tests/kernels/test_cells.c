@@ -60,7 +60,7 @@ static void check_guess(DualStage *stage)
 {
     cells_check_begin(stage);
     cells_check_mean(stage);
-    stage->scene.world->args.cells.strain = stage->strain;
+    stage->scene.world->args.cells.solid_growth = stage->strain;
     cells_check_solids(stage);
     cells_check_push(stage);
     push_nodes(stage);
@@ -79,7 +79,7 @@ static void check_kept(DualStage *stage)
     memcpy(pascal, stage->scene.world->args.dual.pressure, count * sizeof *pascal);
     cells_check_begin(stage);
     cells_check_mean(stage);
-    stage->scene.world->args.cells.strain = stage->strain;
+    stage->scene.world->args.cells.solid_growth = stage->strain;
     cells_check_solids(stage);
     for (size_t k = 0; k < sizeof fine / sizeof *fine; k++) {
         memcpy(stage->scene.world->args.dual.pressure, pascal, count * sizeof *pascal);

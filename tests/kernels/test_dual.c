@@ -272,7 +272,7 @@ static void check_stress(const char *name, MakeParticle *make, bool at_rest)
                 static const float ratios[] = {0.0f, 1.0f, 40.0f};
                 batch.dimension = dimension;
                 batch.material = (KernelMaterial){
-                    .kind = K_ELASTIC, .relaxation = k % 2 ? 1.5f : 1.0f, .shear = moduli[k / 3], .dilation = moduli[k / 3] * ratios[k % 3]};
+                    .kind = K_SOLID, .relaxation = k % 2 ? 1.5f : 1.0f, .shear = moduli[k / 3], .dilation = moduli[k / 3] * ratios[k % 3]};
                 fill_batch(&batch, &random, make);
                 run_batch(&batch, isa);
                 check_batch(&batch, at_rest);
@@ -390,7 +390,7 @@ static void test_no_step_closes_matter(void)
         {
             check_subject("closing", isa, dimension);
             batch.dimension = dimension;
-            batch.material = (KernelMaterial){.kind = K_ELASTIC, .relaxation = 1.5f, .shear = 1e-7f};
+            batch.material = (KernelMaterial){.kind = K_SOLID, .relaxation = 1.5f, .shear = 1e-7f};
             check_closing(&batch, isa);
         }
     check_report("closing");
@@ -429,7 +429,7 @@ static void test_the_stress_is_that_of_the_energy(void)
         {
             check_subject("fixed point", isa, dimension);
             batch.dimension = dimension;
-            batch.material = (KernelMaterial){.kind = K_ELASTIC, .relaxation = 1.5f, .shear = 3.0f};
+            batch.material = (KernelMaterial){.kind = K_SOLID, .relaxation = 1.5f, .shear = 3.0f};
             check_fixed_point(&batch, isa, 1);
             batch.material.dilation = 7.0f;
             check_fixed_point(&batch, isa, 2);

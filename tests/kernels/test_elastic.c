@@ -64,7 +64,7 @@ static Sample sample;
 
 static KernelMaterial material_of(int model)
 {
-    return (KernelMaterial){.kind = K_ELASTIC, .elastic_model = model, .shear = (float)SHEAR, .dilation = (float)DILATION};
+    return (KernelMaterial){.kind = K_SOLID, .elastic_model = model, .shear = (float)SHEAR, .dilation = (float)DILATION};
 }
 
 /* Rotated and stretched by factors in [low, high]; displacement gradients up to `gradient`. */

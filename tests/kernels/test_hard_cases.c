@@ -210,7 +210,7 @@ static void test_quarantine(void)
                 Scene bad = scene_open(&spec, isa, dimension, 3), without = scene_open(&spec, isa, dimension, 3);
                 Particles *p = &bad.world->particles;
                 uint32_t row = (uint32_t)k * 7 % p->count;
-                while (fields[k % 6] == deformation_of && bad.world->materials.kernel[p->material[row]].kind != K_ELASTIC) row++;
+                while (fields[k % 6] == deformation_of && bad.world->materials.kernel[p->material[row]].kind != K_SOLID) row++;
                 fields[k % 6](p)[row] = values[k / 6];
                 make_harmless(&without.world->particles, row);
                 check_quarantine(&bad, &without, row);
@@ -235,7 +235,7 @@ static void test_what_follows_a_run_does_not_show(void)
             Scene scene = scene_open(&spec, isa, dimension, 8);
             const Particles *p = &scene.world->particles;
             for (uint32_t i = 0; i < p->count; i++)
-                if (scene.world->materials.kernel[p->material[i]].kind == K_ELASTIC) p->volume_ratio[i] = 0.0f;
+                if (scene.world->materials.kernel[p->material[i]].kind == K_SOLID) p->volume_ratio[i] = 0.0f;
             stages_check(&scene);
             scene_close(&scene);
         }

@@ -20,13 +20,13 @@ static float before[NUMBERS], after[NUMBERS];
 
 static KernelMaterial sand(double cohesion, double looseness)
 {
-    return (KernelMaterial){.kind = K_ELASTIC, .yields = K_SAND, .friction = (float)SINE, .cohesion = (float)cohesion,
+    return (KernelMaterial){.kind = K_SOLID, .yields = K_SAND, .friction = (float)SINE, .cohesion = (float)cohesion,
                             .looseness = (float)looseness, .bulk_over_shear = (float)RATIO};
 }
 
 static KernelMaterial visco(void)
 {
-    return (KernelMaterial){.kind = K_ELASTIC, .yields = K_VISCO, .yield_strain = (float)YIELD, .excess_kept = (float)KEPT};
+    return (KernelMaterial){.kind = K_SOLID, .yields = K_VISCO, .yield_strain = (float)YIELD, .excess_kept = (float)KEPT};
 }
 
 static void read_matrix(const float *from, double *to)

@@ -128,7 +128,7 @@ static void test_projections_conserve_momentum(void)
         RefParticle p = random_particle(&random);
         RefGrid before = reference_grid(3, low, high), after = reference_grid(3, low, high);
         double d[3], D[9], linear[2][3], angular[2][3];
-        p.material.kind = i % 2 ? K_LIQUID : K_ELASTIC;
+        p.material.kind = i % 2 ? K_LIQUID : K_SOLID;
         p.material.viscosity = 0.4f;
         p.material.elasticity_ratio = (float)(i % 3) * 0.5f;
         random_array(&random, d, 3, -1.0, 1.0);
@@ -163,7 +163,7 @@ static void test_fixed_points(void)
             memcpy(kept, D, sizeof kept);
             reference_project(n, &p, still, D);
             for (int k = 0; k < 9; k++) TEST_ASSERT_DOUBLE_WITHIN(1e-12, kept[k], D[k]);
-            p.material.kind = K_ELASTIC;
+            p.material.kind = K_SOLID;
             p.material.elasticity_ratio = (float)(i % 2);
             if (i % 2) /* a rotation, or any shape of unit volume */
                 matrix_random_rotation(&random, n, goal);

@@ -482,7 +482,7 @@ static void push_between_boxes(const KernelMaterial *stays, double place[9])
  * are put on a surface. What is deeper in one of them than its own way out is long leaves it. */
 static void test_what_overlapping_boxes_trap_stays_if_it_is_liquid(void)
 {
-    const KernelMaterial liquid = {.kind = K_LIQUID}, solid = {.kind = K_ELASTIC};
+    const KernelMaterial liquid = {.kind = K_LIQUID}, solid = {.kind = K_SOLID};
     double stayed[9], pushed[9], as_solid[9];
     push_between_boxes(&liquid, stayed);
     push_between_boxes(NULL, pushed);

@@ -110,7 +110,7 @@ static void test_kernels_are_told_what_a_kind_has(void)
     def.kind = PBMPM_ELASTIC;
     def.condition_max = 500.0f;
     materials_set(&materials, 7, &def);
-    TEST_ASSERT_EQUAL_INT32(K_ELASTIC, kernel->kind);
+    TEST_ASSERT_EQUAL_INT32(K_SOLID, kernel->kind);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, kernel->viscosity);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, kernel->volume_feedback);
     TEST_ASSERT_EQUAL_FLOAT(0.0f, kernel->condition_max); /* strain is clamped */

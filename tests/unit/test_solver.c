@@ -85,12 +85,12 @@ static void test_moduli_of_liquids(void)
         const double L = twice_courant_squared((double)def.bulk_modulus, (double)def.density, (double)dt, (double)cell);
         NEAR(L, material->dilation);
         NEAR(1.0 / L, material->inverse_stiffness);
-        NEAR(L / (double)def.bulk_modulus / 2.0, material->carried); /* a pressure K gives the multiplier L; half of it is carried over */
-        NEAR((double)def.bulk_modulus / L, material->pascal);
+        NEAR(L / (double)def.bulk_modulus / 2.0, material->multiplier_per_pascal); /* a pressure K gives the multiplier L; half of it is carried over */
+        NEAR((double)def.bulk_modulus / L, material->pascal_per_multiplier);
         TEST_ASSERT_EQUAL_FLOAT(def.relaxation, material->relaxation);
         world->settings.iterations = 1;
         bind_for(world, dt, true);
-        NEAR(L / (double)def.bulk_modulus * 0.45, material->carried); /* a single one carries less, so that it damps */
+        NEAR(L / (double)def.bulk_modulus * 0.45, material->multiplier_per_pascal); /* a single one carries less, so that it damps */
         world_destroy(world);
     }
 }
@@ -169,8 +169,8 @@ static void test_moduli_stay_finite(void)
         for (pbmpm_solver solver = PBMPM_SOLVER_DUAL; solver <= PBMPM_SOLVER_EXPLICIT; solver++) {
             world->materials.generation[0] = 0;
             const KernelMaterial *m = bound_material(world, &def, solver, steps[i >> 1 & 1]);
-            TEST_ASSERT_TRUE(isfinite(m->shear) && isfinite(m->dilation) && isfinite(m->carried) && isfinite(m->pascal));
-            TEST_ASSERT_TRUE(m->shear >= 0.0f && m->dilation >= 0.0f && m->carried >= 0.0f && m->pascal >= 0.0f && m->volume_feedback >= 0.0f);
+            TEST_ASSERT_TRUE(isfinite(m->shear) && isfinite(m->dilation) && isfinite(m->multiplier_per_pascal) && isfinite(m->pascal_per_multiplier));
+            TEST_ASSERT_TRUE(m->shear >= 0.0f && m->dilation >= 0.0f && m->multiplier_per_pascal >= 0.0f && m->pascal_per_multiplier >= 0.0f && m->volume_feedback >= 0.0f);
         }
         world_destroy(world);
     }

@@ -99,7 +99,7 @@ pbmpm_result dual_prepare(World *world)
         ok = array_reserve(&world->memory, &dual->cells, CELL_ARRAYS * nodes, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_change2, blocks, sizeof(float)) &&
              array_reserve(&world->memory, &dual->cell_uphill, blocks, sizeof(float));
-    if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_strain, nodes, sizeof(float));
+    if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_solid_growth, nodes, sizeof(float));
     if (ok && takes_rounds(world)) ok = rounds_reserve(world);
     ok = ok && dual_error_prepare(world) && eddy_damping_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
@@ -111,7 +111,7 @@ void dual_free(World *world)
 {
     DualState *dual = &world->dual;
     RoundsState *rounds = &dual->rounds;
-    Array *arrays[] = {&dual->node_push,   &dual->change2,     &dual->uphill,  &dual->cells,     &dual->cell_strain,
+    Array *arrays[] = {&dual->node_push,   &dual->change2,     &dual->uphill,  &dual->cells,     &dual->cell_solid_growth,
                        &dual->cell_change2, &dual->cell_uphill, &rounds->solid, &rounds->touched, &rounds->mark};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     dual_error_free(world);
@@ -143,7 +143,7 @@ static void bind_cells(World *world)
     a->cells.softness = cells + 2 * nodes;
     a->cells.pressure = cells + 3 * nodes;
     a->cells.pressure_old = cells + 4 * nodes;
-    a->cells.strain = guesses_solids(world) ? world->dual.cell_strain.data : NULL;
+    a->cells.solid_growth = guesses_solids(world) ? world->dual.cell_solid_growth.data : NULL;
     a->cells.settle = solver_holds_sand(world) ? (float)per_reference_step(SETTLED_SHARE, &world->substep) : 1.0f;
     a->cells.elastic_guesses = shares_world(world);
     a->cells.change2 = world->dual.cell_change2.data;
@@ -263,7 +263,7 @@ static double start(World *world, const ContactFrame *contacts, DualSketch *sket
     if (in_cells(world) || guesses > 0) {
         solver_add_rows(&loops, world, kernels->cells_begin, &world->args);
         solver_add_nodes(&loops, world, kernels->cells_mean, &world->args, NULL);
-        if (world->args.cells.strain && !joint_is_chosen(world)) add_solids(world, &loops);
+        if (world->args.cells.solid_growth && !joint_is_chosen(world)) add_solids(world, &loops);
     } else {
         solver_add_rows(&loops, world, kernels->dual_begin, &world->args);
     }
@@ -405,7 +405,7 @@ void dual_set_materials(World *world)
         KernelMaterial *material = &world->materials.kernel[slot];
         if (world->materials.generation[slot] == 0) continue;
         material->lightness = measure > 0.0 ? (float)(measure / (double)def->density) : 1.0f;
-        if (material->kind == K_LIQUID || material->yields == K_SAND) material->carried = (float)fmin(carried * moduli_unit(def, &world->substep), 1e30);
+        if (material->kind == K_LIQUID || material->yields == K_SAND) material->multiplier_per_pascal = (float)fmin(carried * moduli_unit(def, &world->substep), 1e30);
     }
 }
 

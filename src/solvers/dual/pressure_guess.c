@@ -304,7 +304,7 @@ static float growth_of(const KernelArgs *a, GuessAsked asked, size_t cell)
 {
     const float missing = a->cells.growth[cell];
     const float fallen = sqrtf(asked.fallen2 * missing), most = fallen < GUESS_GROWTH_MAX ? fallen : GUESS_GROWTH_MAX, share = asked.share * missing;
-    return (share < most ? share : most) + (a->cells.strain ? a->cells.strain[cell] : 0.0f);
+    return (share < most ? share : most) + (a->cells.solid_growth ? a->cells.solid_growth[cell] : 0.0f);
 }
 
 static void find_residual(const Guess *g, size_t begin, size_t end, double *sum)

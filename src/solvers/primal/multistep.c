@@ -50,7 +50,7 @@ static bool has_past(const World *world, int32_t block)
     const uint32_t *block_run = world->grid.block_run.data;
     for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++) {
         const KernelMaterial *material = &world->materials.kernel[world->grid.run_key[run] >> K_RUN_CELL_BITS];
-        if (material->kind != K_ELASTIC || material->yields != K_NO_YIELD) return false;
+        if (material->kind != K_SOLID || material->yields != K_NO_YIELD) return false;
         for (uint32_t row = world->grid.run_begin[run]; row < world->grid.run_begin[run + 1]; row++)
             if (world->particles.past_dt[row] != (float)world->substep.dt) return false;
     }

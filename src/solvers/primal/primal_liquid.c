@@ -199,7 +199,7 @@ static void note_pressures(World *world, int32_t block)
     for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++) {
         const KernelMaterial *material = &world->materials.kernel[grid->run_key[run] >> K_RUN_CELL_BITS];
         for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1] && material->kind == K_LIQUID; row++)
-            world->particles.pressure[row] = material->pascal * material->dilation * ratio[row] * fmaxf(0.0f, 1.0f - ratio[row]);
+            world->particles.pressure[row] = material->pascal_per_multiplier * material->dilation * ratio[row] * fmaxf(0.0f, 1.0f - ratio[row]);
     }
 }
 
