@@ -152,15 +152,8 @@ void advise_step_too_long(Adviser *adviser)
 void advise_enters_bodies(Adviser *adviser)
 {
     static const double MEETS = 2.0; /* cells per substep: see above */
-    const World *world = adviser->world;
-    const bool both = adviser_any_present(world, PBMPM_LIQUID) && (adviser_any_present(world, PBMPM_ELASTIC) || adviser_any_present(world, PBMPM_VISCO));
-    double speed = 0.0;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (world->materials.def[slot].kind != PBMPM_SAND) speed = fmax(speed, adviser->survey.heap[slot].speed);
-    for (uint32_t e = 0; e < world->emitters.used; e++)
-        if (world->emitters.slot[e].generation != 0) speed = fmax(speed, (double)world->emitters.slot[e].def.speed);
-    const double cells = adviser_cells(adviser, speed);
-    if (!both || cells <= MEETS) return;
+    const double cells = adviser_cells(adviser, adviser->survey.meets);
+    if (cells <= MEETS) return;
     pbmpm_advice advice = {.code = PBMPM_ADVICE_STEP_TOO_LONG, .figure = (float)cells, .bound = (float)MEETS,
                            .text = "liquid and bodies that meet at more than two cells per substep enter each other"};
     adviser_by_substeps(adviser, cells / MEETS, &advice);

@@ -763,6 +763,40 @@ static void look_at_particles(const World *world, Survey *survey)
     }
 }
 
+/* Whether the particle's way leads where liquid is, for a body, or a body, for a liquid, within AHEAD cells. Sorted by cell. */
+static bool is_meeting(const World *world, const Cells *cells, uint32_t row, double speed)
+{
+    enum { AHEAD = 4 };
+    const Particles *p = &world->particles;
+    const bool flows = !material_is_solid(&world->materials, p->material[row]);
+    int32_t first[3] = {0};
+    if (!near_first(p, row, first)) return false;
+    for (int step = 1; step <= AHEAD; step++) {
+        Share ahead = {.group = 0};
+        for (int a = 0; a < p->dimension; a++) ahead.cell[a] = first[a] + (int32_t)floor(step * (double)p->velocity[a][row] / speed + 0.5);
+        const uint64_t place = place_of(&ahead, 0, false);
+        for (uint32_t i = first_from(cells, place); i < cells->count && cells->share[i].place >> GROUP_BITS == place >> GROUP_BITS; i++)
+            if (flows != (cells->share[i].group == 0) && world->materials.def[cells->share[i].slot].kind != PBMPM_SAND) return true;
+    }
+    return false;
+}
+
+/* Of those that are faster than any that was found to meet so far; some may be passed over where many are. */
+static double fastest_meeting(const World *world, const Cells *cells)
+{
+    enum { MOST = 1 << 14 };
+    const Particles *p = &world->particles;
+    const uint32_t stride = 1 + p->count / MOST;
+    double fastest = 0.0;
+    for (uint32_t row = 0; row < p->count; row += stride) {
+        double speed2 = 0.0;
+        for (int a = 0; a < p->dimension; a++) speed2 += (double)p->velocity[a][row] * (double)p->velocity[a][row];
+        if (speed2 <= fastest * fastest || world->materials.def[p->material[row]].kind == PBMPM_SAND) continue;
+        if (is_meeting(world, cells, row, sqrt(speed2))) fastest = sqrt(speed2);
+    }
+    return fastest;
+}
+
 /* Whether solids are there, and a liquid may come to them: else it is no matter how near walls are, and no sort is spent on it. */
 static bool may_float(const World *world, const Cells *cells)
 {
@@ -789,6 +823,7 @@ static void look_at_cells(const World *world, Cells *cells, Survey *survey)
     measure_filling(cells, filling, error);
     if (world->step_count == 0) measure_overlaps(cells, overlapping);
     look_at_balls(world, cells, survey);
+    if (floats) survey->meets = fastest_meeting(world, cells);
     find_bodies(cells);
     for (uint32_t slot = 0; down >= 0 && slot < PBMPM_MAX_MATERIALS; slot++) {
         Heap *heap = &survey->heap[slot];

@@ -30,6 +30,7 @@ typedef struct Heap {
 
 typedef struct Survey {
     Heap heap[PBMPM_MAX_MATERIALS];
+    double meets; /* the fastest [m/s] of liquid that goes where a body is within four cells ahead, or of a body that goes where liquid is; not sand */
     bool ball_below; /* whether a ball or a capsule stands lower than liquid that nothing parts from it */
     bool ball_dry;   /* whether one of these is such that no liquid is within two cells of it */
 } Survey;

@@ -798,17 +798,19 @@ static void test_a_step_that_is_too_long(void)
     TEST_ASSERT_FLOAT_WITHIN(0.1f, 50.0f, expect(world, PBMPM_ADVICE_STEP_TOO_LONG)->figure);
 }
 
-/* Water and a jelly that meet at 1.5 and at 2.5 cells per substep; sand and water may. */
+/* Water and a jelly that meet at 1.5 and at 2.5 cells per substep; not sand, nor what passes by or is farther than four cells. */
 static void test_what_enters_bodies(void)
 {
     static const struct {
         pbmpm_material_kind other;
-        float cells;
+        float cells, down, high;
         bool told;
-    } cases[] = {{PBMPM_ELASTIC, 2.5f, true}, {PBMPM_ELASTIC, 1.5f, false}, {PBMPM_VISCO, 2.5f, true}, {PBMPM_SAND, 2.5f, false}, {PBMPM_LIQUID, 2.5f, false}};
+    } cases[] = {{PBMPM_ELASTIC, 2.5f, 1, 0.8f, true}, {PBMPM_ELASTIC, 1.5f, 1, 0.8f, false}, {PBMPM_VISCO, 2.5f, 1, 0.8f, true}, {PBMPM_SAND, 2.5f, 1, 0.8f, false},
+                 {PBMPM_LIQUID, 2.5f, 1, 0.8f, false}, {PBMPM_ELASTIC, 2.5f, 0, 0.8f, false}, {PBMPM_ELASTIC, 2.5f, 1, 1.2f, false}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         const pbmpm_world_id world = falling_world(2, 0.1f);
-        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, 1, 0, 0.3f, 0.3f, 1), (const float[3]){0, -cases[i].cells * 0.1f / DT, 0});
+        fill_shape(world, create_material(world, PBMPM_LIQUID), box_shape(0, cases[i].high, 0, 0.3f, 0.3f, 1),
+                   (const float[3]){(1 - cases[i].down) * cases[i].cells * 0.1f / DT, -cases[i].down * cases[i].cells * 0.1f / DT, 0});
         fill_shape(world, create_material(world, cases[i].other), box_shape(0, 0, 0, 0.3f, 0.3f, 1), at_rest);
         if (!cases[i].told) {
             expect_none(world, PBMPM_ADVICE_STEP_TOO_LONG);
