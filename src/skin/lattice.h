@@ -5,7 +5,7 @@
 
 #include "pbmpm/world.h"
 
-enum { BLOCK_AXIS = 8, LATTICE_FIRST = -PBMPM_MAX_CELL };
+enum { BLOCK_AXIS = 8, BLOCK_NEIGHBOURS = 27, LATTICE_FIRST = -PBMPM_MAX_CELL };
 
 static inline int32_t lattice_cells(int subdivision) { return BLOCK_AXIS / subdivision; }
 

@@ -54,10 +54,10 @@ static const float SPRAY_MOST = 1.0f;
 static bool is_spray(const Sites *sites, const Site *site)
 {
     float volume = site->volume;
-    for (int n = 0; n < 27 && volume < SPRAY_MOST; n++) {
+    for (int n = 0; n < BLOCK_NEIGHBOURS && volume < SPRAY_MOST; n++) {
         int32_t place[3];
+        if (n == BLOCK_NEIGHBOURS / 2) continue; /* that is itself */
         grid_neighbour_offset(n, 3, place);
-        if (n == 13) continue; /* that is itself */
         for (int a = 0; a < 3; a++) place[a] += site->place[a];
         const int32_t other = places_find(&sites->site, place);
         if (other != GRID_NOWHERE) volume += sites_at(sites, other)->volume;
