@@ -74,7 +74,8 @@ def studied(tried_out: list[Constant]) -> list[str]:
     base = kept.get("", {}).get("as it is")
     lines = ["| Name | Value | Halved: field tests | hard cases | Doubled: field tests | hard cases |", "|---|---|---|---|---|---|"]
     if base:
-        lines.append(f"| all as they are | | {base['field']['passed']} of {base['field']['of']} | {base['hard']['passed']} of {base['hard']['of']} | | |")
+        counts = [f"{base[suite]['passed']} of {base[suite]['of']}" if suite in base else "-" for suite in ("field", "hard")]
+        lines.append(f"| all as they are | | {' | '.join(counts)} | | |")
     for constant in tried_out:
         own = kept.get(key_of(constant), {})
         cells = [swapped(own.get(change, {}).get(suite)) for change in ("halved", "doubled") for suite in ("field", "hard")]

@@ -14,7 +14,6 @@ from __future__ import annotations
 import argparse
 import json
 import os
-import re
 import subprocess
 import sys
 import time
@@ -28,6 +27,7 @@ ROOT = Path(__file__).resolve().parents[2]
 KEPT = Path(__file__).with_name("plateaus.json")
 FACTORS = {"halved": 0.5, "doubled": 2.0}
 AS_IT_IS = "as it is"
+SUITES = ("field", "hard")
 HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "dual,primal", "--dims", "2", "--processes", "1", "--json")
 
 
@@ -58,52 +58,53 @@ def save(built: Path, folder: Path, number: int) -> str:
     return name
 
 
-def judge(folder: Path, jobs: int) -> None:
+def judge(folder: Path, jobs: int, suites: list[str]) -> None:
+    """Suite by suite, so that a study that is stopped tells the same of all."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
-    todo = [it for it in index if not result_of(folder, it).is_file()]
-    with ThreadPoolExecutor(jobs) as pool:
-        list(pool.map(lambda it: look_at(folder, it), todo))
+    for suite in suites:
+        todo = [it for it in index if not result_of(folder, it, suite).is_file()]
+        with ThreadPoolExecutor(jobs) as pool:
+            list(pool.map(lambda it: look_at(folder, it, suite), todo))
 
 
-def result_of(folder: Path, entry: dict[str, str]) -> Path:
-    return folder / entry["library"].replace(".so", ".json")
+def result_of(folder: Path, entry: dict[str, str], suite: str) -> Path:
+    return folder / entry["library"].replace(".so", f".{suite}.json")
 
 
-def look_at(folder: Path, entry: dict[str, str]) -> None:
-    """What both suites say of one library: by check or run, whether it passed."""
+def look_at(folder: Path, entry: dict[str, str], suite: str) -> None:
+    """What a suite says of one library: by check or run, whether it passed."""
     begin = time.monotonic()
-    environment = os.environ | {"PBMPM_LIBRARY": str((folder / entry["library"]).resolve()), "PBMPM_ISA": "sse4", "OMP_NUM_THREADS": "1"}
-    field_file, hard_file = (result_of(folder, entry).with_suffix(suffix) for suffix in (".field", ".hard"))
-    commands = [[str(ROOT / "tests/field/run.py"), "--settings", "60x5", "--json", str(field_file)], [*HARD_CASES, str(hard_file)]]
-    for command in commands:
-        subprocess.run([sys.executable, *command], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
-    found = {
-        "field": {f"{row['case']}[{row['variant']}] {row['what']}": bool(row["passed"]) for row in json.loads(field_file.read_text(encoding="utf-8"))},
-        "hard": {re.sub(r"\s+", " ", name_of(row)): bool(row["passed"]) for row in json.loads(hard_file.read_text(encoding="utf-8"))["rows"]},
-    }
-    result_of(folder, entry).write_text(json.dumps(entry | found), encoding="utf-8")
-    print(f"{entry['library']} {entry['key']} {entry['change']}: {sum(found['field'].values())} {sum(found['hard'].values())} in {time.monotonic() - begin:.0f} s", flush=True)
+    environment = os.environ | {"PBMPM_LIBRARY": str((folder / entry["library"]).resolve()), "PBMPM_ISA": "sse4"}
+    rows_file = result_of(folder, entry, suite).with_suffix(".rows")
+    command = [str(ROOT / "tests/field/run.py"), "--settings", "60x5", "--json"] if suite == "field" else [*HARD_CASES]
+    subprocess.run([sys.executable, *command, str(rows_file)], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    rows = json.loads(rows_file.read_text(encoding="utf-8"))
+    rows_file.unlink()
+    found = {name_of(row): bool(row["passed"]) for row in (rows if suite == "field" else rows["rows"])}
+    result_of(folder, entry, suite).write_text(json.dumps(found), encoding="utf-8")
+    print(f"{entry['library']} {entry['key']} {entry['change']}, {suite}: {sum(found.values())} of {len(found)} in {time.monotonic() - begin:.0f} s", flush=True)
 
 
 def name_of(row: dict[str, object]) -> str:
-    return " ".join(str(row.get(part, "")) for part in ("case", "variant", "solver", "material", "dims"))
+    return " ".join(str(row[part]) for part in ("case", "variant", "what", "solver", "material", "dims") if part in row)
 
 
 def keep(folder: Path) -> None:
-    """Counts of what passed, and what changed sides against the library as it is."""
-    results = [json.loads(result_of(folder, it).read_text(encoding="utf-8")) for it in json.loads((folder / "index.json").read_text(encoding="utf-8"))]
-    base = results[0]
-    kept: dict[str, dict[str, object]] = {}
-    for result in results:
-        kept.setdefault(result["key"], {})[result["change"]] = {
-            suite: {
-                "passed": sum(result[suite].values()),
-                "of": len(result[suite]),
-                "lost": sorted(name for name, passed in base[suite].items() if passed and not result[suite].get(name, False)),
-                "won": sorted(name for name, passed in base[suite].items() if not passed and result[suite].get(name, False)),
+    """Counts of what passed, and what changed sides against the library as it is, of what was judged so far."""
+    index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
+    kept: dict[str, dict[str, dict[str, object]]] = {}
+    for suite in SUITES:
+        results = [json.loads(it.read_text(encoding="utf-8")) if it.is_file() else None for it in (result_of(folder, entry, suite) for entry in index)]
+        base = results[0] or {}
+        for entry, result in zip(index, results, strict=True):
+            if result is None:
+                continue
+            kept.setdefault(entry["key"], {}).setdefault(entry["change"], {})[suite] = {
+                "passed": sum(result.values()),
+                "of": len(result),
+                "lost": sorted(name for name, passed in base.items() if passed and not result.get(name, False)),
+                "won": sorted(name for name, passed in base.items() if not passed and result.get(name, False)),
             }
-            for suite in ("field", "hard")
-        }
     KEPT.write_text(json.dumps(kept, indent=0) + "\n", encoding="utf-8")
 
 
@@ -112,12 +113,13 @@ def main() -> int:
     arguments.add_argument("part", choices=("build", "judge", "keep"))
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/plateau")
     arguments.add_argument("--jobs", type=int, default=2)
+    arguments.add_argument("--suites", nargs="+", choices=SUITES, default=SUITES)
     options = arguments.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     if options.part == "build":
         build(options.folder)
     elif options.part == "judge":
-        judge(options.folder, options.jobs)
+        judge(options.folder, options.jobs, options.suites)
     else:
         keep(options.folder)
     return 0
