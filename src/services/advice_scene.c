@@ -123,7 +123,7 @@ void advise_collider_too_thin(Adviser *adviser)
         const double cells = thickness_of(collider, world->def.dimension) / cell;
         if (cells >= 1.0 - 1e-5) continue;
         pbmpm_advice advice = {.code = PBMPM_ADVICE_COLLIDER_TOO_THIN, .collider = {c, collider->generation}, .figure = (float)cells, .bound = 1.0f,
-                               .text = "an obstacle is thinner than a cell: matter on one side feels what is on the other"};
+                               .text = "an obstacle is thinner than a cell: water beside it loses its level, and feels what is on the other side"};
         adviser_by_value(PBMPM_CHANGE_COLLIDER, cell, 0.0, &advice);
         adviser_give(adviser, advice);
     }

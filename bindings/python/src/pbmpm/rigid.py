@@ -76,6 +76,8 @@ def _three(name: str, value: Vector, dimension: int) -> list[float]:
 class RigidBody(Bound):
     """An obstacle that moves as matter, gravity and the host push it. `advance()` it before each step of its world.
 
+    Walls of the domain stop it. It passes through other obstacles, rigid bodies too.
+
     Args:
         collider: kinematic, and measures its impulse; any shape but a plane.
         density: [kg/m^3]; its mass properties are those of its shape.
