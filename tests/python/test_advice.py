@@ -202,3 +202,18 @@ def test_a_body_between_walls_that_are_near_on_both_sides_hangs(dimension: int, 
         assert not hangs(world)
         world.fill(pbmpm.Box([0.5 * size[0], 0.2, 0.5 * size[0]][:dimension], [0.5 * size[0], 0.1, 0.5 * size[0]][:dimension]), world.add_material(pbmpm.Liquid()))
         assert hangs(world) is wanted
+
+
+def test_a_longer_run_looks_at_the_same_times(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What came true worst in a short run is at least as bad in a longer one."""
+    looks: list[list[float]] = []
+
+    def note(watch: AdviceWatch) -> None:
+        looks[-1].append(watch._simulation.time)
+
+    monkeypatch.setattr(AdviceWatch, "look", note)
+    for seconds in (0.5, 1.0):
+        looks.append([])
+        run_scene(parse_scene(SCENE), RunSettings(60.0, 1, 3, 1), seconds, OutputOptions())
+    short, long = looks
+    assert len(short) >= 4 and set(short[:-1]) <= set(long) and long[-1] == pytest.approx(1.0)

@@ -23,7 +23,7 @@ def advice_rows(simulation: Simulation, found: list[pbmpm.Advice]) -> list[dict[
 class AdviceWatch:
     """Looks at a run's advice again and again: matter that was crushed on the way may have its volume back in the end."""
 
-    LOOKS = 32  #: in a run
+    LOOKS = 8  #: per simulated second, at the same times however long the run is
     FEW = 0.1  #: of the looks: what came true in fewer, and not in the last, passed by
 
     def __init__(self, simulation: Simulation, first: list[pbmpm.Advice]) -> None:

@@ -114,7 +114,7 @@ def run_scene(
 
 
 def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter, watch: AdviceWatch, interrupt: Interrupt) -> None:
-    shown, every = 0.0, max(1, steps // AdviceWatch.LOOKS)
+    shown, every = 0.0, max(1, round(simulation.settings.rate_hz / AdviceWatch.LOOKS))
     with progress_bar(steps, "step", simulation.scene.name) as bar:
         recorder.after_step(simulation)
         for step in range(steps):
@@ -126,7 +126,7 @@ def _loop(simulation: Simulation, steps: int, recorder: _Recorder, meter: Meter,
             stats = simulation.stats()
             meter.add(stats, now - start, cpu_now - cpu_start)
             recorder.after_step(simulation)
-            if (steps - 1 - step) % every == 0:
+            if (step + 1) % every == 0 or step + 1 == steps:
                 watch.look()
             bar.update()
             if now - shown > _POSTFIX_EVERY_SECONDS and not bar.disable:
