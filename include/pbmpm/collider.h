@@ -17,7 +17,8 @@ enum {
 typedef enum pbmpm_friction {
     PBMPM_FRICTION_COULOMB = 0, /**< tangential impulse up to friction_coefficient times the normal impulse. A liquid's pressure does
                                       not rub; what holds it is its kinematic_viscosity: water slips, honey does not.
-                                      Not the paper's solver: there liquid slips */
+                                      Not the paper's solver and the primal: there
+                                      liquid slips */
     PBMPM_FRICTION_STICK = 1,   /**< matter moves with the surface and cannot leave it; liquid, too */
     PBMPM_FRICTION_SLIP = 2,    /**< no tangential impulse, of viscous liquid neither */
     PBMPM_FRICTION_FORCE32 = 0x7fffffff

@@ -69,7 +69,8 @@ typedef struct pbmpm_material_def {
     float bulk_modulus;         /**< liquid, not the paper's solver: K [Pa] (2D: N/m) of the pressure K (1 - J), in [1e-3, 1e15], or 0
                                      (default): incompressible */
     float kinematic_viscosity;  /**< liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. It does not slip on obstacles and walls, but for
-                                     rigid bodies (rigid.h) and those with PBMPM_FRICTION_SLIP. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+                                     rigid bodies (rigid.h) and those with PBMPM_FRICTION_SLIP; with the primal as with the paper's
+                                     solver it does. The paper's solver adds a share of 8 nu dt / (N dx^2) to
                                      `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt) */
     pbmpm_elastic_model elastic_model; /**< elastic, not the paper's solver; default PBMPM_FIXED_COROTATED */
     float young_modulus;        /**< elastic, not the paper's solver: E [Pa] (2D: plane strain), in [1e-3, 1e15]; default 1e5 */

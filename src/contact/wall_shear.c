@@ -38,11 +38,11 @@ static void hold(void *context, int32_t begin, int32_t end)
         const WallEntry *entry = (const WallEntry *)walls->entry.data + e;
         WallShear *shear = (WallShear *)walls->shear.data + e;
         const WallNode *n = (const WallNode *)walls->node.data + entry->follower;
-        const Four surface = {n->surface[0], n->surface[1], n->surface[2]};
-        const Four relative = mean_of(&apply, entry) - surface;
-        if (!shear->holds) continue;
+        if (shear->face == NORMALS_MAX) continue;
+        const Four relative = mean_of(&apply, entry) - shear->surface; /* E~ u~ + c~0 is what the walls made of it and E (B - 1) (u~ - s) */
+        float *nodes = job->frame->grid->node.data;
         shear->before = load(job->stage->push, n->node);
-        store(surface + times(&entry->matrix, times(&shear->kept, relative)), job->frame->grid->node.data, n->node);
+        store(load(nodes, n->node) + times(&entry->matrix, times(&shear->kept, relative) - relative), nodes, n->node);
     }
 }
 
@@ -52,7 +52,7 @@ static void give(void *context, int32_t begin, int32_t end)
     const Walls *walls = job->walls;
     for (int32_t e = begin; e < end; e++) {
         WallShear *shear = (WallShear *)walls->shear.data + e;
-        if (!shear->holds) continue;
+        if (shear->face == NORMALS_MAX) continue;
         const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
         const Four start = job->stage->last * load(job->stage->push, n->node) + job->stage->before * shear->before; /* the stage moved u_(j-1) to `push` */
         const Four change = load(job->stage->base, n->node) - start, kept = times(&shear->kept, change);
@@ -81,10 +81,10 @@ void wall_shear_book(const Walls *walls, const ContactFrame *frame)
     const WallShear *shear = walls->shear.data;
     const double scale = contacts_momentum_scale(frame);
     for (uint32_t e = 0; e < walls->shears && frame->colliders->measures; e++) {
-        if (!shear[e].holds) continue;
+        if (shear[e].face == NORMALS_MAX) continue;
         const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
         double gained[3];
         for (int a = 0; a < 3; a++) gained[a] = scale * (double)shear[e].given[a];
-        walls_book_face(frame, n, 0, n, gained);
+        walls_book_face(frame, n, shear[e].face, n, gained);
     }
 }

@@ -430,12 +430,12 @@ static void hold_viscous(Builder *b, const Profile *profile, int count, const do
 {
     double factor[NORMALS_MAX], all = 1.0;
     float kept[6] = {0};
-    bool any = false;
-    for (int j = 0; j < count; j++) {
+    int by = NORMALS_MAX;
+    for (int j = count - 1; j >= 0; j--) {
         const bool holds = !sticks && !profile[j].owner->body && profile[j].owner->friction != PBMPM_FRICTION_SLIP;
         factor[j] = holds ? fmax(scale[j], -1.0) : 1.0;
         all *= factor[j];
-        any = any || holds;
+        if (holds) by = j;
     }
     kept[0] = kept[3] = kept[5] = (float)all;
     for (int j = 0; j < count; j++) {
@@ -443,7 +443,9 @@ static void hold_viscous(Builder *b, const Profile *profile, int count, const do
         for (int k = 0; k < count; k++) others *= k != j ? factor[k] : 1.0;
         add_product(kept, others - all, profile[j].axis);
     }
-    ((WallShear *)b->walls->shear.data)[b->walls->shears++] = (WallShear){.kept = symmetric_columns(kept), .holds = any};
+    WallShear *shear = (WallShear *)b->walls->shear.data + b->walls->shears++;
+    *shear = (WallShear){.kept = symmetric_columns(kept), .face = by};
+    for (int a = 0; a < 3 && by < NORMALS_MAX; a++) shear->surface[a] = profile[by].surface[a];
 }
 
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */

@@ -36,7 +36,8 @@ typedef struct WallEntry {
 /* Of an entry, while viscosity acts: see wall_shear.h. */
 typedef struct WallShear {
     Columns kept;             /* B */
-    bool holds;               /* it is not 1 */
+    int face;                 /* of the node: the nearest that holds; NORMALS_MAX: none does, B is 1 */
+    Four surface;             /* that wall's motion */
     Four before;              /* the node's u_(j-2) */
     Four given, given_before; /* by the walls, after the last stage and the one before */
 } WallShear;

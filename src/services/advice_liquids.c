@@ -84,7 +84,7 @@ void advise_pool_stirs(Adviser *adviser)
                                .text = "a pool this deep goes on circling slowly at this rate"};
         double factor = 1.0;
         const double substeps = world->settings.substeps;
-        while (stirring(adviser, slot, factor) > CALM_SPEED && factor * substeps < PBMPM_MAX_SUBSTEPS) factor += 1.0 / substeps;
+        while (stirring(adviser, slot, factor) > CALM_SPEED && factor * substeps <= PBMPM_MAX_SUBSTEPS) factor += 1.0 / substeps;
         adviser_by_substeps(adviser, factor, &advice);
         adviser_give(adviser, advice);
     }

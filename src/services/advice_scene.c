@@ -162,10 +162,12 @@ void advise_enters_bodies(Adviser *adviser)
 
 /* ---- Viscous liquids ---- */
 
-/* Whether a wall holds viscous liquid: see wall_shear.h. The paper's solver knows what sticks alone. */
+/* Whether a wall holds viscous liquid: see wall_shear.h. The paper's solver and the primal, which the convergent one is at one iteration, know what sticks alone. */
 static bool holds_viscous(const World *world, pbmpm_friction friction)
 {
-    return friction == PBMPM_FRICTION_STICK || (friction != PBMPM_FRICTION_SLIP && world->settings.solver != PBMPM_SOLVER_PAPER);
+    const pbmpm_solver solver = world->settings.solver;
+    const bool follows = solver != PBMPM_SOLVER_PAPER && solver != PBMPM_SOLVER_PRIMAL && (solver != PBMPM_SOLVER_CONVERGENT || world->settings.iterations > 1);
+    return friction == PBMPM_FRICTION_STICK || (follows && friction != PBMPM_FRICTION_SLIP);
 }
 
 /* Whether there are walls for matter of these groups, and none of them holds it. */
@@ -194,7 +196,7 @@ void advise_slips(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!adviser_present(world, slot) || def->kind != PBMPM_LIQUID || def->kinematic_viscosity == 0.0f || !all_slip(world, def->groups)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = adviser_id_of(world, slot),
-                                             .text = "a viscous liquid slips on every wall here: PBMPM_FRICTION_COULOMB holds it back, with the paper's solver PBMPM_FRICTION_STICK"});
+                                             .text = "a viscous liquid slips on every wall here: PBMPM_FRICTION_STICK holds it back, and PBMPM_FRICTION_COULOMB with the dual and with two or more iterations of the convergent solver"});
     }
 }
 

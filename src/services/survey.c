@@ -559,12 +559,16 @@ static bool is_ball_below(const World *world, const Cells *cells, const Solid *s
     return false;
 }
 
-static bool is_dry(const World *world, const Cells *cells, const Solid *solid)
+/* Whether no liquid is within two cells of it. `distances`: how many more may be measured; without any it counts as wet. */
+static bool is_dry(const World *world, const Cells *cells, const Solid *solid, uint32_t *distances)
 {
     for (uint32_t i = 0; i < cells->count; i++) {
+        if (cells->share[i].group != 0) continue;
+        if (*distances == 0) return false;
+        (*distances)--;
         double point[3] = {0};
         for (int a = 0; a < world->def.dimension; a++) point[a] = middle_of(world, &cells->share[i], a);
-        if (cells->share[i].group == 0 && solid_gap(solid, point) < 2.0 * (double)world->def.cell_size) return false;
+        if (solid_gap(solid, point) < 2.0 * (double)world->def.cell_size) return false;
     }
     return true;
 }
@@ -574,13 +578,14 @@ static void look_at_balls(const World *world, const Cells *cells, Survey *survey
 {
     enum { LOOKS = 256 };
     int looks = LOOKS;
+    uint32_t distances = 1 << 16;
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];
         if (!world_feels(world, collider) || (collider->def.kinematic && collider->def.measures_impulse)) continue;
         const Solid solid = solid_among(&collider->shape, world->def.dimension, &world->baked);
         if (!is_ball_below(world, cells, &solid, &looks)) continue;
         survey->ball_below = true;
-        survey->ball_dry = survey->ball_dry || is_dry(world, cells, &solid);
+        survey->ball_dry = survey->ball_dry || is_dry(world, cells, &solid, &distances);
     }
 }
 

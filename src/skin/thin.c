@@ -122,7 +122,7 @@ static void thicken_row(const FieldWork *work, SkinBlock *block, uint32_t row, c
 /* Fills a block's box with what its particles give to T. */
 static void thicken_block(const FieldWork *work, SkinBlock *block)
 {
-    FieldSplat splat = {.box = work->boxes + (size_t)block->at * BOX_POINTS, .count = 0};
+    FieldSplat splat = {.box = block->runs > 0 ? work->boxes + (size_t)block->at * BOX_POINTS : NULL, .count = 0};
     block->splatted = cells_none();
     block->spray = 0.0f;
     visit_rows(work, block, thicken_row, &splat);

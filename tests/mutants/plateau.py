@@ -28,6 +28,7 @@ KEPT = Path(__file__).with_name("plateaus.json")
 FACTORS = {"halved": 0.5, "doubled": 2.0}
 AS_IT_IS = "as it is"
 SUITES = ("field", "hard")
+LONGEST = 1800  # [s] of one suite with one library
 HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "dual,primal", "--dims", "2", "--processes", "1", "--json")
 
 
@@ -36,6 +37,8 @@ def build(folder: Path) -> None:
 
     place = Workplace(folder / "work", python=False)
     place.prepare()
+    for old in folder.glob("libpbmpm_*"):
+        old.unlink()
     index = [{"key": "", "change": AS_IT_IS, "library": save(place.build, folder, 0)}]
     for constant in by_trial(constants(place.tree)):
         path = place.tree / constant.file
@@ -77,7 +80,11 @@ def look_at(folder: Path, entry: dict[str, str], suite: str) -> None:
     environment = os.environ | {"PBMPM_LIBRARY": str((folder / entry["library"]).resolve()), "PBMPM_ISA": "sse4"}
     rows_file = result_of(folder, entry, suite).with_suffix(".rows")
     command = [str(ROOT / "tests/field/run.py"), "--settings", "60x5", "--json"] if suite == "field" else [*HARD_CASES]
-    subprocess.run([sys.executable, *command, str(rows_file)], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+    rows_file.write_text("[]" if suite == "field" else '{"rows": []}', encoding="utf-8")  # what is left of a library that crashes or never ends
+    try:
+        subprocess.run([sys.executable, *command, str(rows_file)], env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False, timeout=LONGEST)
+    except subprocess.TimeoutExpired:
+        print(f"{entry['library']} did not end in {LONGEST} s", flush=True)
     rows = json.loads(rows_file.read_text(encoding="utf-8"))
     rows_file.unlink()
     found = {name_of(row): bool(row["passed"]) for row in (rows if suite == "field" else rows["rows"])}

@@ -245,7 +245,8 @@ namespace Pbmpm
     {
         /// <summary>tangential impulse up to friction_coefficient times the normal impulse. A liquid's pressure does
         /// not rub; what holds it is its kinematic_viscosity: water slips, honey does not.
-        /// Not the paper's solver: there liquid slips</summary>
+        /// Not the paper's solver and the primal: there
+        /// liquid slips</summary>
         Coulomb = 0,
         /// <summary>matter moves with the surface and cannot leave it; liquid, too</summary>
         Stick = 1,
@@ -641,7 +642,8 @@ namespace Pbmpm
         /// (default): incompressible</summary>
         public float BulkModulus;
         /// <summary>liquid: nu [m^2/s], in [0, 1e6]; default 0. Honey has about 0.005. It does not slip on obstacles and walls, but for
-        /// rigid bodies (rigid.h) and those with PBMPM_FRICTION_SLIP. The paper's solver adds a share of 8 nu dt / (N dx^2) to
+        /// rigid bodies (rigid.h) and those with PBMPM_FRICTION_SLIP; with the primal as with the paper's
+        /// solver it does. The paper's solver adds a share of 8 nu dt / (N dx^2) to
         /// `viscosity`. Together they are at most 1: nu up to N dx^2 / (8 dt)</summary>
         public float KinematicViscosity;
         /// <summary>elastic, not the paper's solver; default PBMPM_FIXED_COROTATED</summary>

@@ -90,7 +90,8 @@ def annotate(image: Image.Image, frame: Frame, look: Look) -> Image.Image:
     error = float(np.sqrt(np.mean((frame.volume_ratios - 1.0) ** 2))) if len(frame.volume_ratios) else 0.0
     facts = f"{look.settings}   {len(frame.positions)} particles   volume error {100 * error:.1f} % rms"
     legend = _legend(look, small, size)
-    below = max(font.getlength(name), small.getlength(facts)) + legend.width + 2 * size > image.width
+    widest = f"{look.scene.name}   t = 0000.000 s", f"{look.settings}   00000000 particles   volume error 00.0 % rms"  # the same for all pictures of a run
+    below = max(font.getlength(widest[0]), small.getlength(widest[1])) + legend.width + 2 * size > image.width
     strip = int(2.9 * size)
     result = Image.new("RGB", (image.width, image.height + strip + below * legend.height), BACKGROUND)
     result.paste(image, (0, result.height - image.height))
