@@ -12,17 +12,6 @@ typedef struct StageJob {
 
 static Span entries_of(const Walls *walls) { return (Span){(int32_t)walls->shears, GRAIN, (int64_t)walls->shears * WALL_ENTRY_NS}; }
 
-static Four load(const float *array, uint32_t node)
-{
-    const float *u = array + (size_t)node * K_NODE_WIDTH;
-    return (Four){u[0], u[1], u[2], 0.0f};
-}
-
-static void store(Four u, float *array, uint32_t node)
-{
-    for (int a = 0; a < 3; a++) array[(size_t)node * K_NODE_WIDTH + (size_t)a] = u[a];
-}
-
 void wall_shear_begin(const Walls *walls)
 {
     WallShear *shear = walls->shear.data;
@@ -41,8 +30,8 @@ static void hold(void *context, int32_t begin, int32_t end)
         if (shear->face == NORMALS_MAX) continue;
         const Four relative = mean_of(&apply, entry) - shear->surface; /* E~ u~ + c~0 is what the walls made of it and E (B - 1) (u~ - s) */
         float *nodes = job->frame->grid->node.data;
-        shear->before = load(job->stage->push, n->node);
-        store(load(nodes, n->node) + times(&entry->matrix, times(&shear->kept, relative) - relative), nodes, n->node);
+        shear->before = load_node(job->stage->push, n->node);
+        store_node(load_node(nodes, n->node) + times(&entry->matrix, times(&shear->kept, relative) - relative), nodes, n->node);
     }
 }
 
@@ -54,11 +43,11 @@ static void give(void *context, int32_t begin, int32_t end)
         WallShear *shear = (WallShear *)walls->shear.data + e;
         if (shear->face == NORMALS_MAX) continue;
         const WallNode *n = (const WallNode *)walls->node.data + ((const WallEntry *)walls->entry.data)[e].follower;
-        const Four start = job->stage->last * load(job->stage->push, n->node) + job->stage->before * shear->before; /* the stage moved u_(j-1) to `push` */
-        const Four change = load(job->stage->base, n->node) - start, kept = times(&shear->kept, change);
+        const Four start = job->stage->last * load_node(job->stage->push, n->node) + job->stage->before * shear->before; /* the stage moved u_(j-1) to `push` */
+        const Four change = load_node(job->stage->base, n->node) - start, kept = times(&shear->kept, change);
         const Four given = job->stage->last * shear->given + job->stage->before * shear->given_before + n->mass * (kept - change);
-        store(start + kept, job->stage->base, n->node);
-        store(start + kept, job->frame->grid->node.data, n->node);
+        store_node(start + kept, job->stage->base, n->node);
+        store_node(start + kept, job->frame->grid->node.data, n->node);
         shear->given_before = shear->given;
         shear->given = given;
     }

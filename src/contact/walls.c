@@ -41,15 +41,7 @@ bool walls_hold(const Walls *walls, uint32_t node)
 
 /* ---- Making motion admissible ---- */
 
-static float *node_at(const ApplyJob *job, uint32_t node) { return (float *)job->frame->grid->node.data + (size_t)node * K_NODE_WIDTH; }
-
-static Four load(const float *node) { return (Four){node[0], node[1], node[2], node[3]}; }
-
-/* All but the mass. */
-static void store(Four u, float *node)
-{
-    for (int a = 0; a < 3; a++) node[a] = u[a];
-}
+static float *nodes_of(const ApplyJob *job) { return job->frame->grid->node.data; }
 
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
@@ -58,7 +50,7 @@ static void send_back(void *context, int32_t begin, int32_t end)
     const WallMotion *motion = job->walls->motion.data;
     for (int32_t i = begin; i < end; i++) {
         const WallMotion *n = &motion[i];
-        if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load(node_at(job, n->node));
+        if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load_node(nodes_of(job), n->node);
         fold_back(job, (uint32_t)i);
     }
 }
@@ -67,7 +59,7 @@ static void find_free_node(const ApplyJob *job, const WallFree *free)
 {
     const uint32_t i = free->place;
     job->v.free[i] = job->v.moved[i] = times(&free->inverse, folded(job, i, free->link_begin, free->link_moving));
-    store(job->v.free[i], node_at(job, ((const WallMotion *)job->walls->motion.data)[i].node));
+    store_node(job->v.free[i], nodes_of(job), ((const WallMotion *)job->walls->motion.data)[i].node);
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
@@ -106,7 +98,7 @@ static void take_free(void *context, int32_t begin, int32_t end)
     const WallFree *free = job->walls->free.data;
     for (int32_t f = begin; f < end; f++) {
         const uint32_t i = free[f].place;
-        job->v.free[i] = job->v.moved[i] = load(node_at(job, motion[i].node));
+        job->v.free[i] = job->v.moved[i] = load_node(nodes_of(job), motion[i].node);
     }
 }
 
@@ -123,7 +115,7 @@ static void find_moved(void *context, int32_t begin, int32_t end)
         Four u = own_of(job, i, job->v.free[i]) + shift_of(job, n);
         if (n->entry != NO_ENTRY) u += times(&entry[n->entry].matrix, mean_of(job, &entry[n->entry]));
         job->v.moved[i] = u;
-        store(u, node_at(job, n->node));
+        store_node(u, nodes_of(job), n->node);
     }
 }
 
@@ -196,7 +188,7 @@ static void rub(void *context, int32_t begin, int32_t end)
         for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
         if (n->follows) continue; /* find_moved() comes after this */
         job->v.moved[i] = *u;
-        store(*u, node_at(job, n->node));
+        store_node(*u, nodes_of(job), n->node);
     }
 }
 
@@ -308,7 +300,7 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
 /* Adds a weight to a node that is free, from the wall of `at`. */
 static void push_free(const ApplyJob *job, const WallNode *at, const WallNode *to, float weight, const float gravity[3], float *base)
 {
-    float *u = node_at(job, to->node), *from = base + (size_t)to->node * K_NODE_WIDTH;
+    float *u = nodes_of(job) + (size_t)to->node * K_NODE_WIDTH, *from = base + (size_t)to->node * K_NODE_WIDTH;
     double gained[3];
     for (int a = 0; a < 3; a++) {
         const float more = weight * gravity[a] / to->mass;

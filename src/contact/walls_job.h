@@ -9,6 +9,19 @@ typedef struct Vectors {
     Four *momentum, *free, *moved, *back;
 } Vectors;
 
+/* The vector of a node; the fourth float means nothing. */
+static inline Four load_node(const float *nodes, uint32_t node)
+{
+    const float *u = nodes + (size_t)node * K_NODE_WIDTH;
+    return (Four){u[0], u[1], u[2], u[3]};
+}
+
+/* All but the mass. */
+static inline void store_node(Four u, float *nodes, uint32_t node)
+{
+    for (size_t a = 0; a < 3; a++) nodes[(size_t)node * K_NODE_WIDTH + a] = u[a];
+}
+
 static inline Vectors vectors_of(const Walls *walls)
 {
     Four *first = walls->vector.data;
