@@ -11,6 +11,7 @@
  * they gain: eddy_damping.h. */
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include "contact/contact_constraints.h"
 #include "solvers/eddy_damping.h"
@@ -102,7 +103,7 @@ static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *
 {
     static const float EXPLAINED = 0.5f, LOOSE_NODE = 0.9f; /* of the way; m / (m + k) */
     const float *inverse = p->world->primal.inverse.data;
-    (void)sum;
+    memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
     if (!primal_body_of(p, block)->with_liquid) return;
     for (size_t i = begin; i < end; i += W) {
         const float mass = p->base[i + 3];
@@ -115,14 +116,58 @@ static void let_fly(Primal *p, int32_t block, size_t begin, size_t end, double *
             away2 += away * away;
         }
         if (!(force2 <= EXPLAINED * EXPLAINED * away2 && away2 < FLT_MAX)) continue; /* finite, too */
-        for (size_t c = 0; c < 3; c++) p->best[i + c] = p->base[i + c] - force[c] / mass;
+        for (size_t c = 0; c < 3; c++) p->node[i + c] = p->base[i + c] - force[c] / mass;
+        sum[0] += 1.0;
     }
-    constraints_project(p->contacts, p->best, block, block + 1);
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
+/* The energy of a block at p->node beside that at p->best, without friction: liquids have none. */
+static void sum_rise(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    const float *now = (const float *)p->world->primal.block_energy.data + K_ENERGIES * block, *then = (const float *)p->world->primal.accepted_energy.data + K_ENERGIES * block;
+    for (size_t i = begin; i < end; i += W)
+        for (size_t c = i; c < i + 3; c++) {
+            const double flown = (double)p->node[c] - (double)p->base[c], led = (double)p->best[c] - (double)p->base[c];
+            sum[0] += 0.5 * (double)p->base[i + 3] * (flown - led) * (flown + led);
+        }
+    if (block >= p->world->grid.particle_blocks) return;
+    sum[0] += (double)now[0] - (double)then[0] + (double)now[1] - (double)then[1] + (double)now[4] - (double)then[4];
+}
+
+/* Whether a body has more energy than where the search led. */
+static bool find_risen(Primal *p)
+{
+    const double *sums = p->world->primal.sums.data;
+    bool any = false;
+    primal_over_blocks(p, sum_rise);
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) ((BodySum *)p->world->primal.body_sums.data)[i].rise = 0.0;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->rise += sums[(size_t)block * SUMS];
+    for (int32_t i = 0; i < p->world->primal.bodies.count; i++) any = any || ((BodySum *)p->world->primal.body_sums.data)[i].rise > 0.0;
+    return any;
+}
+
+static void stay(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)sum;
+    if (primal_body_of(p, block)->rise > 0.0) memcpy(p->node + begin, p->best + begin, (end - begin) * sizeof *p->node);
+}
+
+/* Nodes that fly all at once are a step of descent that may be too long: drops met behind a wall that was hit, and were crushed to 0.4 of their volume. Their energy came
+ * back in the next substep. A body whose energy rises stays where the search led. */
 void primal_let_fly(Primal *p)
 {
-    if (solver_holds_liquid(p->world)) primal_over_blocks(p, let_fly);
+    if (!solver_holds_liquid(p->world)) return;
+    primal_over_blocks(p, let_fly);
+    if (p->total[0] == 0.0) return;
+    primal_evaluate(p);
+    p->world->record.iterations_used++;
+    if (find_risen(p)) {
+        primal_over_blocks(p, stay);
+        primal_evaluate(p);
+        p->world->record.iterations_used++;
+    }
+    primal_accept(p, false);
 }
 
 /* The joint solver's liquids: what they gain is taken from their eddies, as the dual's. Particles keep their velocities. */

@@ -22,6 +22,7 @@ typedef struct BodySum {
     double elastic;           /* energy of the elastic particles */
     double pressed, pressed_rest; /* energy of the joint solver's liquid, and at D = 0 */
     double kinetic, moved[3]; /* of the solution: energy, and momentum */
+    double rise;              /* of its energy, where its loose nodes fly: see primal_let_fly() */
     bool with_liquid, touches, failed;
     bool unsound;             /* failed at first */
     bool leans;               /* on an obstacle */
