@@ -50,7 +50,7 @@ typedef int32 int32_t;
 #define K_LIQUID_RATIO_MIN 0.05f /* a liquid particle's J stays above this */
 #define K_LIQUID_RATIO_MAX 1.2f  /* and below this: spray that comes back shall not pull the pool together */
 
-#define K_HEADS 3.0f /* crushed liquid grows with the pressure of so many times its weight, see src/solvers/paper.c */
+#define K_HEADS 3.0f /* crushed liquid moves as so many times its weight drives it, see growth_head2() in src/solvers/paper.c; by trial: with 4 it leaves H16 too fast */
 
 #define K_INCREMENT_MAX 1e4f /* larger displacements [cells] and gradients are senseless, and their sums could overflow */
 
