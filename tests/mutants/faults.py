@@ -183,7 +183,7 @@ _NAMED = re.compile(rf"\b([A-Z][A-Z0-9_]+) = ({_VALUE}(?: [*/+-] {_VALUE})*)(?=[
 _DEFINED = re.compile(rf"^#define ([A-Z][A-Z0-9_]+) ({_VALUE})(?=\s|$)")
 _COUNTED = re.compile(r"\b([A-Z_]*(?:ROUNDS|STEPS|EVALUATIONS|HALVINGS|MEMORY|STAGES|LEVELS|SAMPLES|BINS)[A-Z_]*) = (\d+)(?=[, ])")
 #: Of mathematics, of number formats, and marks: nothing that could be chosen otherwise.
-_GIVEN = re.compile(r"PI|TURN|LN2_|HALF_PI_|UNKNOWN|NONE|NOTHING|GUESS_KEEPS_ALL|^K_|MAX_ISA")
+_GIVEN = re.compile(r"PI|TURN|LN2_|HALF_PI_|UNKNOWN|NONE|NOTHING|GUESS_KEEPS_ALL|MAX_ISA")
 
 
 @dataclass(frozen=True)
@@ -253,7 +253,7 @@ def _above(lines: list[str], place: int) -> str:
 
 def constants(root: Path) -> list[Constant]:
     """All of the library's, in the order of their files."""
-    files = sorted(str(path.relative_to(root)) for pattern in ("src/**/*.[ch]", "ispc/*.isph") for path in root.glob(pattern))
+    files = sorted(str(path.relative_to(root)) for pattern in ("src/**/*.[ch]", "ispc/*.h", "ispc/*.isph") for path in root.glob(pattern))
     return [constant for file in files for constant in constants_of(root, file)]
 
 
