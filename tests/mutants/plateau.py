@@ -29,7 +29,7 @@ FACTORS = {"halved": 0.5, "doubled": 2.0}
 AS_IT_IS = "as it is"
 SUITES = ("field", "hard")
 LONGEST = 1800  # [s] of one suite with one library
-HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "dual,primal", "--dims", "2", "--processes", "1", "--json")
+HARD_CASES = ("-m", "pbmpm", "stability", "--quick", "--solvers", "paper,dual,primal", "--dims", "2", "--processes", "1", "--json")
 
 
 def build(folder: Path) -> None:
