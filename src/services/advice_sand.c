@@ -129,6 +129,6 @@ void advise_no_friction(Adviser *adviser)
         if (!adviser_present(world, slot) || world->materials.def[slot].kind != PBMPM_SAND || floor->friction != PBMPM_FRICTION_COULOMB) continue;
         if ((double)floor->friction_coefficient >= LITTLE || !reaches_domain(world, slot)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = adviser_id_of(world, slot), .figure = floor->friction_coefficient, .bound = (float)LITTLE,
-                                             .text = "sand makes no heap on the domain's floor, which has no friction: give it some by domain_friction"});
+                                             .text = "sand makes no heap on the domain's floor, which has no friction: give the domain some"});
     }
 }

@@ -13,7 +13,7 @@ void advise_no_gravity(Adviser *adviser)
     for (uint32_t i = 0; i < world->forces.used; i++)
         forced = forced || (world->forces.slot[i].generation != 0 && world->forces.slot[i].def.kind == PBMPM_FORCE_UNIFORM);
     if (gravity_strength(world) > 0.0 || forced) return;
-    pbmpm_advice advice = {.code = PBMPM_ADVICE_NO_GRAVITY, .text = "nothing falls: settings.gravity is 0, which is its default"};
+    pbmpm_advice advice = {.code = PBMPM_ADVICE_NO_GRAVITY, .text = "nothing falls: gravity is 0, which is its default"};
     adviser_by_value(PBMPM_CHANGE_GRAVITY, 9.81, 0.0, &advice);
     adviser_give(adviser, advice);
 }
@@ -196,7 +196,7 @@ void advise_slips(Adviser *adviser)
         const pbmpm_material_def *def = &world->materials.def[slot];
         if (!adviser_present(world, slot) || def->kind != PBMPM_LIQUID || def->kinematic_viscosity == 0.0f || !all_slip(world, def->groups)) continue;
         adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_NO_FRICTION, .material = adviser_id_of(world, slot),
-                                             .text = "a viscous liquid slips on every wall here: PBMPM_FRICTION_STICK holds it back, and PBMPM_FRICTION_COULOMB with the dual and with two or more iterations of the convergent solver"});
+                                             .text = "a viscous liquid slips on every wall here: walls that stick hold it; with the dual, and with two or more iterations of the convergent solver, those with Coulomb friction do, too"});
     }
 }
 
