@@ -11,6 +11,14 @@ from tqdm import tqdm
 LINES_EVERY = 10.0
 """[s] between lines; what is done sooner prints none."""
 
+_shown = True
+
+
+def show_no_progress() -> None:
+    """From now on: for a process whose runs are a part of what another one shows."""
+    global _shown
+    _shown = False
+
 
 def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
     """A tqdm bar with rate and time left, as far as the total is known."""
@@ -26,6 +34,7 @@ def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
         file=sys.stderr if bar else _Lines(sys.stderr),
         mininterval=0.2,
         leave=False,
+        disable=not _shown,
     )
 
 

@@ -1,0 +1,80 @@
+"""Runs on the workers of a Dask cluster. Each worker gives them to processes of its own, as this machine does, so that a crash of
+a run ends no worker; Dask runs again what was on a worker that is lost."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from concurrent.futures import CancelledError
+from typing import Any
+
+from ..errors import InputError
+from ..machine import cpu_model
+from .attempt import Children, Lost, Terms
+from .facts import own_facts
+
+ANSWER_SECONDS = 15
+"""In which a scheduler has to answer, and the first worker to be there."""
+
+
+class Cluster:
+    """The workers of a scheduler. Use it as a context manager."""
+
+    def __init__(self, address: str) -> None:
+        """InputError where Dask is missing, nobody answers or there is no worker."""
+        try:
+            import distributed
+        except ImportError:
+            raise InputError("--scheduler needs Dask: pip install 'pbmpm[cluster]'") from None
+        self._dask = distributed
+        try:
+            self._client = distributed.Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
+        except (OSError, ValueError) as problem:
+            raise InputError(f"no Dask scheduler answers at {address}: {problem}") from None
+        self._address = address
+        try:
+            self._client.wait_for_workers(1, timeout=ANSWER_SECONDS)
+        except TimeoutError:
+            self._client.close()
+            raise InputError(f"the scheduler at {address} has no worker") from None
+
+    def __enter__(self) -> Cluster:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._client.close()
+
+    def facts(self, timed: bool) -> dict[str, str]:
+        """What all workers must have: what this process has. Where times count also the CPU of one of them, which may be
+        another than here."""
+        facts = {name: fact for name, fact in own_facts().items() if name != "CPU"}
+        return {**facts, "CPU": self._result(self._client.submit(cpu_model, pure=False))} if timed else facts
+
+    def carry_out(
+        self, work: Callable[[Any], Any], items: Sequence[Any], told: Callable[[int, Any], None], order: Sequence[int], terms: Terms
+    ) -> None:
+        """Tells the index and the result of each item as they come; those first in the order begin first."""
+        futures = {
+            self._client.submit(_attempt, work, items[index], terms, pure=False, priority=-place): index
+            for place, index in enumerate(order)
+        }
+        for future in self._dask.as_completed(list(futures), loop=self._client.loop):
+            told(futures.pop(future), self._result(future))
+            future.release()
+
+    def _result(self, future: Any) -> Any:
+        try:
+            return future.result()
+        except self._dask.KilledWorker as problem:
+            return Lost(f"each worker that tried it was lost: {problem}")
+        except CancelledError:
+            raise InputError(f"the scheduler at {self._address} is gone") from None
+        except (ImportError, AttributeError) as problem:
+            raise InputError(f"a worker has no pbmpm of this version: {problem}") from None
+
+
+_children = Children()
+"""Of a worker of the cluster."""
+
+
+def _attempt(work: Callable[[Any], Any], item: Any, terms: Terms) -> Any:
+    return _children.attempt(work, item, terms)
