@@ -20,8 +20,8 @@ def show_no_progress() -> None:
     _shown = False
 
 
-def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
-    """A tqdm bar with rate and time left, as far as the total is known."""
+def progress_bar(total: float | None, unit: str, label: str, shown: bool = True) -> tqdm:
+    """A tqdm bar with rate and time left, as far as the total is known; one that is not shown does nothing."""
     bar = sys.stderr.isatty()
     end = "[{rate_fmt}, {remaining} left{postfix}]" if total is not None else "[{elapsed}{postfix}]"
     done = "{n:.3g}/{total:.3g} {unit}" if total is not None else "{n:.3g} {unit}"
@@ -34,7 +34,7 @@ def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
         file=sys.stderr if bar else _Lines(sys.stderr),
         mininterval=0.2,
         leave=False,
-        disable=not _shown,
+        disable=not (shown and _shown),
     )
 
 

@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import os
 import socket
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from ..errors import InputError
+LOOK_AGAIN_SECONDS = 0.05
+
 
 
 @contextmanager
 def own_core() -> Iterator[None]:
-    """Keeps the calling thread on a core that no other timed run of this machine has; InputError when none is left. Does nothing
+    """Keeps the calling thread on a core that no other timed run of this machine has, and waits until there is one. Does nothing
     where the system binds no thread to a core: there the number of processes is all that keeps them apart."""
     if not hasattr(os, "sched_setaffinity"):
         yield
@@ -30,16 +32,18 @@ def own_core() -> Iterator[None]:
 
 def _take(allowed: set[int]) -> tuple[int, socket.socket]:
     """A processor, and what is to be closed when it is no longer needed."""
-    for processor in _one_of_each_core(allowed):
-        # A name that only one socket can have, and that is free again when its process ends, however it ends.
-        hold = socket.socket(socket.AF_UNIX)
-        try:
-            hold.bind(f"\0pbmpm-core-{processor}")
-        except OSError:
-            hold.close()
-        else:
-            return processor, hold
-    raise InputError(f"{socket.gethostname()}: each core has a timed run already; use fewer processes or workers there")
+    processors = _one_of_each_core(allowed)
+    while True:
+        for processor in processors:
+            # A name that only one socket can have, and that is free again when its process ends, however it ends.
+            hold = socket.socket(socket.AF_UNIX)
+            try:
+                hold.bind(f"\0pbmpm-core-{processor}")
+            except OSError:
+                hold.close()
+            else:
+                return processor, hold
+        time.sleep(LOOK_AGAIN_SECONDS)
 
 
 def _one_of_each_core(processors: set[int]) -> list[int]:
