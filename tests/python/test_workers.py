@@ -19,11 +19,17 @@ import errands
 import pytest
 
 from pbmpm.lab.accuracy.registry import all_cases
+from pbmpm.lab.accuracy.sweep import Choice
+from pbmpm.lab.accuracy.task import Task, measure_case
 from pbmpm.lab.errors import InputError
+from pbmpm.lab.files import json_text
+from pbmpm.lab.loading import load_scene
 from pbmpm.lab.stability.cases import find_case
 from pbmpm.lab.stability.plan import Run, Selection, plan
 from pbmpm.lab.stability.result import row_of
 from pbmpm.lab.stability.sweep import sweep
+from pbmpm.lab.tune.report import text_of
+from pbmpm.lab.tune.sweep import Plan, measure_family, tune
 from pbmpm.lab.workers import cores
 from pbmpm.lab.workers.attempt import Children, Lost, Terms
 from pbmpm.lab.workers.child import Child, ChildDied
@@ -207,27 +213,48 @@ def test_without_dask_the_command_says_what_to_install(monkeypatch: pytest.Monke
         Workers(scheduler="tcp://localhost:1").carry_out(errands.double, [1], print)
 
 
-TIMES = {"ms_per_simulated_second", "ms_median", "ms_p99", "interruptions", "seconds"}
+def without(names: set[str], rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """Rows without what differs from run to run."""
+    return [{name: value for name, value in row.items() if name not in names} for row in rows]
 
 
-def rows(path: Path) -> list[dict[str, Any]]:
-    """Of a report, without what differs from run to run."""
-    return [{name: value for name, value in row.items() if name not in TIMES} for row in json.loads(path.read_text())["rows"]]
+def test_rows_of_accuracy_from_two_processes_are_those_of_one(tmp_path: Path) -> None:
+    names, file = ("taylor-green", "couette"), tmp_path / "rows.json"
+    options = ("--solvers", "dual", "--rates", 30, "--iterations", 2, "--cells", 8, "--no-converged", "--json", file)
+    assert command("accuracy", *names, *options, "--processes", 2).returncode == 0
+    choice = Choice(variants=["dual"], rates=[30.0], iterations=[2], cells=[8])
+    serial = [row for name in names for row in measure_case(Task(name, choice, 1.0, False)).rows]
+    times = {"ms_per_simulated_second"}
+    assert without(times, json.loads(file.read_text())["rows"]) == without(times, json.loads(json_text(serial)))
 
 
-@pytest.mark.parametrize(
-    "options",
-    [
-        ("accuracy", "taylor-green", "couette", "--solvers", "dual", "--rates", 30, "--iterations", 2, "--cells", 8),
-        ("tune", SCENE, "--seconds", 0.02, "--budget-ms", 1e5, "--threads", 1, "--reference-iterations", 5),
-    ],
-    ids=["accuracy", "tune"],
-)
-def test_rows_of_two_processes_are_those_of_one(tmp_path: Path, options: tuple[object, ...]) -> None:
-    for processes in (1, 2):
-        done = command(*options, "--processes", processes, "--json", f"{processes}.json", folder=tmp_path)
-        assert done.returncode == 0, done.stderr
-    assert rows(tmp_path / "1.json") == rows(tmp_path / "2.json") != []
+def test_rows_of_tune_from_two_processes_are_those_of_one() -> None:
+    scene = load_scene(SCENE)
+    asked = Plan(seconds=0.02, frame_rate=60.0, budget_ms=1e5, threads=1, percentile=50.0, reference_iterations=5)
+    alone, together = (tune(scene, asked, Workers(count, timed=True)) for count in (1, 2))
+    times = {"ms_median", "ms_p99", "interruptions"}
+    rows = [without(times, [result.as_dict() for result in tuning.results]) for tuning in (alone, together)]
+    assert rows[0] == rows[1] and len(rows[0]) > 50 and together.reference.observation.machine["cpu"] == own_facts()["CPU"]
+
+
+def test_settings_whose_process_died_are_failed_rows_of_tune(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The second half of what is to be done: the families, after the reference."""
+    original = Workers.carry_out
+
+    def dying(self: Workers, work: Any, items: Any, told: Any, order: Any = None) -> None:
+        if work is not measure_family:
+            original(self, work, items, told, order)
+            return
+        for index in range(len(items)):
+            told(index, Lost("the process died"))
+
+    monkeypatch.setattr(Workers, "carry_out", dying)
+    scene = load_scene(SCENE)
+    asked = Plan(seconds=0.02, frame_rate=60.0, budget_ms=4.0, threads=1, percentile=50.0, reference_substeps=2, reference_iterations=1)
+    found = tune(scene, asked, Workers())
+    assert found.results and found.skipped == 0 and found.cheapest() is None
+    assert all(result.reasons == ("the process died",) and not result.usable for result in found.results)
+    assert "the process died" in text_of(found, {}, {})
 
 
 class DaskCluster:

@@ -3,6 +3,7 @@ a run ends no worker; Dask runs again what was on a worker that is lost."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError
 from typing import Any
@@ -26,6 +27,7 @@ class Cluster:
         except ImportError:
             raise InputError("--scheduler needs Dask: pip install 'pbmpm[cluster]'") from None
         self._dask = distributed
+        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is said by exceptions
         try:
             self._client = distributed.Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
         except (OSError, ValueError) as problem:
@@ -33,7 +35,7 @@ class Cluster:
         self._address = address
         try:
             self._client.wait_for_workers(1, timeout=ANSWER_SECONDS)
-        except TimeoutError:
+        except distributed.TimeoutError:
             self._client.close()
             raise InputError(f"the scheduler at {address} has no worker") from None
 
