@@ -7,7 +7,6 @@ import itertools
 import json
 import os
 import signal
-import socket
 import subprocess
 import sys
 import time
@@ -17,6 +16,7 @@ from typing import Any
 
 import errands
 import pytest
+from dask_cluster import DaskCluster
 
 from pbmpm.lab.accuracy.registry import all_cases
 from pbmpm.lab.accuracy.sweep import Choice
@@ -257,40 +257,6 @@ def test_settings_whose_process_died_are_failed_rows_of_tune(monkeypatch: pytest
     assert "the process died" in text_of(found, {}, {})
 
 
-class DaskCluster:
-    """A scheduler and two workers, each a process of this machine."""
-
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
-        self._processes: list[subprocess.Popen[bytes]] = []
-        with socket.socket() as free:
-            free.bind(("127.0.0.1", 0))
-            port = free.getsockname()[1]
-        self.address = f"tcp://127.0.0.1:{port}"
-        self._start("dask_scheduler", "--host", "127.0.0.1", "--port", port)
-        self.workers = [self.add_worker(), self.add_worker()]
-
-    @property
-    def working(self) -> int:
-        """How many workers there are."""
-        return sum(worker.poll() is None for worker in self.workers)
-
-    def add_worker(self) -> subprocess.Popen[bytes]:
-        """Without a nanny: one process, which nobody starts again."""
-        return self._start("dask_worker", self.address, "--nthreads", 1, "--no-nanny", "--local-directory", self._folder)
-
-    def _start(self, module: str, *options: object) -> subprocess.Popen[bytes]:
-        line = [sys.executable, "-m", f"distributed.cli.{module}", *map(str, options), "--no-dashboard"]
-        with (self._folder / f"{len(self._processes)}.log").open("wb") as log:
-            self._processes.append(subprocess.Popen(line, stdout=log, stderr=log))
-        return self._processes[-1]
-
-    def end(self) -> None:
-        for process in self._processes:
-            process.kill()
-            process.wait()
-
-
 @pytest.fixture(scope="module")
 def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[DaskCluster]:
     with pytest.MonkeyPatch.context() as environment:
@@ -334,15 +300,15 @@ def small_map() -> list[Run]:
 def test_a_worker_that_is_killed_half_way_costs_no_row(cluster: DaskCluster) -> None:
     """Each run that it had is run again by the other one, and the rows are those of the serial run. The last test: it leaves one
     worker."""
-    runs, told = small_map(), 0
+    runs, told, working = small_map(), 0, cluster.working
 
     def kill_half_way(_: object) -> None:
         nonlocal told
         told += 1
         if told == len(runs) // 2:
-            cluster.workers[0].kill()
+            cluster.kill_one()
 
     found = [row_of(outcome) for outcome in sweep(runs, Workers(scheduler=cluster.address), kill_half_way)]
     serial = [row_of(outcome) for outcome in sweep(runs, Workers())]
-    assert cluster.workers[0].poll() is not None and told == len(runs) >= 20
+    assert cluster.working == working - 1 and told == len(runs) >= 20
     assert [{**row, "seconds": 0} for row in found] == [{**row, "seconds": 0} for row in serial]

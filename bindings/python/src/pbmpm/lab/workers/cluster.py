@@ -3,7 +3,9 @@ a run ends no worker; Dask runs again what was on a worker that is lost."""
 
 from __future__ import annotations
 
+import importlib
 import logging
+import time
 from collections.abc import Callable, Sequence
 from concurrent.futures import CancelledError
 from typing import Any
@@ -13,8 +15,9 @@ from ..machine import cpu_model
 from .attempt import Children, Lost, Terms
 from .facts import own_facts
 
-ANSWER_SECONDS = 15
-"""In which a scheduler has to answer, and the first worker to be there."""
+ANSWER_SECONDS = 30
+"""In which a scheduler has to answer, and a worker to be there."""
+LOOK_SECONDS = 0.05
 
 
 class Cluster:
@@ -26,18 +29,32 @@ class Cluster:
             import distributed
         except ImportError:
             raise InputError("--scheduler needs Dask: pip install 'pbmpm[cluster]'") from None
-        self._dask = distributed
+        self._dask, self._address = distributed, address
         logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters of it is said by exceptions
         try:
             self._client = distributed.Client(address, timeout=ANSWER_SECONDS, set_as_default=False)
         except (OSError, ValueError) as problem:
             raise InputError(f"no Dask scheduler answers at {address}: {problem}") from None
-        self._address = address
+        try:
+            self._need_worker()
+            self._need_package()
+        except BaseException:
+            self._client.close()
+            raise
+
+    def _need_worker(self) -> None:
         try:
             self._client.wait_for_workers(1, timeout=ANSWER_SECONDS)
-        except distributed.TimeoutError:
-            self._client.close()
-            raise InputError(f"the scheduler at {address} has no worker") from None
+        except self._dask.TimeoutError:
+            raise InputError(f"the scheduler at {self._address} has no worker") from None
+
+    def _need_package(self) -> None:
+        """Dask would only say that it cannot read what it is sent."""
+        try:
+            self._client.run_on_scheduler(importlib.import_module, __name__)
+            self._client.run(importlib.import_module, __name__)
+        except ImportError as problem:
+            raise InputError(f"the scheduler or a worker has not this pbmpm: {problem}") from None
 
     def __enter__(self) -> Cluster:
         return self
@@ -59,9 +76,21 @@ class Cluster:
             self._client.submit(_attempt, work, items[index], terms, pure=False, priority=-place): index
             for place, index in enumerate(order)
         }
-        for future in self._dask.as_completed(list(futures), loop=self._client.loop):
-            told(futures.pop(future), self._result(future))
-            future.release()
+        done = self._dask.as_completed(list(futures), loop=self._client.loop)
+        while futures:
+            self._wait(done)
+            for future in done.next_batch(block=False):
+                told(futures.pop(future), self._result(future))
+                future.release()
+
+    def _wait(self, done: Any) -> None:
+        """Until a run is done; InputError when no worker is left."""
+        looked = time.monotonic()
+        while not done.has_ready():
+            time.sleep(LOOK_SECONDS)
+            if time.monotonic() - looked > ANSWER_SECONDS:
+                self._need_worker()
+                looked = time.monotonic()
 
     def _result(self, future: Any) -> Any:
         try:
@@ -70,8 +99,6 @@ class Cluster:
             return Lost(f"each worker that tried it was lost: {problem}")
         except CancelledError:
             raise InputError(f"the scheduler at {self._address} is gone") from None
-        except (ImportError, AttributeError) as problem:
-            raise InputError(f"a worker has no pbmpm of this version: {problem}") from None
 
 
 _children = Children()
