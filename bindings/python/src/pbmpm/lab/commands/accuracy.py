@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import sys
-from contextlib import nullcontext
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import InputError
-from ..progress import progress_bar
 from .options import (
     EXIT_CHECK_FAILED,
     JSON_HELP,
@@ -100,9 +98,9 @@ def accuracy(
 
     Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers, on
     each grid on which the case compares them; what is not given is as each case has it. Exit code 1 when a setting is not
-    stable; it stays in all tables and charts, marked. A case is measured on one core from beginning to end. Costs are processor time with one thread, else wall time. At the end
-    the verdict: how many times cheaper the dual and primal solvers are than the paper's and the explicit one at equal
-    error, grid by grid.
+    stable; it stays in all tables and charts, marked. One worker measures all of a case. Costs are processor time with one
+    thread, else wall time. At the end the verdict: how many times cheaper the dual and primal solvers are than the paper's and
+    the explicit one at equal error, grid by grid.
     """
     from ..accuracy.registry import find_cases
     from ..accuracy.parts import merged
@@ -133,6 +131,7 @@ def _measured(
     from ..accuracy.parts import begun, together
     from ..accuracy.sweep import report_of
     from ..accuracy.task import measure_case
+    from ..progress import progress_bar
     from ..workers.attempt import Lost
 
     resume = options.pop("resume")
