@@ -14,7 +14,7 @@ import pytest
 
 BINDING = {"_cffi_backend", "numpy"}
 """What ``import pbmpm`` may take from outside of the standard library."""
-COSTLY = {"click", "jinja2", "matplotlib", "meshio", "PIL", "plotly", "plyfile", "pydantic", "scipy", "tqdm", "trimesh"}
+COSTLY = {"click", "dask", "distributed", "jinja2", "matplotlib", "meshio", "PIL", "plotly", "plyfile", "pydantic", "scipy", "tqdm", "trimesh"}
 
 
 def modules(package: Path) -> dict[str, Path]:

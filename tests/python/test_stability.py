@@ -27,6 +27,7 @@ from pbmpm.lab.stability.plan import ITERATIONS, RATES, Run, Selection, cases_na
 from pbmpm.lab.stability.result import counts, lines_of, row_of
 from pbmpm.lab.stability.sweep import run_one, sweep
 from pbmpm.lab.stability.table import cells_text, goals_text, map_text, summary
+from pbmpm.lab.workers.workers import Workers
 
 from progress_lines import without_progress
 
@@ -283,7 +284,7 @@ def test_sweep_keeps_the_order_of_the_runs_with_one_process_and_with_two() -> No
     runs = plan(
         Selection(cases=(find_case("H10"),), rates=(60.0,), iterations=(1,), solvers=("paper",), dimensions=(2,))
     )
-    alone, together = sweep(runs, 1), sweep(runs, 2)
+    alone, together = sweep(runs, Workers()), sweep(runs, Workers(2))
     assert [item.setting for item in alone] == [item.setting for item in together] == [run.setting for run in runs]
     assert [item.figure for item in alone] == [item.figure for item in together]
 
@@ -298,32 +299,6 @@ def test_an_error_of_the_library_is_a_failure(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(sweeping, "find_case", lambda _: broken)
     result = run_one(Run("H04", Setting("liquid", 2, "point", 60.0, 5)))
     assert not result.passed and "OutOfMemoryError: no room" in result.telling.name
-
-
-def test_a_process_that_dies_is_a_failure_and_takes_nothing_with_it(tmp_path: Path) -> None:
-    """Runs in a script of its own: its cases must be found by processes that are started anew."""
-    script = tmp_path / "dying.py"
-    script.write_text(
-        "import os\n"
-        "from pbmpm.lab.stability.cases import Setting\n"
-        "from pbmpm.lab.stability import sweep\n"
-        "from pbmpm.lab.stability.plan import Run\n"
-        "original = sweep.run_one\n"
-        "def run_one(run):\n"
-        "    if run.setting.variant == 'line':\n"
-        "        os._exit(9)\n"
-        "    return original(run)\n"
-        "sweep.run_one = run_one\n"
-        "if __name__ == '__main__':\n"
-        "    runs = [Run('H04', Setting('liquid', 2, v, 60.0, 5)) for v in ('point', 'line', 'one cell')]\n"
-        "    for outcome in sweep.sweep(runs, 2):\n"
-        "        print(outcome.setting.variant, outcome.passed, outcome.telling.name)\n",
-        encoding="utf-8",
-    )
-    done = subprocess.run([sys.executable, str(script)], capture_output=True, text=True, timeout=300, check=False)
-    lines = done.stdout.splitlines()
-    assert lines[1] == "line False the process died", done.stderr
-    assert lines[0].startswith("point True") and lines[2].startswith("one cell True")
 
 
 @pytest.mark.parametrize("figure", [0.3, math.nan])

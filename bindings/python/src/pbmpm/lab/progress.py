@@ -11,9 +11,17 @@ from tqdm import tqdm
 LINES_EVERY = 10.0
 """[s] between lines; what is done sooner prints none."""
 
+_shown = True
 
-def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
-    """A tqdm bar with rate and time left, as far as the total is known."""
+
+def show_no_progress() -> None:
+    """From now on: for a process whose runs are a part of what another one shows."""
+    global _shown
+    _shown = False
+
+
+def progress_bar(total: float | None, unit: str, label: str, shown: bool = True) -> tqdm:
+    """A tqdm bar with rate and time left, as far as the total is known; one that is not shown does nothing."""
     bar = sys.stderr.isatty()
     end = "[{rate_fmt}, {remaining} left{postfix}]" if total is not None else "[{elapsed}{postfix}]"
     done = "{n:.3g}/{total:.3g} {unit}" if total is not None else "{n:.3g} {unit}"
@@ -26,6 +34,7 @@ def progress_bar(total: float | None, unit: str, label: str) -> tqdm:
         file=sys.stderr if bar else _Lines(sys.stderr),
         mininterval=0.2,
         leave=False,
+        disable=not (shown and _shown),
     )
 
 

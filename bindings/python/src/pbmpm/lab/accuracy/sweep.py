@@ -93,6 +93,8 @@ class CaseReport:
     """On which the solvers are compared [cells]; empty: as the case has it."""
     explored: bool = False
     """Whether each solver was searched for its best settings."""
+    machine: dict[str, Any] = field(default_factory=lambda: machine_facts(pbmpm.isa(), 1))
+    """Where it was measured."""
 
     def facts(self) -> dict[str, Any]:
         """What a report says about the case, once."""
@@ -253,12 +255,12 @@ def _solver_error(case: Case, measurement: Measurement, converged: Measurement |
 
 
 def report_of(reports: list[CaseReport], threads: int, asked: dict[str, Any]) -> dict[str, Any]:
-    """The whole report: all rows in one list, each case's facts, what was asked for, and the machine."""
+    """The whole report: all rows in one list, each case's facts, what was asked for, and the machine of all."""
     return {
         "rows": [row for report in reports for row in report.rows],
         "cases": [report.facts() for report in reports],
         "asked": asked,
         "stable_means": DEFINITION,
         "versions": versions(),
-        "machine": machine_facts(pbmpm.isa(), threads),
+        "machine": {**reports[-1].machine, "threads": threads},
     }

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..errors import InputError
-from .options import EXIT_CHECK_FAILED, JSON_HELP, NumberList, OutputFile, OutputFolder, emit_json, own_command, own_options
+from .options import (
+    EXIT_CHECK_FAILED,
+    JSON_HELP,
+    NumberList,
+    OutputFile,
+    OutputFolder,
+    chosen_timed_workers,
+    emit_json,
+    own_command,
+    own_options,
+    worker_options,
+)
 from ..saved import file_to_resume
-
 
 if TYPE_CHECKING:
     from ..accuracy.sweep import CaseReport
+    from ..workers.workers import Workers
 
 
 class VariantList(click.ParamType):
@@ -69,6 +79,7 @@ class VariantList(click.ParamType):
     "--resume", is_flag=True, help="Keep the cases that the file of --json holds already; it is written after each case."
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=1, show_default=True, help="Threads; 0: one per core.")
+@worker_options("1; else runs are timed at the same time, each on a core of its own")
 @click.option("--chart", type=OutputFolder(), help="Folder for a PNG per case.")
 @click.option("--html", type=OutputFile(), metavar="FILE", help="Write charts, verdicts and tables as a page.")
 @click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
@@ -79,15 +90,17 @@ def accuracy(
     chart: Path | None,
     html: Path | None,
     saved: tuple[Path, ...],
+    processes: int | None,
+    scheduler: str | None,
     **options: Any,
 ) -> None:
     """Compare CASEs with experiments and theory: error against milliseconds, over rates, iterations, solvers and cells.
 
     Without CASE: all of them. Without chosen settings each case's own sweep is refined around the fronts of the solvers, on
     each grid on which the case compares them; what is not given is as each case has it. Exit code 1 when a setting is not
-    stable; it stays in all tables and charts, marked. Costs are processor time with one thread, else wall time. At the end
-    the verdict: how many times cheaper the dual and primal solvers are than the paper's and the explicit one at equal
-    error, grid by grid.
+    stable; it stays in all tables and charts, marked. One worker measures all of a case. Costs are processor time with one
+    thread, else wall time. At the end the verdict: how many times cheaper the dual and primal solvers are than the paper's and
+    the explicit one at equal error, grid by grid.
     """
     from ..accuracy.registry import find_cases
     from ..accuracy.parts import merged
@@ -100,59 +113,77 @@ def accuracy(
     if saved:
         if chart is not None:
             raise InputError("--chart needs the curves, which --json does not keep: measure, or use --html")
-        whole = merged(saved, [case.name for case in cases])
+        whole, complete = merged(saved, [case.name for case in cases]), True
     else:
-        whole = _measured(cases, options, json_target, chart)
-    _show(whole, names, json_target, html)
+        workers = chosen_timed_workers(processes, scheduler, options["threads"])
+        whole, complete = _measured(cases, options, workers, json_target, chart)
+    stable = whole is None or _show(whole, names, json_target, html)
+    if not (stable and complete):
+        sys.exit(EXIT_CHECK_FAILED)
 
 
-def _measured(cases: list[Any], options: dict[str, Any], json_target: str | None, chart: Path | None) -> dict[str, Any]:
-    """Measures the cases, or those of them that an interrupted sweep has not; a file is written after each, and each one's
-    table and picture as soon as they are there."""
-    from ..accuracy.error_chart import save_chart
+def _measured(
+    cases: list[Any], options: dict[str, Any], workers: Workers, json_target: str | None, chart: Path | None
+) -> tuple[dict[str, Any] | None, bool]:
+    """Measures the cases, or those of them that an interrupted sweep has not. The report, in a file after each case; None when
+    it holds none. And whether it holds all: a case whose process died is named instead."""
     from ..accuracy.registry import all_cases
     from ..accuracy.parts import begun, together
     from ..accuracy.sweep import report_of
-    from ..accuracy.table import legend, table
+    from ..accuracy.task import measure_case
+    from ..progress import progress_bar
+    from ..workers.attempt import Lost
 
-    to_file, resume = json_target not in (None, "-"), options.pop("resume")
+    resume = options.pop("resume")
     asked, order = dict(options), list(dict.fromkeys(case.name for case in [*cases, *all_cases()]))
     whole = begun(file_to_resume(json_target), asked) if resume else None
     done = {facts["case"] for facts in whole["cases"]} if whole else set()
-    for report in _reports([case for case in cases if case.name not in done], options):
-        new = report_of([report], asked["threads"], asked)
-        whole = together([whole, new] if whole else [new], order)
-        emit_json(whole, json_target if to_file else None)
-        case = report.case
-        if chart is not None:
-            save_chart(report, whole["machine"], chart / f"{case.name}.png")
-        if json_target != "-":
-            click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
-    assert whole is not None
-    return whole
+    tasks = _tasks([case.name for case in cases if case.name not in done], options)
+    complete = True
+    with progress_bar(len(tasks), "case", "accuracy", shown=workers.several) as bar:
+
+        def note(index: int, report: Any) -> None:
+            nonlocal whole, complete
+            bar.update()
+            if isinstance(report, Lost):
+                complete = False
+                click.echo(f"{tasks[index].case}: {report.reason}", err=True)
+                return
+            new = report_of([report], asked["threads"], asked)
+            whole = together([whole, new] if whole else [new], order)
+            emit_json(whole, json_target if json_target != "-" else None)
+            _tell(report, whole["machine"], chart, json_target != "-")
+
+        workers.carry_out(measure_case, tasks, note)
+    return whole, complete
 
 
-def _reports(cases: list[Any], options: dict[str, Any]) -> Iterator[CaseReport]:
-    """Runs the cases as the options say."""
-    from ..accuracy.sweep import Choice, Sweep
+def _tell(report: CaseReport, machine: dict[str, Any], chart: Path | None, in_words: bool) -> None:
+    """Each case's picture and table, as soon as they are there."""
+    from ..accuracy.error_chart import save_chart
+    from ..accuracy.table import legend, table
+
+    case = report.case
+    if chart is not None:
+        save_chart(report, machine, chart / f"{case.name}.png")
+    if in_words:
+        click.echo(f"\n{case.name}: {case.title}\n  truth: {case.truth}\n{legend(report)}\n{table(report)}")
+
+
+def _tasks(names: list[str], options: dict[str, Any]) -> list[Any]:
+    """What is to be measured, as the options say."""
+    from ..accuracy.sweep import Choice
+    from ..accuracy.task import Task
 
     wanted = options.pop("converged")
     converged = not options["quick"] if wanted is None else wanted
     seconds = options.pop("seconds")
     choice = Choice(variants=options.pop("solvers"), **options)
-    sweep = Sweep(converged)
-    for case in cases:
-        if case.searched and choice.open:
-            yield sweep.search(case, seconds, choice.grids(case))
-            continue
-        settings = choice.settings(case)
-        if not settings:
-            raise InputError(f"{case.name}: no setting is left to measure")
-        yield sweep.run(case, settings)
+    return [Task(name, choice, seconds, converged) for name in names]
 
 
-def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None, html: Path | None) -> None:
-    """Rows, page and verdicts; ends the program with an exit code of its own when a setting is not stable."""
+def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None, html: Path | None) -> bool:
+    """Rows, page and verdicts; whether all settings are stable."""
     from ..report.rows import cases_of
     from ..report.words import verdict_table
 
@@ -160,9 +191,8 @@ def _show(whole: dict[str, Any], names: tuple[str, ...], json_target: str | None
     if html is not None:
         from ..report.accuracy_page import save_accuracy_page
 
-        options_kept = own_options(("--html", "--json", "--chart", "--from"), (*names, "--resume"))
+        options_kept = own_options(("--html", "--json", "--chart", "--from", "--processes", "--scheduler"), (*names, "--resume"))
         save_accuracy_page(whole, own_command(), options_kept, html)
     if json_target != "-":
         click.echo(f"\n{verdict_table(cases_of(whole))}")
-    if not all(row["stable"] for row in whole["rows"]):
-        sys.exit(EXIT_CHECK_FAILED)
+    return all(row["stable"] for row in whole["rows"])

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import os
+import re
 import shlex
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
@@ -18,6 +20,7 @@ from ..names import IntegratorName, PressureName, SolverName
 if TYPE_CHECKING:
     from ..scenes.scene import Scene
     from ..simulation import RunSettings
+    from ..workers.workers import Workers
 
 EXIT_CHECK_FAILED = 1
 EXIT_USAGE = 2
@@ -144,6 +147,48 @@ def solver_options(command: Callable[..., Any]) -> Callable[..., Any]:
     for option in reversed(options):
         command = option(command)
     return command
+
+
+class Address(click.ParamType):
+    """Where a Dask scheduler listens."""
+
+    name = "address"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> str:
+        if not re.fullmatch(r"(tcp|tls)://[^\s/]+:\d+", str(value)):
+            self.fail(f"'{value}' is not an address like tcp://HOST:8786", param, ctx)
+        return str(value)
+
+
+def worker_options(default: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """The options that say who carries out runs; ``default`` tells how many processes there are without them."""
+
+    def decorate(command: Callable[..., Any]) -> Callable[..., Any]:
+        command = click.option(
+            "--scheduler", type=Address(), help="Of a Dask cluster, whose workers carry out the runs: tcp://HOST:8786."
+        )(command)
+        return click.option(
+            "--processes", type=click.IntRange(1, 256), help=f"Runs at the same time on this machine.  [default: {default}]"
+        )(command)
+
+    return decorate
+
+
+def chosen_workers(processes: int | None, scheduler: str | None, default: int) -> Workers:
+    """What `worker_options` chose."""
+    from ..workers.workers import Workers
+
+    if processes is not None and scheduler is not None:
+        raise click.UsageError("--processes are of this machine: they do not go with --scheduler")
+    return Workers(processes or default, scheduler)
+
+
+def chosen_timed_workers(processes: int | None, scheduler: str | None, threads: int) -> Workers:
+    """The same for runs whose times count: one after the other where nothing is said."""
+    workers = replace(chosen_workers(processes, scheduler, 1), timed=True)
+    if workers.several and threads != 1:
+        raise click.UsageError("runs at the same time have a core each: they need --threads 1")
+    return workers
 
 
 class Word(click.Choice):

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import click
 
 from ..names import SolverName
-from .options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, OutputFile, emit_json, own_command
+from .options import EXIT_CHECK_FAILED, JSON_HELP, NameList, NumberList, OutputFile, chosen_workers, emit_json, own_command, worker_options
 from ..saved import file_to_resume
 
 _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # that is one of the others
@@ -26,7 +26,7 @@ _SOLVERS = [name for name in get_args(SolverName) if name != "convergent"]  # th
 @click.option("--dims", type=NameList(["2", "3"]), help="Dimensions.  [default: both]")
 @click.option("--variant", help="One variant of a case.  [default: all]")
 @click.option("--seed", type=click.IntRange(0, 2**32 - 1), default=1, show_default=True, help="Of all random numbers.")
-@click.option("--processes", type=click.IntRange(1, 256), help="Runs at the same time.  [default: one per core]")
+@worker_options("one per core")
 @click.option("--all", "show_all", is_flag=True, help="Print the figures of cells that passed, too.")
 @click.option(
     "--resume",
@@ -42,6 +42,7 @@ def stability(
     show_all: bool,
     resume: bool,
     processes: int | None,
+    scheduler: str | None,
     **options: Any,
 ) -> None:
     """Run the hard CASEs (H01, H03, ...; default: all) and print what passes and what does not.
@@ -64,7 +65,8 @@ def stability(
     from ..stability.table import cells_text, goals_text, map_text, summary
 
     to_resume = file_to_resume(json_target) if resume else None
-    outcomes, report = _outcomes(_selection(cases, options), processes or os.cpu_count() or 1, to_resume)
+    workers = chosen_workers(processes, scheduler, os.cpu_count() or 1)
+    outcomes, report = _outcomes(_selection(cases, options), workers, to_resume)
     emit_json(report, json_target)
     if html is not None:
         from ..report.stability_page import save_stability_page
@@ -83,7 +85,7 @@ def stability(
         sys.exit(EXIT_CHECK_FAILED)
 
 
-def _outcomes(selection: Any, processes: int, to_resume: Path | None) -> tuple[list[Any], dict[str, Any]]:
+def _outcomes(selection: Any, workers: Any, to_resume: Path | None) -> tuple[list[Any], dict[str, Any]]:
     """Runs what is selected and not yet in the file to resume, which an interrupt leaves with all that was done; and the report."""
     from ..stability.plan import Run, plan
     from ..stability.record import Record
@@ -94,7 +96,7 @@ def _outcomes(selection: Any, processes: int, to_resume: Path | None) -> tuple[l
     earlier = list(record.outcomes)
     done = {Run(outcome.case, outcome.setting) for outcome in earlier}
     try:
-        new = sweep([run for run in plan(selection) if run not in done], processes, record.add)
+        new = sweep([run for run in plan(selection) if run not in done], workers, record.add)
     finally:
         record.save()
     record.outcomes = [*earlier, *new]

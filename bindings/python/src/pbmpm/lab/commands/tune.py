@@ -8,7 +8,16 @@ from typing import Any
 
 import click
 
-from .options import EXIT_CHECK_FAILED, JSON_HELP, OutputFile, OutputFolder, emit_json, ready_folder
+from .options import (
+    EXIT_CHECK_FAILED,
+    JSON_HELP,
+    OutputFile,
+    OutputFolder,
+    chosen_timed_workers,
+    emit_json,
+    ready_folder,
+    worker_options,
+)
 
 _PERCENTILES = {"median": 50.0, "p99": 99.0}
 
@@ -45,13 +54,16 @@ _PERCENTILES = {"median": 50.0, "p99": 99.0}
     "--reference-iterations", type=click.IntRange(1, 1000), default=100, show_default=True, help="Of the reference."
 )
 @click.option("--threads", type=click.IntRange(0, 256), default=0, show_default=True, help="Threads; 0: one per core.")
+@worker_options("1; else settings are timed at the same time, each on a core of its own")
 @click.option(
     "--output",
     type=OutputFolder(),
     help="Folder for presets and chart.  [default: NAME-tune]",
 )
 @click.option("--json", "json_target", type=OutputFile(dash=True), metavar="FILE", help=JSON_HELP)
-def tune(scene_file: Path, output: Path | None, json_target: str | None, **options: Any) -> None:
+def tune(
+    scene_file: Path, output: Path | None, json_target: str | None, processes: int | None, scheduler: str | None, **options: Any
+) -> None:
     """Find settings for a SCENE that fit into a time budget per frame.
 
     The scene is solved as well as it goes, then with many combinations of solver, substeps and iterations on the same
@@ -80,9 +92,10 @@ def tune(scene_file: Path, output: Path | None, json_target: str | None, **optio
         reference_substeps=options["reference_substeps"],
         reference_iterations=options["reference_iterations"],
     )
+    workers = chosen_timed_workers(processes, scheduler, plan.threads)
     folder = output or Path(f"{scene.name}-tune")
     ready_folder(folder)
-    tuning = sweep(scene, plan)
+    tuning = sweep(scene, plan, workers)
     report = report_of(tuning)
     made = presets(tuning, report["machine"])
     paths = save_presets(made, folder)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import time
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -16,6 +17,7 @@ try:
 except ImportError:  # Windows
     resource = None
 
+from ..machine import machine_facts
 from ..scenes.scene import Scene
 from ..simulation import RunSettings, Simulation
 
@@ -45,11 +47,11 @@ class Observation:
     settings: RunSettings
     samples: list[Sample] = field(default_factory=list)
     frame_ms: list[float] = field(default_factory=list)
-    threads: int = 0  #: shares that the work was cut into
     iterations_used: float = 0.0  #: mean per substep
     predicted_error: float = 0.0  #: mean over the frames, by the library [cells]
     reasons: list[str] = field(default_factory=list)  #: why it is not stable
     too_dear: bool = False  #: given up after a few frames
+    machine: dict[str, Any] = field(default_factory=dict)  #: where it ran
     interruptions: int = 0  #: times that the system gave a processor of this process to another one; 0 where it does not say
 
     @property
@@ -89,7 +91,7 @@ def observe(scene: Scene, settings: RunSettings, seconds: float, most_ms: float 
                 break
             if frame in wanted:
                 out.samples.append(_sample(simulation))
-        out.threads = simulation.thread_count
+        out.machine = machine_facts(simulation.isa, simulation.thread_count)
         out.interruptions = _interruptions() - before
         out.iterations_used, out.predicted_error = used / len(out.frame_ms), predicted / len(out.frame_ms)
     return out

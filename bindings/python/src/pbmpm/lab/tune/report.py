@@ -5,9 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-import pbmpm
-
-from ..machine import machine_facts
 from ..scenes.preset import Preset
 from ..simulation import RunSettings, versions
 from .candidates import left_out
@@ -40,7 +37,7 @@ def report_of(tuning: Tuning) -> dict[str, Any]:
         "left_out": _left_out(tuning),
         "scatter": scatter(tuning),
         "versions": versions(),
-        "machine": machine_facts(pbmpm.isa(), reference.observation.threads),
+        "machine": reference.observation.machine,
     }
 
 

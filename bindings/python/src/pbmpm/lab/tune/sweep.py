@@ -11,6 +11,8 @@ from ..progress import progress_bar
 from ..report.pareto import front_of
 from ..scenes.scene import Scene
 from ..simulation import RunSettings
+from ..workers.attempt import Lost
+from ..workers.workers import Workers
 from . import candidates as plans
 from .distance import ALIKE, Distance, distance
 from .observe import Observation, observe
@@ -131,26 +133,53 @@ class Tuning:
         return min((item for item in self.results if (item.good if good else item.usable)), key=lambda item: item.cost, default=None)
 
 
-def tune(scene: Scene, plan: Plan) -> Tuning:
-    """Solves the reference, then measures all candidates, one after the other so that they do not disturb each other."""
-    settings = plans.candidates(scene, plan.frame_rate, plan.threads)
-    with progress_bar(len(settings) + 2, "run", scene.name) as bar:
-        tuning = Tuning(scene, plan, _reference(scene, plan, bar))
-        given_up: set[tuple[Any, ...]] = set()
-        for item in settings:
-            bar.set_postfix_str(item.text())
-            family = (item.solver, item.integrator, item.substeps, item.target_error)
-            if family in given_up:
-                tuning.skipped += 1
-            else:
-                result = _measure(tuning, item)
-                tuning.results.append(result)
-                if result.too_dear and not item.target_error:
-                    given_up.add(family)
-            bar.update()
+@dataclass(frozen=True)
+class Family:
+    """Settings that differ in their iterations alone, cheap ones first. One worker measures them all, since what comes after
+    one that is given up is not tried."""
+
+    scene: Scene
+    plan: Plan
+    reference: Reference
+    settings: tuple[RunSettings, ...]
+
+
+def tune(scene: Scene, plan: Plan, workers: Workers) -> Tuning:
+    """Solves the reference, then measures all candidates. One worker measures one after the other, so that they do not disturb
+    each other."""
+    families = _families(plans.candidates(scene, plan.frame_rate, plan.threads))
+    with progress_bar(sum(map(len, families)) + 2, "run", scene.name) as bar:
+        tuning = Tuning(scene, plan, _reference(scene, plan, workers, bar))
+        found: dict[int, list[Result]] = {}
+
+        def note(index: int, results: Any) -> None:
+            lost = isinstance(results, Lost)
+            found[index] = [_lost(item, results.reason) for item in families[index]] if lost else results
+            bar.update(len(families[index]))
+
+        workers.carry_out(measure_family, [Family(scene, plan, tuning.reference, items) for items in families], note)
+        tuning.results = [result for index in range(len(families)) for result in found[index]]
+        tuning.skipped = sum(map(len, families)) - len(tuning.results)
         if plan.threads != 1:
             _measure_alone(tuning, bar)
     return tuning
+
+
+def _families(settings: list[RunSettings]) -> list[tuple[RunSettings, ...]]:
+    families: dict[tuple[Any, ...], list[RunSettings]] = {}
+    for item in settings:
+        families.setdefault((item.solver, item.integrator, item.substeps, item.target_error), []).append(item)
+    return [tuple(items) for items in families.values()]
+
+
+def measure_family(family: Family) -> list[Result]:
+    """The results of its settings, up to one that is given up as too dear: what comes after it can only be dearer."""
+    results: list[Result] = []
+    for settings in family.settings:
+        results.append(_measure(family, settings))
+        if results[-1].too_dear:
+            break
+    return results
 
 
 def _measure_alone(tuning: Tuning, bar: Any) -> None:
@@ -161,27 +190,40 @@ def _measure_alone(tuning: Tuning, bar: Any) -> None:
         tuning.alone[settings] = observe(tuning.scene, replace(settings, threads=1), tuning.plan.seconds).ms(tuning.plan.percentile)
 
 
-def _reference(scene: Scene, plan: Plan, bar: Any) -> Reference:
+def _reference(scene: Scene, plan: Plan, workers: Workers, bar: Any) -> Reference:
+    """The converged run, and the one with half of its substeps."""
     full = plans.reference(scene, plan.frame_rate, plan.threads, plan.reference_substeps, plan.reference_iterations)
-    observations = []
-    for substeps in (full.substeps, max(1, full.substeps // 2)):
-        settings = replace(full, substeps=substeps)
-        bar.set_postfix_str(f"reference: {settings.text()}")
-        observation = observe(scene, settings, plan.seconds)
-        if not observation.stable:
-            raise InputError(
-                f"{scene.name}: the converged solution breaks ({settings.text()}): {'; '.join(observation.reasons)}"
-            )
-        observations.append(observation)
+    runs = [(scene, replace(full, substeps=substeps), plan.seconds) for substeps in (full.substeps, max(1, full.substeps // 2))]
+    observations: dict[int, Observation] = {}
+
+    def note(index: int, observation: Any) -> None:
+        reasons = [observation.reason] if isinstance(observation, Lost) else observation.reasons
+        if reasons:
+            raise InputError(f"{scene.name}: the converged solution breaks ({runs[index][1].text()}): {'; '.join(reasons)}")
+        observations[index] = observation
         bar.update()
+
+    bar.set_postfix_str(f"reference: {full.text()}")
+    workers.carry_out(observe_reference, runs, note)
+    bar.set_postfix_str("")
     return Reference(observations[0], distance(scene, observations[1], observations[0]))
 
 
-def _measure(tuning: Tuning, settings: RunSettings) -> Result:
-    plan, reference = tuning.plan, tuning.reference
-    observation = observe(tuning.scene, settings, plan.seconds, FAR_TOO_DEAR * plan.budget_ms)
+def observe_reference(run: tuple[Scene, RunSettings, float]) -> Observation:
+    """One of the two runs for the reference."""
+    return observe(*run)
+
+
+def _lost(settings: RunSettings, reason: str) -> Result:
+    nothing = math.nan
+    return Result(settings, math.inf, nothing, nothing, nothing, nothing, nothing, None, (reason,), False)
+
+
+def _measure(family: Family, settings: RunSettings) -> Result:
+    plan, reference = family.plan, family.reference
+    observation = observe(family.scene, settings, plan.seconds, FAR_TOO_DEAR * plan.budget_ms)
     done = observation.stable and not observation.too_dear
-    parts = distance(tuning.scene, observation, reference.observation) if done else None
+    parts = distance(family.scene, observation, reference.observation) if done else None
     error = parts.error(reference.by_particles) if parts else None
     return Result(
         settings,
@@ -194,6 +236,6 @@ def _measure(tuning: Tuning, settings: RunSettings) -> Result:
         parts,
         tuple(observation.reasons),
         observation.too_dear,
-        visible(tuning.scene, observation, reference.observation) if done else None,
+        visible(family.scene, observation, reference.observation) if done else None,
         observation.interruptions,
     )

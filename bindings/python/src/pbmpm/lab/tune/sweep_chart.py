@@ -38,10 +38,10 @@ def error_title(tuning: Tuning) -> str:
 
 def save_chart(tuning: Tuning, machine: dict[str, Any], path: Path) -> None:
     """Writes the chart as PNG: dots, crosses for settings that are not stable, the front and the budget. Settings that were
-    given up have no error; they are in the table only."""
+    given up have no error, and those whose process died no cost; they are in the table only."""
     figure = Figure(figsize=(10, 7), layout="constrained")
     axes = figure.add_subplot()
-    drawn = [result for result in tuning.results if not result.too_dear]
+    drawn = [result for result in tuning.results if not result.too_dear and math.isfinite(result.cost)]
     _draw_settings(axes, drawn)
     if not drawn:
         axes.text(0.5, 0.5, "no setting was measured to its end: all are far too dear", transform=axes.transAxes, ha="center")
