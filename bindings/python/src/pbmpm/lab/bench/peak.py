@@ -28,8 +28,8 @@ REPEATS = 12
 class Peak:
     """Of one core."""
 
-    gflops: float
-    gb_per_second: float
+    peak_gflops: float
+    peak_gb_per_second: float
     bandwidth_bytes: int
     """Of the arrays that the bandwidth was measured with."""
     blas: str

@@ -53,12 +53,12 @@ def roofline_pieces(rounds: int) -> int:
 def roofline_of(row: Mapping[str, Any], peak: Peak, counts: Mapping[str, Counts]) -> dict[str, Any]:
     """What a row of `phase_rows()` gets besides; ``counts`` are by phase, and empty where nothing was counted."""
     nanoseconds = row["ns_per_particle"]
-    more = {"peak": asdict(peak), "peak_units": nanoseconds * peak.gflops}
+    more = asdict(peak) | {"peak_units": nanoseconds * peak.peak_gflops}
     if row["phase"] in counts:
         own = counts[row["phase"]]
-        more |= {"flops_per_particle": own.flops, "gflops": own.flops / nanoseconds, "share_of_peak": own.flops / nanoseconds / peak.gflops}
+        more |= {"flops_per_particle": own.flops, "gflops": own.flops / nanoseconds, "share_of_peak": own.flops / nanoseconds / peak.peak_gflops}
         moved = own.bytes / nanoseconds
-        more |= {"bytes_moved_per_particle": own.bytes, "gb_per_second": moved, "share_of_bandwidth": moved / peak.gb_per_second}
+        more |= {"bytes_moved_per_particle": own.bytes, "gb_per_second": moved, "share_of_bandwidth": moved / peak.peak_gb_per_second}
     return more
 
 
@@ -66,9 +66,9 @@ def roofline_text(rows: Sequence[Mapping[str, Any]]) -> str:
     """The rows for a person."""
     lines = []
     for key in dict.fromkeys((row["material"], row["dims"]) for row in rows):
-        peak = next(row["peak"] for row in rows if (row["material"], row["dims"]) == key)
+        peak = next(row for row in rows if (row["material"], row["dims"]) == key)
         lines.append(
-            f"One core, {key[0]} {key[1]}D: {peak['gflops']:.1f} GFLOP/s (product of matrices, {peak['blas']}), {peak['gb_per_second']:.1f} GB/s (sum of"
+            f"One core, {key[0]} {key[1]}D: {peak['peak_gflops']:.1f} GFLOP/s (product of matrices, {peak['blas']}), {peak['peak_gb_per_second']:.1f} GB/s (sum of"
             f" arrays of {peak['bandwidth_bytes'] / 1e6:.0f} MB in all; lines fetched and written back)"
         )
     counted = any("gflops" in row for row in rows)

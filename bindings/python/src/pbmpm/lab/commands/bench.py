@@ -45,6 +45,10 @@ def bench(scene_files: tuple[Path, ...], json_target: str | None, rounds: int, *
     It says which build it measures, a strict one (PBMPM_STRICT) or an ordinary one. With --against it measures instead how many times as long
     a step takes with this build as with that of another library: what strictness costs.
 
+    --phases, --roofline, --peers and --memory measure steps at the pace of a game: where their time goes, what share of a core's peak
+    and bandwidth that is, how they compare with Taichi's examples (pip install 'pbmpm[peers]'), and what worlds take. --roofline counts
+    operations and bytes with Valgrind and objdump; without them it leaves shares out.
+
     With SCENE files it measures instead how many times faster than real time each runs, as its file says and at the pace of a
     game, 60 Hz x 5.
     """
