@@ -8,6 +8,7 @@ core's own, says how many lines of 64 bytes came from beyond it and went back th
 from __future__ import annotations
 
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -22,8 +23,8 @@ import pbmpm
 
 from ..errors import InputError
 from ..simulation import RunSettings, Simulation
-from .measure import step_from
-from .phases import ITERATIONS, LAPS, MANY_ITERATIONS, RATE_HZ, split_solve
+from .measure import choose_variant
+from .phases import ITERATIONS, LAPS, RATE_HZ, split_solve
 from .subjects import scene_of
 
 STEP_BEGINS, STEP_ENDS = "pool_set_serial", "colliders_end_step"
@@ -42,8 +43,8 @@ LINES_MOVED = ("DLmr", "DLmw", "DLdmr", "DLdmw")
 """Callgrind's events: lines fetched for reading and for writing, and changed lines that went back for each."""
 
 TOOLS = ("valgrind", "objdump")
-STEPS = (1, ITERATIONS, MANY_ITERATIONS)
-"""Iterations of the steps that run; the first is for memory and is not counted."""
+STEPS = (ITERATIONS, ITERATIONS, 2 * ITERATIONS)
+"""Iterations of the steps that run. The first is not counted: it is for memory, and for what obstacles give to nodes, which steps keep."""
 
 
 @dataclass
@@ -194,16 +195,20 @@ def steps_of(parts: Iterable[Part]) -> list[dict[str, Counts]]:
 
 
 def _run_steps(material: str, dimension: str, *states: str) -> None:
-    """What runs within Callgrind; files of states are named after their variants."""
+    """What runs within Callgrind, on any core; files of states are named after their variants."""
+    os.sched_setaffinity(0, range(os.cpu_count() or 1))
     scene, used = scene_of(material, int(dimension)), {}
     with Simulation(scene, RunSettings.of(scene, 1)) as simulation:
+        world = simulation.world
         for state in map(Path, states):
+            world.restore(state.read_bytes())
             done = []
             for iterations in STEPS:
-                step_from(simulation.world, state.read_bytes(), state.name, iterations, RATE_HZ)
-                done.append(simulation.world.step_stats.iterations_used)
+                choose_variant(world, state.name, iterations)
+                world.step(1.0 / RATE_HZ)
+                done.append(world.step_stats.iterations_used)
             used[state.name] = done[1:]
-        print(json.dumps({"particles": len(simulation.world), "used": used}))
+        print(json.dumps({"particles": len(world), "used": used}))
 
 
 if __name__ == "__main__":

@@ -133,6 +133,16 @@ def step_from(world: pbmpm.World, state: Any, variant: str, iterations: int, rat
     return time.thread_time() - begin
 
 
+def step_amid(world: pbmpm.World, state: Any, variant: str, iterations: tuple[int, int], rate_hz: float) -> float:
+    """CPU time [s] of the second step from a state, amid the motion: to go back to a state forgets what obstacles gave to nodes, which steps keep. ``iterations`` are of
+    the two steps."""
+    step_from(world, state, variant, iterations[0], rate_hz)
+    world.iterations = iterations[1]
+    begin = time.thread_time()
+    world.step(1.0 / rate_hz)
+    return time.thread_time() - begin
+
+
 def _time_variant(world: pbmpm.World, state: Any, costs: Costs, rate_hz: float, keep: bool) -> None:
     solver = parse_variant(costs.variant)["solver"]
     used = []

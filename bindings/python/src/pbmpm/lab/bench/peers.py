@@ -17,7 +17,7 @@ from typing import Any
 import pbmpm
 
 from ..errors import InputError
-from .measure import in_turns, moved_state, step_from
+from .measure import in_turns, moved_state, step_amid
 from .phases import PHASE_VARIANTS, RATE_HZ
 from .subjects import scene_of
 
@@ -85,7 +85,7 @@ class Own:
     def turn(self, world: pbmpm.World, keep: bool) -> None:
         """A step of one round."""
         self.particles = len(world)
-        seconds = step_from(world, self.state, self.variant, self.iterations, RATE_HZ)
+        seconds = step_amid(world, self.state, self.variant, (self.iterations, self.iterations), RATE_HZ)
         if keep:
             self.seconds.append(seconds)
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import pbmpm
 
-from .measure import in_turns, moved_state, step_from
+from .measure import in_turns, moved_state, step_amid
 from .subjects import scene_of
 
 RATE_HZ = 60.0
@@ -112,7 +112,7 @@ def _time_phases(world: pbmpm.World, costs: PhaseCosts, keep: bool) -> None:
 
 def _laps(world: pbmpm.World, costs: PhaseCosts, iterations: int) -> tuple[float, dict[str, float]]:
     """Of one step: wall time over CPU time, and CPU seconds of each lap."""
-    seconds = step_from(world, costs.state, costs.variant, iterations, RATE_HZ)
+    seconds = step_amid(world, costs.state, costs.variant, (ITERATIONS, iterations), RATE_HZ)
     stats = world.step_stats
     shares = {name: getattr(stats, member) / stats.ms_total for name, member in LAPS.items()}
     shares |= {"other": 1.0 - sum(shares.values()), "step": 1.0}
