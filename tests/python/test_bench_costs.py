@@ -198,8 +198,8 @@ def test_peers_that_do_not_run_say_why() -> None:
 def test_constants_of_an_example_are_set() -> None:
     source = "dim, n_grid, dt = 3, 32, 4e-4  # here\nn = n_grid**dim // 2\nif dim == 3:\n    n = 7\nx = n_grid\n"
     scope: dict[str, object] = {}
-    exec(with_constants(source, {"dt": 1e-3, "n": 50, "n_grid": 64}), scope)
-    assert (scope["dim"], scope["n_grid"], scope["dt"], scope["x"]) == (3, 64, 1e-3, 64)
+    exec(with_constants(source, {"dt": 1e-3, "n": 50, "n_grid": 128}), scope)
+    assert (scope["dim"], scope["n_grid"], scope["dt"], scope["x"]) == (3, 128, 1e-3, 128)
     assert with_constants(source, {"n": 50}).splitlines()[1] == "n = 50"
     with pytest.raises(SystemExit, match="no constant quality"):
         with_constants(source, {"quality": 2})

@@ -1,7 +1,7 @@
 """Where the time of a step goes, at the pace of a game: phase by phase.
 
 The library's statistics tell the wall time of each phase; each gets that share of the step's CPU time. They do not tell what starts a solver
-(guesses, matrices) from its iterations. A step with more iterations from the same state does: the difference is iterations alone.
+(guesses, matrices) from its iterations. A step with more iterations from the same state does: the difference in CPU time is iterations alone.
 Each solver steps from where it brought the matter itself. Another program that takes the core away meanwhile lengthens one phase: of `TRIES` steps that one counts whose
 wall time is the least over its CPU time.
 """
@@ -60,14 +60,14 @@ class PhaseCosts:
         """Of each phase, of one ``iteration``, of the ``rest`` of a step and of the whole ``step``."""
         laps = {name: pick([taken[name] for taken in self.few]) for name in (*LAPS, "other", "step")}
         if pick is min:
-            more = min(taken["solve"] for taken in self.many) - laps["solve"]
+            more = min(taken["step"] for taken in self.many) - laps["step"]
         else:
-            more = pick([many["solve"] - few["solve"] for few, many in zip(self.few, self.many)])
+            more = pick([many["step"] - few["step"] for few, many in zip(self.few, self.many)])
         return split_solve(laps, more, self.used)
 
 
 def split_solve(laps: Mapping[str, float], more: float, used: tuple[int, int]) -> dict[str, float]:
-    """Phases, an iteration and the rest of a step from what is known of its laps, and what ``used[1] - used[0]`` iterations add to ``solve``."""
+    """Phases, an iteration and the rest of a step from what is known of its laps, and what ``used[1] - used[0]`` iterations add to it."""
     parts = dict(laps)
     if used[1] > used[0]:
         parts["iteration"] = more / (used[1] - used[0])
