@@ -40,6 +40,7 @@ def test_what_starts_a_solver_is_told_from_its_iterations() -> None:
     assert rows["iteration"]["ns_per_particle"] == pytest.approx(4.0)
     assert rows["start"]["ns_per_particle"] == pytest.approx(30.0)
     assert rows["rest"]["ns_per_particle"] == pytest.approx(50.0) and rows["rest"]["ns_per_particle_min"] == pytest.approx(50.0)
+    assert rows["sort"]["ns_per_particle_min"] is None and rows["step"]["ns_per_particle_min"] == pytest.approx(70.0)
     assert sum(rows[phase]["share"] for phase in PHASES if phase in rows) == pytest.approx(1.0)
 
 
@@ -155,7 +156,7 @@ def test_a_roofline_for_a_person(monkeypatch: pytest.MonkeyPatch) -> None:
     text = roofline_text([row | roofline_of(row, PEAK, {"sort": Counts(500.0, 200.0)}) for row in rows])
     assert "100.0 GFLOP/s (product of matrices, BLAS), 40.0 GB/s (sum of arrays of 48 MB in all" in text
     (sort,) = (line for line in text.splitlines() if line.startswith("  sort"))
-    assert sort.split()[1:] == ["10.0", "10.0", "14%", "1000", "500", "200", "50.0", "50%", "20.0", "50%"]
+    assert sort.split()[1:] == ["10.0", "-", "14%", "1000", "500", "200", "50.0", "50%", "20.0", "50%"]
 
 
 def fake_peer(text: str) -> list[str]:
