@@ -12,7 +12,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from statistics import median
-from typing import Any
+from typing import Any, TypeVar
 
 import pbmpm
 
@@ -20,6 +20,9 @@ from ..accuracy.case import parse_variant
 from ..scenes.scene import Scene
 from ..simulation import RunSettings, Simulation
 from .subjects import ITERATIONS, applies, scene_of
+
+
+Subject = TypeVar("Subject")
 
 
 def pin() -> int | None:
@@ -69,16 +72,24 @@ def measure(
     variants = [variant for variant in variants if applies(variant, material)]
     costs = [Costs(variant, *_memory(scene, variant)) for variant in variants]
     tick()
+    in_turns(scene, costs, rounds, warmup_steps, tick, lambda world, state, own, keep: _time_variant(world, state, own, scene.rate_hz, keep))
+    return costs
+
+
+def in_turns(
+    scene: Scene, subjects: Sequence[Subject], rounds: int, warmup_steps: int, tick: Callable[[], None], turn: Callable[[pbmpm.World, Any, Subject, bool], None]
+) -> None:
+    """Gives each subject its turn in each round, from one state of matter in motion. The first round is not kept: it is for memory and caches.
+    ``tick`` is called once per round and twice more."""
     with Simulation(scene, RunSettings.of(scene, 1)) as simulation:
         for _ in range(warmup_steps):
             simulation.step()
         tick()
         state = simulation.world.snapshot()
-        for number in range(-1, rounds):  # the first is for memory and caches
-            for own in costs:
-                _time_variant(simulation.world, state, own, scene.rate_hz, keep=number >= 0)
+        for number in range(-1, rounds):
+            for own in subjects:
+                turn(simulation.world, state, own, number >= 0)
             tick()
-    return costs
 
 
 def pieces(rounds: int) -> int:
@@ -104,17 +115,41 @@ def _memory(scene: Scene, variant: str) -> tuple[int, float]:
         return len(simulation.world), simulation.world.stats.memory_bytes / len(simulation.world)
 
 
+def moved_state(world: pbmpm.World, start: Any, variant: str, iterations: int, rate_hz: float, steps: int) -> bytearray:
+    """What so many steps of one variant make of a state."""
+    world.restore(start)
+    choose_variant(world, variant, iterations)
+    for _ in range(steps):
+        world.step(1.0 / rate_hz)
+    return world.snapshot()
+
+
+def step_from(world: pbmpm.World, state: Any, variant: str, iterations: int, rate_hz: float) -> float:
+    """CPU time [s] of a step from a state."""
+    world.restore(state)
+    choose_variant(world, variant, iterations)
+    begin = time.thread_time()
+    world.step(1.0 / rate_hz)
+    return time.thread_time() - begin
+
+
+def step_amid(world: pbmpm.World, state: Any, variant: str, iterations: tuple[int, int], rate_hz: float) -> float:
+    """CPU time [s] of the second step from a state, amid the motion: to go back to a state forgets what obstacles gave to nodes, which steps keep. ``iterations`` are of
+    the two steps."""
+    step_from(world, state, variant, iterations[0], rate_hz)
+    world.iterations = iterations[1]
+    begin = time.thread_time()
+    world.step(1.0 / rate_hz)
+    return time.thread_time() - begin
+
+
 def _time_variant(world: pbmpm.World, state: Any, costs: Costs, rate_hz: float, keep: bool) -> None:
     solver = parse_variant(costs.variant)["solver"]
     used = []
     for iterations, times in ((ITERATIONS, costs.few), (2 * ITERATIONS, costs.many)):
         if solver == "explicit" and times is costs.many:
             break  # it has none
-        world.restore(state)
-        choose_variant(world, costs.variant, iterations)
-        begin = time.thread_time()
-        world.step(1.0 / rate_hz)
-        seconds = time.thread_time() - begin
+        seconds = step_from(world, state, costs.variant, iterations, rate_hz)
         used.append(world.stats.iterations_used)
         if keep:
             times.append(seconds)

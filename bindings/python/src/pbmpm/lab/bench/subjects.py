@@ -96,6 +96,12 @@ def scene_of(material: str, dimension: int) -> Scene:
     return makers[dimension](parameters)
 
 
+def small_scene(material: str, dimension: int) -> Scene:
+    """A block of 4 cells a side that falls."""
+    parameters, _ = MATERIALS[material]
+    return _scene("small", dimension, [1.0] * dimension, parameters, [_block([0.5] * dimension, [2 * CELL] * dimension)])
+
+
 def applies(variant: str, material: str) -> bool:
     """Whether a variant differs from the plain solver with this matter: pressures stand in cells only in liquids."""
     return variant != "dual-cells" or material == "liquid"
