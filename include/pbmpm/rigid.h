@@ -88,7 +88,7 @@ PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_coll
  *  A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE. */
 typedef struct pbmpm_rigid_def {
     uint32_t size;         /**< sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init() */
-    int32_t stays_inside;  /**< 0 or 1. 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes. */
+    int32_t stays_inside;  /**< 0 or 1. 1 (default): corners and round parts stop at walls of the domain, without bounce or friction; of a baked shape its box. Not with `moves` NONE. 0: it passes. */
     pbmpm_freedom moves;   /**< of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL */
     pbmpm_freedom turns;   /**< 2D: NONE, or else about the third axis. Default ALL */
     double mass;           /**< [kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1 */

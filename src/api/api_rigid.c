@@ -134,7 +134,7 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (result != PBMPM_OK) LET_GO(result);
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
-    rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension);
+    rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
     *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);

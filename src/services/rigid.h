@@ -31,7 +31,7 @@ typedef struct RigidPush {
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt);
 void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int dimension, double dt);
 
-/* Puts a body that passed walls back to them, along what way it may move, and stops it there. */
-void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension);
+/* Puts a body that passed walls back to them, along what way it may move, and stops what of it touches them: it may still turn about a corner, until it lies flat. */
+void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt);
 
 #endif

@@ -1393,7 +1393,7 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init()</summary>
         public uint Size;
-        /// <summary>0 or 1. 1 (default): the box around its shape does not pass walls of the domain: it stops there. Not with `moves` NONE. 0: it passes.</summary>
+        /// <summary>0 or 1. 1 (default): corners and round parts stop at walls of the domain, without bounce or friction; of a baked shape its box. Not with `moves` NONE. 0: it passes.</summary>
         public int StaysInside;
         /// <summary>of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL</summary>
         public Freedom Moves;

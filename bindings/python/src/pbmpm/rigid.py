@@ -86,7 +86,7 @@ class RigidBody(Bound):
         turns: 2D: NONE or ALL.
         pivot: with `moves` NONE: what stays, from the shape's position, in the shape's own frame [m].
         move_axis, turn_axis: in the world, one number per axis; `turn_axis` in 3D only.
-        stays_inside: whether walls of the domain stop it.
+        stays_inside: whether walls of the domain stop what of it touches them, without bounce or friction. Not where `moves` is NONE.
     """
 
     __slots__ = ("_collider", "_definition", "_state")
