@@ -118,8 +118,8 @@ def _summary(report: dict[str, Any]) -> str:
         f"{report['scene']}: {report['particles']} particles, {report['simulated_seconds']:.3f} s in"
         f" {report['steps']} steps of {report['substeps']} x {report['iterations']} iterations ({report['solver']})"
         + (" (interrupted)" if report["interrupted"] else ""),
-        f"volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max;"
-        f" max speed {report['max_speed']:.3g} m/s; deleted {report['deleted']}, clamped {report['clamped']}",
+        f"at the end: volume error {100 * report['volume_error_rms']:.2f} % rms, {100 * report['volume_error_max']:.1f} % max; max speed {report['max_speed']:.3g} m/s"
+        f" ({report['max_speed_over_run']:.3g} on the way); deleted {report['deleted']}, clamped {report['clamped']}",
     ]
     lines += [f"effects: {', '.join(report['effects'])}", _account(report)]
     if "emitted" in report:
