@@ -480,6 +480,41 @@ static void test_a_plank_that_falls_on_a_corner_lies_down(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, body.state.angular_velocity[2]);
 }
 
+/* ---- On solids ---- */
+
+/* What is advised of a plank of this density on a block of 1e6 Pa, at this step. */
+static bool told_that_it_is_thrown_off(float density, float dt)
+{
+    enum { ROOM = 32 };
+    static pbmpm_advice told[ROOM];
+    pbmpm_world_def def = default_world(2, 0.05f, 4000);
+    def.domain_enabled = 1;
+    def.domain_max[0] = def.domain_max[1] = 4;
+    rigid body = make_rigid(create_world(&def), box_shape(2, 0.66f, 0, 0.6f, 0.1f, 0), density, NULL);
+    pbmpm_material_def matter = default_material(PBMPM_ELASTIC);
+    pbmpm_material_id material;
+    uint32_t count = 0;
+    bool found = false;
+    matter.young_modulus = 1e6f;
+    OK(pbmpm_material_create(body.world, &matter, &material));
+    fill_shape(body.world, material, box_shape(2, 0.3f, 0, 0.3f, 0.25f, 0), STILL);
+    set_gravity(body.world, 0, -10, 0);
+    advance(&body);
+    told[0].size = sizeof told[0];
+    OK(pbmpm_world_advice(body.world, dt, told, ROOM, &count));
+    for (uint32_t i = 0; i < count; i++) found = found || (told[i].code == PBMPM_ADVICE_KNOWN_LIMIT && told[i].collider.generation != 0);
+    OK(pbmpm_world_destroy(body.world));
+    return found;
+}
+
+/* k dt^2 / m = (c dt / T)^2 M / m is 1.11 * 300 kg / m at 60 Hz: the block is 0.5 m thick, its sound goes at 31.6 m/s. Planks of 0.24 m^2. */
+static void test_it_is_told_where_solids_throw_it_off(void)
+{
+    TEST_ASSERT_TRUE(told_that_it_is_thrown_off(100.0f, 1.0f / 60.0f));
+    TEST_ASSERT_FALSE(told_that_it_is_thrown_off(2000.0f, 1.0f / 60.0f));
+    TEST_ASSERT_FALSE(told_that_it_is_thrown_off(100.0f, 1.0f / 240.0f));
+}
+
 /* ---- In water ---- */
 
 /* A box of 0.1 of the liquid's density, held under at `start` and let go, in seconds 5 to 9: its mean height, and how far it bobs. */
@@ -625,6 +660,7 @@ int main(void)
     RUN_TEST(test_a_plane_locks_one_axis);
     RUN_TEST(test_walls_stop_a_body);
     RUN_TEST(test_a_plank_that_falls_on_a_corner_lies_down);
+    RUN_TEST(test_it_is_told_where_solids_throw_it_off);
     RUN_TEST(test_bodies_that_cannot_be);
     RUN_TEST(test_light_boxes_let_go_under_water_are_stable);
     RUN_TEST(test_a_body_goes_on_from_a_save);
