@@ -93,6 +93,8 @@ void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin,
     }
 }
 
+void constraints_take_out(const Contact *contact, float *vector) { take_out(contact, vector); }
+
 /* ---- Friction ---- */
 
 /* Below this slip [cells per 1/60 s] friction grows with it: a kink that iterations could not find. */
@@ -129,6 +131,14 @@ static float slip_of(const Contact *contact, const float *u, float slip[3])
 static float rub_of(const Contact *contact, float length, float least) { return contact->limit / fmaxf(length, least); }
 
 float constraints_slip_min(const Substep *substep) { return SLIP_MIN * (float)substep->reference_steps; }
+
+bool constraints_rub(const Contact *contact, const float *u, float least, float rub[3])
+{
+    if (!(contact->limit > 0.0f)) return false;
+    const float factor = rub_of(contact, slip_of(contact, u, rub), least);
+    for (int a = 0; a < 3; a++) rub[a] *= factor;
+    return true;
+}
 
 float constraints_friction_stiffness(const Contact *contact, const float *u, float least)
 {

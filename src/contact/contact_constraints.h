@@ -15,6 +15,9 @@ void constraints_find_active(const ContactFrame *frame, const float *displacemen
 /* Takes out of a vector what the active contacts hold. */
 void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end);
 
+/* Takes out of a node's vector what one contact holds. */
+void constraints_take_out(const Contact *contact, float *vector);
+
 /* ---- Friction ----
  *
  * In the energy that is minimised, sum_i f_i huber(|v_i|), v the slip of an active contact's node along the surface, f its limit: coefficient times what
@@ -51,6 +54,9 @@ double constraints_friction(const ContactFrame *frame, const float *u, float *gr
 
 /* 0: it slips, or is held. */
 float constraints_friction_coefficient(const Contact *contact);
+
+/* What friction adds to the gradient at a node; false: nothing. */
+bool constraints_rub(const Contact *contact, const float *u, float least, float rub[3]);
 
 /* Friction's stiffness along the surface. */
 float constraints_friction_stiffness(const Contact *contact, const float *u, float least);

@@ -9,6 +9,7 @@
 #include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
 #include "solvers/primal/primal_solve.h"
+#include "solvers/primal/primal_yield.h"
 
 /* Levels overlap: smooth motion is corrected by each of them. With 1 steps were too long by about the factor 2; iterations for the bar and the
  * cantilever of the accuracy cases were fewest around 2, by trial. */
@@ -88,6 +89,7 @@ void primal_free(World *world)
     Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
+    primal_yield_free(world);
     bodies_free(&s->bodies, &world->memory);
     multilevel_free(&s->multilevel, &world->memory);
 }
@@ -240,6 +242,7 @@ static void evaluate_after(Primal *p, Loops *loops, Kernel *force)
     p->trial_energy = p->total[0] + sum_energies(p);
     p->slope_before = p->total[1];
     p->slope_after = p->total[2];
+    primal_yield_evaluate(p);
 }
 
 void primal_evaluate(Primal *p)
@@ -372,6 +375,7 @@ static void drop_newest_pair(Primal *p)
     p->step[PRIMAL_MEMORY - 1] = step;
     p->change[PRIMAL_MEMORY - 1] = change;
     p->pairs--;
+    primal_yield_drop_pair(p);
 }
 
 /* Makes p->node the accepted displacements. */
@@ -381,6 +385,7 @@ void primal_accept(Primal *p, bool with_pair)
     if (with_pair) {
         shift_pairs(p);
         primal_over_blocks(p, keep_pair);
+        primal_yield_keep_pair(p);
         memcpy(p->product[0], p->total, sizeof p->product[0]);
         if (!(p->product[0][0] > CURVATURE_MIN * sqrt(p->total[SUMS - 1] * p->total[SUMS - 2]))) drop_newest_pair(p);
     } else {
@@ -390,6 +395,7 @@ void primal_accept(Primal *p, bool with_pair)
     primal_over_blocks(p, p->rubs ? take_over_bare : take_over);
     if (p->rubs) renew_friction(p);
     memcpy(p->first, p->total, sizeof p->first);
+    primal_yield_accept(p);
     memcpy(state->accepted_energy.data, state->block_energy.data, K_ENERGIES * (size_t)p->world->grid.particle_blocks * sizeof(float));
 }
 
@@ -468,6 +474,7 @@ double primal_find_direction(Primal *p)
         p->first[i] = along / p->product[i][i];
     }
     if (p->rigid) primal_weigh_rigid(p);
+    primal_yield_add_changes(p);
     add_pass(p, &loops, add_changes);
     if (p->rigid) {
         run_and_sum(p, &loops);
@@ -481,6 +488,7 @@ double primal_find_direction(Primal *p)
         primal_correct_rigid(p);
         primal_over_blocks(p, add_rigid);
     }
+    primal_yield_find_direction(p);
     memcpy(coefficient, p->total, sizeof coefficient);
     for (int i = p->pairs - 1; i >= 0; i--) {
         double along = coefficient[i];
@@ -488,6 +496,7 @@ double primal_find_direction(Primal *p)
         p->second[i] = p->first[i] - along / p->product[i][i];
     }
     primal_over_blocks(p, add_steps);
+    primal_yield_add_steps(p);
     return p->total[0];
 }
 
@@ -527,6 +536,7 @@ bool primal_descend(Primal *p, uint32_t *passes, uint32_t most)
     Loops loops;
     loops_open(&loops, p->world->pool);
     for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
+        primal_yield_try(p);
         add_pass(p, &loops, try_step);
         evaluate_after(p, &loops, p->world->kernels->force);
         ++*passes;
@@ -537,6 +547,7 @@ bool primal_descend(Primal *p, uint32_t *passes, uint32_t most)
         primal_accept(p, true);
         return true;
     }
+    primal_yield_return(p);
     return false;
 }
 
@@ -545,6 +556,7 @@ double primal_find_plain_direction(Primal *p)
 {
     p->pairs = 0;
     memcpy(p->right, p->gradient, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->right);
+    primal_yield_begin_plain(p);
     return primal_find_direction(p);
 }
 
@@ -648,6 +660,7 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     Primal p = open_solve(world, contacts);
     p.sketches = sketches;
     find_friction(&p);
+    primal_yield_open(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
     bind_couples(&p);
@@ -693,4 +706,5 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_over_blocks(&p, write_motion);
     constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
+    primal_yield_close(&p);
 }

@@ -77,6 +77,7 @@ typedef struct Primal {
     float slip_min; /* see constraints_slip_min() */
     bool bounces; /* a body does */
     bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
+    bool yields; /* rigid bodies do, see primal_yield.h */
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
