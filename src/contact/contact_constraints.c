@@ -93,6 +93,14 @@ void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin,
     }
 }
 
+void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block)
+{
+    const BlockContacts list = contacts_of(frame, block);
+    for (int sweep = 0; sweep < 2; sweep++)
+        for (uint32_t i = list.begin; i < list.end; i++)
+            if (list.contact[i].active) take_out(&list.contact[i], vector + list.contact[i].node * K_NODE_WIDTH);
+}
+
 void constraints_take_out(const Contact *contact, float *vector) { take_out(contact, vector); }
 
 /* ---- Friction ---- */

@@ -15,6 +15,9 @@ void constraints_find_active(const ContactFrame *frame, const float *displacemen
 /* Takes out of a vector what the active contacts hold. */
 void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end);
 
+/* The same of a block's own vector. */
+void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block);
+
 /* Takes out of a node's vector what one contact holds. */
 void constraints_take_out(const Contact *contact, float *vector);
 

@@ -32,6 +32,14 @@ typedef struct YieldBody {
     SmallMatrix factor; /* of D */
 } YieldBody;
 
+/* A body and a piece of matter that it presses, which goes along by the share f: see fit(). */
+typedef struct YieldPair {
+    int32_t matter;
+    uint32_t body;
+    double mean, slope[3], middle[3]; /* of f */
+    double sum[8], square[3][3];
+} YieldPair;
+
 static PrimalState *state_of(const Primal *p) { return &p->world->primal; }
 static YieldBody *bodies_of(const Primal *p) { return state_of(p)->yield_body.data; }
 static YieldGrip *grips_of(const Primal *p) { return state_of(p)->yield_grip.data; }
@@ -93,7 +101,8 @@ pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts)
     for (int i = 0; i < colliders->obstacle_count; i++) bodies += may_yield(&colliders->obstacle[i]);
     if (bodies == 0 || colliders->contacts == 0 || world->record.solver != PBMPM_SOLVER_PRIMAL || solver_holds_liquid(world)) return PBMPM_OK;
     if (!array_reserve(&world->memory, &state->yield_body, bodies, sizeof(YieldBody)) ||
-        !array_reserve(&world->memory, &state->yield_grip, colliders->contacts, sizeof(YieldGrip)))
+        !array_reserve(&world->memory, &state->yield_grip, colliders->contacts, sizeof(YieldGrip)) ||
+        !array_reserve(&world->memory, &state->yield_pair, colliders->contacts, sizeof(YieldPair)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies on solids", bodies);
     for (int i = 0; i < colliders->obstacle_count; i++) {
         if (!may_yield(&colliders->obstacle[i])) continue;
@@ -108,6 +117,7 @@ void primal_yield_free(World *world)
 {
     array_free(&world->memory, &world->primal.yield_body);
     array_free(&world->memory, &world->primal.yield_grip);
+    array_free(&world->memory, &world->primal.yield_pair);
 }
 
 /* ---- Nodes that go along ---- */
@@ -125,8 +135,6 @@ static void add_push(const YieldGrip *grip, const float push[3], double factor, 
     for (int k = 0; k < WAYS; k++)
         for (int a = 0; a < 3; a++) sum[k] += factor * grip->move[k][a] * (double)push[a];
 }
-
-static bool carries(const Contact *contact) { return contact->active && (constraints_stick(contact) || constraints_friction_coefficient(contact) > 0.0f); }
 
 /* The end of the grips of a block that begin at `first`. */
 static uint32_t end_of_block(const Primal *p, uint32_t first)
@@ -334,51 +342,197 @@ void primal_yield_add_changes(Primal *p)
     }
 }
 
+/* ---- Matter that goes along ---- */
+
+static int32_t matter_of(const Primal *p, int32_t block) { return ((const int32_t *)state_of(p)->bodies.of_block.data)[block]; }
+
+static YieldPair *pairs_of(const Primal *p) { return state_of(p)->yield_pair.data; }
+
+/* From the rigid body's centre to a block's first node [cells]. */
+static void place_block(const Primal *p, const YieldPair *pair, int32_t block, double corner[3])
+{
+    double point[3];
+    contacts_node_position(p->contacts, block, 0, point);
+    for (int a = 0; a < 3; a++) corner[a] = a < p->world->grid.dimension ? (point[a] - bodies_of(p)[pair->body].obstacle->body->centre[a]) / p->contacts->cell_size : 0.0;
+}
+
+/* Pairs of bodies and of what they press. */
+static void find_pairs(Primal *p)
+{
+    PrimalState *state = state_of(p);
+    const YieldGrip *grip = grips_of(p);
+    YieldPair *pair = pairs_of(p);
+    state->yield_pairs = 0;
+    for (uint32_t g = 0; g < state->yield_grips; g++) {
+        const int32_t matter = matter_of(p, grip[g].block);
+        uint32_t i = 0;
+        if (!contacts_of(p)[grip[g].contact].active) continue;
+        while (i < state->yield_pairs && !(pair[i].matter == matter && pair[i].body == grip[g].body)) i++;
+        if (i == state->yield_pairs) pair[state->yield_pairs++] = (YieldPair){.matter = matter, .body = grip[g].body};
+    }
+}
+
+static void add_place(const Primal *p, YieldPair *pair, int32_t block, const Contact *contact)
+{
+    const Obstacle *o = bodies_of(p)[pair->body].obstacle;
+    const double along = o - p->contacts->colliders->obstacle == contact->obstacle;
+    double x[3];
+    place_block(p, pair, block, x);
+    primal_arm(x, contact->node, x);
+    pair->sum[0] += 1.0;
+    pair->sum[1] += along;
+    for (int a = 0; a < 3; a++) {
+        pair->sum[2 + a] += x[a];
+        pair->sum[5 + a] += along * x[a];
+        for (int b = 0; b < 3; b++) pair->square[a][b] += x[a] * x[b];
+    }
+}
+
+/* f = mean + slope.(x - middle), the best fit to 1 at the body's active contacts and 0 at those with others. */
+static void fit(YieldPair *pair)
+{
+    static const double RIDGE = 1e-3; /* of the mean square: contacts in a line or plane say nothing of what is across */
+    const double n = pair->sum[0];
+    SmallMatrix m;
+    double trace = 0.0;
+    pair->mean = pair->sum[1] / n;
+    for (int a = 0; a < 3; a++) {
+        pair->middle[a] = pair->sum[2 + a] / n;
+        pair->slope[a] = pair->sum[5 + a] / n - pair->mean * pair->middle[a];
+    }
+    for (int a = 0; a < 3; a++)
+        for (int b = 0; b < 3; b++) m[a][b] = pair->square[a][b] / n - pair->middle[a] * pair->middle[b];
+    for (int a = 0; a < 3; a++) trace += m[a][a];
+    for (int a = 0; a < 3; a++) m[a][a] += RIDGE * (trace + 1.0);
+    cholesky_factor(m, 3, 1e-12);
+    cholesky_forward(m, pair->slope, 3);
+    cholesky_backward(m, pair->slope, 3);
+}
+
+static void fit_pairs(Primal *p)
+{
+    const uint32_t *begin = p->contacts->colliders->contact_begin.data;
+    YieldPair *pair = pairs_of(p);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++)
+            for (uint32_t i = begin[block]; i < begin[block + 1] && pair[k].matter == matter_of(p, block); i++)
+                if (contacts_of(p)[i].active) add_place(p, &pair[k], block, contacts_of(p) + i);
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) fit(&pair[k]);
+}
+
+static double share_at(const YieldPair *pair, const double x[3])
+{
+    double share = pair->mean;
+    for (int a = 0; a < 3; a++) share += pair->slope[a] * (x[a] - pair->middle[a]);
+    return fmin(1.0, fmax(0.0, share));
+}
+
+/* What it costs: see the header. */
+static void weigh_pair(Primal *p, const YieldPair *pair, YieldBody *body)
+{
+    const float *inverse = state_of(p)->inverse.data;
+    double steep = 0.0, sum[10] = {0};
+    for (int a = 0; a < 3; a++) steep += pair->slope[a] * pair->slope[a] / 6.0;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        double corner[3], x[3];
+        if (matter_of(p, block) != pair->matter) continue;
+        place_block(p, pair, block, corner);
+        for (size_t i = 0; i < (size_t)p->floats / W; i++) {
+            const size_t node = (size_t)block * (size_t)p->floats / W + i;
+            const double mass = (double)p->base[node * W + 3];
+            if (!(inverse[node] > 0.0f)) continue;
+            primal_arm(corner, i, x);
+            const double share = share_at(pair, x), weight = mass * share * share + (1.0 / (double)inverse[node] - mass) * steep;
+            sum[0] += weight;
+            for (int a = 0; a < 3; a++) {
+                sum[1 + a] += weight * x[a];
+                sum[4 + a] += weight * x[a] * x[a];
+                sum[7 + a] += weight * x[(a + 1) % 3] * x[(a + 2) % 3];
+            }
+        }
+    }
+    double m[6][6] = {{0}};
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        m[a][a] = sum[0];
+        m[a][3 + b] = m[3 + b][a] = sum[1 + c]; /* w x x */
+        m[a][3 + c] = m[3 + c][a] = -sum[1 + b];
+        m[3 + a][3 + a] = sum[4 + b] + sum[4 + c];
+        m[3 + b][3 + c] = m[3 + c][3 + b] = -sum[7 + a];
+    }
+    for (int r = 0; r < WAYS; r++)
+        for (int c = 0; c < WAYS; c++)
+            for (int i = 0; i < 6; i++)
+                for (int j = 0; j < 6; j++) body->factor[r][c] += body->way[r][i] * m[i][j] * body->way[c][j];
+}
+
 /* D. */
 static void weigh(Primal *p)
 {
-    const YieldGrip *grip = grips_of(p);
-    const float *inverse = state_of(p)->inverse.data;
     YieldBody *body = bodies_of(p);
+    find_pairs(p);
+    fit_pairs(p);
     for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++)
         for (int r = 0; r < WAYS; r++)
             for (int c = 0; c < WAYS; c++) body[b].factor[r][c] = r == c;
-    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) {
-        const Contact *contact = contacts_of(p) + grip[g].contact;
-        const float own = inverse[node_of(p, &grip[g]) / W];
-        double along[WAYS] = {0};
-        if (!contact->active || !(own > 0.0f)) continue;
-        for (int k = 0; k < WAYS; k++)
-            for (int a = 0; a < 3; a++) along[k] += grip[g].move[k][a] * (double)contact->normal[a];
-        for (int r = 0; r < WAYS; r++)
-            for (int c = 0; c < WAYS; c++) {
-                double both = along[r] * along[c];
-                for (int a = 0; a < 3 && carries(contact); a++) both += a == 0 ? grip[g].move[r][a] * grip[g].move[c][a] - both : grip[g].move[r][a] * grip[g].move[c][a];
-                body[grip[g].body].factor[r][c] += both / (double)own;
-            }
-    }
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) weigh_pair(p, &pairs_of(p)[k], &body[pairs_of(p)[k].body]);
     for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) cholesky_factor(body[b].factor, WAYS, 1.0);
 }
 
-/* What goes along the surfaces, P C W q: its part of what is on the right, and then of the direction. */
+/* Its part of what is on the right, and then of the direction. */
 static void fold_along(Primal *p)
 {
-    const YieldGrip *grip = grips_of(p);
-    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
-        if (carries(contacts_of(p) + grip[g].contact)) add_push(&grip[g], p->right + node_of(p, &grip[g]), 1.0, bodies_of(p)[grip[g].body].direction);
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) {
+        const YieldPair *pair = &pairs_of(p)[k];
+        YieldBody *body = &bodies_of(p)[pair->body];
+        double sum[6] = {0}, corner[3], x[3];
+        for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+            const float *right = p->right + (size_t)block * (size_t)p->floats;
+            if (matter_of(p, block) != pair->matter) continue;
+            place_block(p, pair, block, corner);
+            for (size_t i = 0; i < (size_t)p->floats / W; i++, right += W) {
+                primal_arm(corner, i, x);
+                const double share = share_at(pair, x);
+                for (int a = 0; a < 3; a++) {
+                    const int b = (a + 1) % 3, c = (a + 2) % 3;
+                    sum[a] += share * (double)right[a];
+                    sum[3 + a] += share * (x[b] * (double)right[c] - x[c] * (double)right[b]);
+                }
+            }
+        }
+        for (int w = 0; w < WAYS; w++)
+            for (int a = 0; a < 6; a++) body->direction[w] += body->way[w][a] * sum[a];
+    }
 }
 
-static void spread_along(Primal *p, uint32_t first, uint32_t end, float *along)
+/* Adds it to a block's vector. */
+static void spread_along(const Primal *p, int32_t block, float *along)
 {
-    const YieldGrip *grip = grips_of(p);
-    memset(along, 0, (size_t)p->floats * sizeof *along);
-    for (uint32_t g = first; g < end; g++)
-        if (carries(contacts_of(p) + grip[g].contact)) {
-            float *v = along + (size_t)contacts_of(p)[grip[g].contact].node * W, moved[3];
-            motion_of(&grip[g], bodies_of(p)[grip[g].body].direction, moved);
-            for (int a = 0; a < 3; a++) v[a] += moved[a];
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) {
+        const YieldPair *pair = &pairs_of(p)[k];
+        const YieldBody *body = &bodies_of(p)[pair->body];
+        double motion[6] = {0}, corner[3], x[3];
+        if (matter_of(p, block) != pair->matter) continue;
+        for (int w = 0; w < WAYS; w++)
+            for (int a = 0; a < 6; a++) motion[a] += body->way[w][a] * body->direction[w];
+        place_block(p, pair, block, corner);
+        for (size_t i = 0; i < (size_t)p->floats / W; i++) {
+            if (!(p->base[(size_t)block * (size_t)p->floats + i * W + 3] > 0.0f)) continue;
+            primal_arm(corner, i, x);
+            const double share = share_at(pair, x);
+            for (int a = 0; a < 3; a++) {
+                const int b = (a + 1) % 3, c = (a + 2) % 3;
+                along[i * W + (size_t)a] += (float)(share * (motion[a] + motion[3 + b] * x[c] - motion[3 + c] * x[b]));
+            }
         }
-    for (int sweep = 0; sweep < SWEEPS; sweep++) sweep_out(p, first, along, NULL);
+    }
+}
+
+static bool has_pair(const Primal *p, int32_t block)
+{
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++)
+        if (pairs_of(p)[k].matter == matter_of(p, block)) return true;
+    return false;
 }
 
 void primal_yield_find_direction(Primal *p)
@@ -393,16 +547,23 @@ void primal_yield_find_direction(Primal *p)
         cholesky_backward(body[b].factor, body[b].direction, WAYS);
         for (int i = 0; i < p->pairs; i++) p->total[i] += product(body[b].change[i], body[b].direction);
     }
-    for (uint32_t first = 0, end; first < state_of(p)->yield_grips; first = end) {
-        const size_t begin = (size_t)grips_of(p)[first].block * (size_t)p->floats;
-        float along[BLOCK_FLOATS], in[BLOCK_FLOATS] = {0};
-        end = end_of_block(p, first);
-        spread_along(p, first, end, along);
-        for (int sweep = 0; sweep < SWEEPS; sweep++) sweep_in(p, first, in);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        const size_t begin = (size_t)block * (size_t)p->floats;
+        float along[BLOCK_FLOATS] = {0};
+        if (!has_pair(p, block)) continue;
+        spread_along(p, block, along);
+        constraints_remove_from(p->contacts, along, block);
         for (size_t j = 0; j < (size_t)p->floats; j++) {
             p->direction[begin + j] += along[j];
-            for (int i = 0; i < p->pairs; i++) p->total[i] += (double)p->change[i][begin + j] * (double)(along[j] + in[j]);
+            for (int i = 0; i < p->pairs; i++) p->total[i] += (double)p->change[i][begin + j] * (double)along[j];
         }
+    }
+    for (uint32_t first = 0; first < state_of(p)->yield_grips; first = end_of_block(p, first)) {
+        const size_t begin = (size_t)grips_of(p)[first].block * (size_t)p->floats;
+        float in[BLOCK_FLOATS] = {0};
+        for (int sweep = 0; sweep < SWEEPS; sweep++) sweep_in(p, first, in);
+        for (size_t j = 0; j < (size_t)p->floats; j++)
+            for (int i = 0; i < p->pairs; i++) p->total[i] += (double)p->change[i][begin + j] * (double)in[j];
     }
 }
 
