@@ -382,17 +382,25 @@ static void share_missing(const ContactFrame *frame, const double missing[3], co
     }
 }
 
-void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
+void constraints_book_contacts(const ContactFrame *frame, float *gradient, const float *u, float least)
 {
     const Colliders *colliders = frame->colliders;
-    double *booked = colliders->impulses.contact.data, missing[3];
-    if (!colliders->measures || colliders->contacts == 0) return;
+    double *booked = colliders->impulses.contact.data;
     memset(booked, 0, 3 * (size_t)colliders->contacts * sizeof *booked);
     for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
         const BlockContacts list = contacts_of(frame, block);
         for (int sweep = 0; sweep < 2; sweep++)
             for (uint32_t i = list.begin; i < list.end; i++) book_contact(&list, i, gradient, u, least, sweep == 0, booked + 3 * (size_t)i);
     }
+}
+
+void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
+{
+    const Colliders *colliders = frame->colliders;
+    const double *booked = colliders->impulses.contact.data;
+    double missing[3];
+    if (!colliders->measures || colliders->contacts == 0) return;
+    constraints_book_contacts(frame, gradient, u, least);
     sum_gained(frame->grid, after, base, missing);
     for (uint32_t i = 0; i < colliders->contacts; i++)
         for (size_t a = 0; a < 3; a++) missing[a] -= booked[3 * (size_t)i + a];

@@ -91,6 +91,9 @@ bool constraints_stick(const Contact *contact);
  * proportion to what they gave; without any it stays unaccounted. `after`: the displacements that make the velocities. Uses up `gradient`. */
 void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least);
 
+/* The first half of that: what each contact gave. */
+void constraints_book_contacts(const ContactFrame *frame, float *gradient, const float *u, float least);
+
 /* What was booked of a block's contacts becomes `factor` times as much. */
 void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double factor);
 

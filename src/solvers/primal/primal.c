@@ -704,7 +704,10 @@ void primal_solve(World *world, const ContactFrame *contacts)
     if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
-    constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
+    if (p.yields)
+        primal_yield_book(&p, primal_kept_motion(&p));
+    else
+        constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
     primal_yield_close(&p);
 }

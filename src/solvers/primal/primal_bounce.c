@@ -15,6 +15,7 @@
 #include "contact/contact_constraints.h"
 #include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
+#include "solvers/primal/primal_yield.h"
 #include "world/sleep_rows.h"
 
 static const double KEPT = 1.0;      /* all of it: with more a ball would bounce higher than it fell */
@@ -59,7 +60,7 @@ void primal_find_bounces(Primal *p)
     p->bounces = false;
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].bounce = 0.0;
-        body[i].bounces = of[i].touches && !of[i].with_liquid && !of[i].held && !body[i].multistep && body[i].kept == 1.0;
+        body[i].bounces = of[i].touches && !of[i].with_liquid && !of[i].held && !body[i].multistep && body[i].kept == 1.0 && !primal_yield_presses(p, i);
         p->bounces = p->bounces || body[i].bounces;
     }
     p->world->primal.bounces = p->bounces;

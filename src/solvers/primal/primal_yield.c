@@ -40,6 +40,12 @@ typedef struct YieldPair {
     double sum[8], square[3][3];
 } YieldPair;
 
+/* What a piece of matter was given by contacts, and those of them that belong to no body. */
+typedef struct YieldAccount {
+    double missing[3];
+    double given, slack; /* sizes added up */
+} YieldAccount;
+
 static PrimalState *state_of(const Primal *p) { return &p->world->primal; }
 static YieldBody *bodies_of(const Primal *p) { return state_of(p)->yield_body.data; }
 static YieldGrip *grips_of(const Primal *p) { return state_of(p)->yield_grip.data; }
@@ -102,7 +108,8 @@ pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts)
     if (bodies == 0 || colliders->contacts == 0 || world->record.solver != PBMPM_SOLVER_PRIMAL || solver_holds_liquid(world)) return PBMPM_OK;
     if (!array_reserve(&world->memory, &state->yield_body, bodies, sizeof(YieldBody)) ||
         !array_reserve(&world->memory, &state->yield_grip, colliders->contacts, sizeof(YieldGrip)) ||
-        !array_reserve(&world->memory, &state->yield_pair, colliders->contacts, sizeof(YieldPair)))
+        !array_reserve(&world->memory, &state->yield_pair, colliders->contacts, sizeof(YieldPair)) ||
+        !array_reserve(&world->memory, &state->yield_account, (size_t)state->bodies.count, sizeof(YieldAccount)))
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies on solids", bodies);
     for (int i = 0; i < colliders->obstacle_count; i++) {
         if (!may_yield(&colliders->obstacle[i])) continue;
@@ -118,6 +125,7 @@ void primal_yield_free(World *world)
     array_free(&world->memory, &world->primal.yield_body);
     array_free(&world->memory, &world->primal.yield_grip);
     array_free(&world->memory, &world->primal.yield_pair);
+    array_free(&world->memory, &world->primal.yield_account);
 }
 
 /* ---- Nodes that go along ---- */
@@ -604,6 +612,100 @@ void primal_yield_return(Primal *p)
     if (!p->yields) return;
     for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) memcpy(body[b].at, body[b].best, sizeof body[b].at);
     move_surfaces(p, true);
+}
+
+/* ---- Impulses ---- */
+
+static double size_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+static void open_accounts(const Primal *p, const float *after, YieldAccount *account)
+{
+    const uint32_t *begin = p->contacts->colliders->contact_begin.data;
+    const double *booked = p->contacts->colliders->impulses.contact.data;
+    uint32_t g = 0;
+    memset(account, 0, (size_t)state_of(p)->bodies.count * sizeof *account);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        YieldAccount *of = &account[matter_of(p, block)];
+        for (size_t i = (size_t)block * (size_t)p->floats, end = i + (size_t)p->floats; i < end; i += W)
+            for (size_t a = 0; a < 3; a++) of->missing[a] += (double)p->base[i + 3] * ((double)after[i + a] - (double)p->base[i + a]);
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const bool grips = g < state_of(p)->yield_grips && grips_of(p)[g].contact == i;
+            for (int a = 0; a < 3; a++) of->missing[a] -= booked[3 * i + (uint32_t)a];
+            of->given += size_of(booked + 3 * i);
+            if (grips) g++;
+            else of->slack += size_of(booked + 3 * i);
+        }
+    }
+}
+
+/* Contacts share what is missing: those of obstacles that yield to nothing, where there are any. */
+static void share_missing(const Primal *p, const YieldAccount *account, bool with_slack)
+{
+    const uint32_t *begin = p->contacts->colliders->contact_begin.data;
+    double *booked = p->contacts->colliders->impulses.contact.data;
+    uint32_t g = 0;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        const YieldAccount *of = &account[matter_of(p, block)];
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const bool grips = g < state_of(p)->yield_grips && grips_of(p)[g].contact == i;
+            if (grips) g++;
+            const double sum = with_slack ? of->slack : of->given;
+            if (with_slack != (of->slack > 0.0) || (with_slack && grips) || !(sum > 0.0)) continue;
+            const double share = size_of(booked + 3 * i) / sum;
+            for (int a = 0; a < 3; a++) booked[3 * i + (uint32_t)a] += share * of->missing[a];
+        }
+    }
+}
+
+/* A body was given what it went for: q - a. */
+static void settle_body(const Primal *p, uint32_t index, const YieldAccount *account)
+{
+    const YieldGrip *grip = grips_of(p);
+    const YieldBody *body = &bodies_of(p)[index];
+    double *booked = p->contacts->colliders->impulses.contact.data, owed[WAYS];
+    SmallMatrix m;
+    memset(m, 0, sizeof m);
+    for (int k = 0; k < WAYS; k++) owed[k] = body->best[k] - body->aim[k];
+    double trace = 0.0;
+    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) {
+        if (grip[g].body != index) continue;
+        const double *b = booked + 3 * (size_t)grip[g].contact;
+        for (int r = 0; r < WAYS; r++) {
+            for (int a = 0; a < 3; a++) owed[r] += grip[g].move[r][a] * b[a];
+            for (int c = 0; c < WAYS && contacts_of(p)[grip[g].contact].active && account[matter_of(p, grip[g].block)].slack > 0.0; c++)
+                for (int a = 0; a < 3; a++) m[r][c] += grip[g].move[r][a] * grip[g].move[c][a];
+        }
+    }
+    for (int k = 0; k < WAYS; k++) trace += m[k][k];
+    if (!(trace > 0.0)) return;
+    for (int k = 0; k < WAYS; k++) m[k][k] += 1e-9 * trace;
+    cholesky_factor(m, WAYS, 1e-12 * trace);
+    cholesky_forward(m, owed, WAYS);
+    cholesky_backward(m, owed, WAYS);
+    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) {
+        if (grip[g].body != index || !contacts_of(p)[grip[g].contact].active || !(account[matter_of(p, grip[g].block)].slack > 0.0)) continue;
+        float moved[3];
+        motion_of(&grip[g], owed, moved);
+        for (int a = 0; a < 3; a++) booked[3 * (size_t)grip[g].contact + (size_t)a] -= (double)moved[a];
+    }
+}
+
+void primal_yield_book(Primal *p, const float *after)
+{
+    YieldAccount *account = state_of(p)->yield_account.data;
+    constraints_book_contacts(p->contacts, p->gradient, p->best, p->slip_min);
+    open_accounts(p, after, account);
+    share_missing(p, account, false);
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) settle_body(p, b, account);
+    open_accounts(p, after, account);
+    share_missing(p, account, true);
+}
+
+bool primal_yield_presses(const Primal *p, int32_t matter)
+{
+    for (uint32_t g = 0; p->yields && g < state_of(p)->yield_grips; g++)
+        if (contacts_of(p)[grips_of(p)[g].contact].active && matter_of(p, grips_of(p)[g].block) == matter) return true;
+    return false;
 }
 
 void primal_yield_close(Primal *p)

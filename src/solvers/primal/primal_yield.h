@@ -56,6 +56,12 @@ void primal_yield_add_steps(Primal *p);
 void primal_yield_try(Primal *p);
 void primal_yield_return(Primal *p);
 
+/* what contacts gave, as constraints_book_impulses(); */
+void primal_yield_book(Primal *p, const float *after);
+
+/* whether a piece of matter presses such a body; */
+bool primal_yield_presses(const Primal *p, int32_t matter);
+
 /* the end: bodies go where they yielded to. */
 void primal_yield_close(Primal *p);
 
