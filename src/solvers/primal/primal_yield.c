@@ -722,7 +722,8 @@ void primal_yield_close(Primal *p)
             for (int a = 0; a < 6; a++) more[a] += dt * faster * free->open[k][a];
         }
         for (int a = 0; a < 6; a++) free->pace[a] += more[a];
-if (getenv("YDBG")) fprintf(stderr, "yield it %u fail %u aim %g q %g r %g (vel units; mass-scaled) grips %u active %d\n", p->world->record.iterations_used, p->world->record.energy_checks_failed, body[b].aim[1]/body[b].unit, body[b].best[1]/body[b].unit, body[b].right[1]/body[b].unit, state_of(p)->yield_grips, ({int c=0; for (uint32_t g=0; g<state_of(p)->yield_grips; g++) c+=contacts_of(p)[grips_of(p)[g].contact].active; c;}));
+if (getenv("YDBG")) { double s[WAYS] = {0}; for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) for (int a = 0; a < 3; a++) s[1] -= grips_of(p)[g].move[1][a] * ((double*)p->contacts->colliders->impulses.contact.data)[3*grips_of(p)[g].contact+(unsigned)a]; fprintf(stderr, "booked %g of %g  ", s[1]/body[b].unit, (body[b].best[1]-body[b].aim[1])/body[b].unit); }
+        if (getenv("YDBG")) fprintf(stderr, "yield it %u fail %u aim %g q %g r %g (vel units; mass-scaled) grips %u active %d\n", p->world->record.iterations_used, p->world->record.energy_checks_failed, body[b].aim[1]/body[b].unit, body[b].best[1]/body[b].unit, body[b].right[1]/body[b].unit, state_of(p)->yield_grips, ({int c=0; for (uint32_t g=0; g<state_of(p)->yield_grips; g++) c+=contacts_of(p)[grips_of(p)[g].contact].active; c;}));
         free->met = 1;
         solid_displace(&o->end, free->centre, more);
         obstacle_set_turn(o);
