@@ -639,8 +639,16 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
-    constraints_project(p->contacts, p->node, block, block + 1);
+    if (!p->yields) constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
+}
+
+static void project_start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)begin;
+    (void)end;
+    (void)sum;
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
 static void find_friction(Primal *p)
@@ -668,6 +676,11 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     Loops loops;
     loops_open(&loops, world->pool);
     add_pass(&p, &loops, start);
+    if (p.yields) {
+        loops_run(&loops);
+        primal_yield_start(&p);
+        add_pass(&p, &loops, project_start);
+    }
     evaluate_after(&p, &loops, world->kernels->force_first);
     primal_accept(&p, false);
     add_pass(&p, &loops, weigh_nodes);

@@ -262,6 +262,50 @@ void primal_yield_open(Primal *p)
     for (uint32_t b = 0; p->yields && b < state_of(p)->yield_bodies; b++) aim(p, &body[b]);
 }
 
+/* A contact's part in the next Newton step of a start. */
+static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
+{
+    static const double HARD = 1e3; /* times what weighs there: all that is left of it is rounding to what is solved for */
+    const Contact *contact = contacts_of(p) + grip->contact;
+    const float *u = p->node + node_of(p, grip);
+    double along[WAYS] = {0}, room = (double)contact->gap, yields = 0.0;
+    for (int a = 0; a < 3; a++) room += (double)contact->normal[a] * ((double)u[a] - (double)grip->surface[a]);
+    for (int k = 0; k < WAYS; k++) {
+        for (int a = 0; a < 3; a++) along[k] += (double)contact->normal[a] * grip->move[k][a];
+        yields += along[k] * along[k];
+    }
+    if (!(room < product(along, body->at)) || !(yields > 0.0)) return;
+    const double hard = HARD * ((double)p->base[node_of(p, grip) + 3] + 1.0 / yields);
+    for (int r = 0; r < WAYS; r++) {
+        body->direction[r] += hard * room * along[r];
+        for (int c = 0; c < WAYS; c++) body->factor[r][c] += hard * along[r] * along[c];
+    }
+}
+
+/* Where matter that goes as it would without obstacles stops a body. What a body presses in before it is solved for strains one layer of nodes alone, and pushes as nothing
+ * smooth does. */
+void primal_yield_start(Primal *p)
+{
+    enum { ROUNDS = 6 };
+    const YieldGrip *grip = grips_of(p);
+    YieldBody *body = bodies_of(p);
+    for (int round = 0; round < ROUNDS && p->yields; round++) {
+        for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+            memcpy(body[b].direction, body[b].aim, sizeof body[b].aim);
+            for (int r = 0; r < WAYS; r++)
+                for (int c = 0; c < WAYS; c++) body[b].factor[r][c] = r == c;
+        }
+        for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) add_stop(p, &grip[g], &body[grip[g].body]);
+        for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+            cholesky_factor(body[b].factor, WAYS, 1.0);
+            cholesky_forward(body[b].factor, body[b].direction, WAYS);
+            cholesky_backward(body[b].factor, body[b].direction, WAYS);
+            memcpy(body[b].at, body[b].direction, sizeof body[b].at);
+        }
+    }
+    if (p->yields) move_surfaces(p, false);
+}
+
 void primal_yield_evaluate(Primal *p)
 {
     const YieldBody *body = bodies_of(p);

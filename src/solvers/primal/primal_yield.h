@@ -34,6 +34,9 @@ void primal_yield_free(World *world);
 /* All below do nothing where no body yields. In the order of a solution: before the first evaluation; */
 void primal_yield_open(Primal *p);
 
+/* where bodies begin, at p->node that obeys no contacts yet; */
+void primal_yield_start(Primal *p);
+
 /* what an evaluation at p->node adds: energy and slopes; */
 void primal_yield_evaluate(Primal *p);
 
