@@ -715,6 +715,7 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_find_kept(&p);
     forget_past(&p);
     if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
+    primal_yield_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
     if (p.yields)

@@ -30,6 +30,7 @@ typedef struct YieldBody {
     double right[WAYS], direction[WAYS]; /* r, and D^-1 r with what pairs add */
     double step[PRIMAL_MEMORY][WAYS], change[PRIMAL_MEMORY][WAYS];
     SmallMatrix factor; /* of D */
+    bool alone; /* what it touches touches nothing else */
 } YieldBody;
 
 /* A body and a piece of matter that it presses, which goes along by the share f: see fit(). */
@@ -479,6 +480,34 @@ static double share_at(const YieldPair *pair, const double x[3])
     return fmin(1.0, fmax(0.0, share));
 }
 
+/* W' (sum C' C) W, from the sums of weights, of weights times places and of their products. */
+static void add_moments(const double sum[10], YieldBody *body)
+{
+    double m[6][6] = {{0}};
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        m[a][a] = sum[0];
+        m[a][3 + b] = m[3 + b][a] = sum[1 + c]; /* w x x */
+        m[a][3 + c] = m[3 + c][a] = -sum[1 + b];
+        m[3 + a][3 + a] = sum[4 + b] + sum[4 + c];
+        m[3 + b][3 + c] = m[3 + c][3 + b] = -sum[7 + a];
+    }
+    for (int r = 0; r < WAYS; r++)
+        for (int c = 0; c < WAYS; c++)
+            for (int i = 0; i < 6; i++)
+                for (int j = 0; j < 6; j++) body->factor[r][c] += body->way[r][i] * m[i][j] * body->way[c][j];
+}
+
+static void add_moment(double weight, const double x[3], double sum[10])
+{
+    sum[0] += weight;
+    for (int a = 0; a < 3; a++) {
+        sum[1 + a] += weight * x[a];
+        sum[4 + a] += weight * x[a] * x[a];
+        sum[7 + a] += weight * x[(a + 1) % 3] * x[(a + 2) % 3];
+    }
+}
+
 /* What it costs: see the header. */
 static void weigh_pair(Primal *p, const YieldPair *pair, YieldBody *body)
 {
@@ -495,27 +524,10 @@ static void weigh_pair(Primal *p, const YieldPair *pair, YieldBody *body)
             if (!(inverse[node] > 0.0f)) continue;
             primal_arm(corner, i, x);
             const double share = share_at(pair, x), weight = mass * share * share + (1.0 / (double)inverse[node] - mass) * steep;
-            sum[0] += weight;
-            for (int a = 0; a < 3; a++) {
-                sum[1 + a] += weight * x[a];
-                sum[4 + a] += weight * x[a] * x[a];
-                sum[7 + a] += weight * x[(a + 1) % 3] * x[(a + 2) % 3];
-            }
+            add_moment(weight, x, sum);
         }
     }
-    double m[6][6] = {{0}};
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        m[a][a] = sum[0];
-        m[a][3 + b] = m[3 + b][a] = sum[1 + c]; /* w x x */
-        m[a][3 + c] = m[3 + c][a] = -sum[1 + b];
-        m[3 + a][3 + a] = sum[4 + b] + sum[4 + c];
-        m[3 + b][3 + c] = m[3 + c][3 + b] = -sum[7 + a];
-    }
-    for (int r = 0; r < WAYS; r++)
-        for (int c = 0; c < WAYS; c++)
-            for (int i = 0; i < 6; i++)
-                for (int j = 0; j < 6; j++) body->factor[r][c] += body->way[r][i] * m[i][j] * body->way[c][j];
+    add_moments(sum, body);
 }
 
 /* D. */
@@ -658,6 +670,98 @@ void primal_yield_return(Primal *p)
     move_surfaces(p, true);
 }
 
+/* ---- Momentum ---- */
+
+/* Whether a piece of matter touches anything but this body. */
+static bool touches_others(const Primal *p, int32_t matter, uint32_t body)
+{
+    const int obstacle = (int)(bodies_of(p)[body].obstacle - p->contacts->colliders->obstacle);
+    const uint32_t *begin = p->contacts->colliders->contact_begin.data;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        for (uint32_t i = begin[block]; i < begin[block + 1] && matter_of(p, block) == matter; i++)
+            if (contacts_of(p)[i].active && contacts_of(p)[i].obstacle != obstacle) return true;
+    return false;
+}
+
+static void sum_together(Primal *p, const YieldPair *pair, YieldBody *body)
+{
+    double moments[10] = {0}, sum[6] = {0}, corner[3], x[3], lost[3];
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        if (matter_of(p, block) != pair->matter) continue;
+        place_block(p, pair, block, corner);
+        for (size_t i = 0; i < (size_t)p->floats / W; i++) {
+            const size_t node = (size_t)block * (size_t)p->floats + i * W;
+            const double mass = (double)p->base[node + 3];
+            primal_arm(corner, i, x);
+            add_moment(mass, x, moments);
+            for (size_t a = 0; a < 3; a++) lost[a] = mass * ((double)p->base[node + a] - (double)p->best[node + a]);
+            for (int a = 0; a < 3; a++) {
+                const int b = (a + 1) % 3, c = (a + 2) % 3;
+                sum[a] += lost[a];
+                sum[3 + a] += x[b] * lost[c] - x[c] * lost[b];
+            }
+        }
+    }
+    add_moments(moments, body);
+    for (int k = 0; k < WAYS; k++)
+        for (int a = 0; a < 6; a++) body->direction[k] += body->way[k][a] * sum[a];
+}
+
+static void move_together(Primal *p, const YieldPair *pair, const YieldBody *body)
+{
+    double motion[6] = {0}, corner[3], x[3];
+    for (int k = 0; k < WAYS; k++)
+        for (int a = 0; a < 6; a++) motion[a] += body->way[k][a] * body->direction[k];
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        if (matter_of(p, block) != pair->matter) continue;
+        place_block(p, pair, block, corner);
+        for (size_t i = 0; i < (size_t)p->floats / W; i++) {
+            float *u = p->best + (size_t)block * (size_t)p->floats + i * W;
+            if (!(p->base[(size_t)block * (size_t)p->floats + i * W + 3] > 0.0f)) continue;
+            primal_arm(corner, i, x);
+            for (int a = 0; a < 3; a++) {
+                const int b = (a + 1) % 3, c = (a + 2) % 3;
+                u[a] += (float)(motion[a] + motion[3 + b] * x[c] - motion[3 + c] * x[b]);
+            }
+        }
+    }
+}
+
+/* A body and all that it touches, where that touches nothing else, go on together, without strain: what they push each other with cancels out. So the energy is least where
+ *
+ *     q - a + W' sum over all nodes C' m (u - u*) = 0,
+ *
+ * which is their momentum along the body's ways. An unfinished solution gets there by q += d, u += C W d. */
+void primal_yield_keep_momentum(Primal *p)
+{
+    if (!p->yields) return;
+    find_pairs(p);
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+        YieldBody *body = &bodies_of(p)[b];
+        uint32_t mine = 0;
+        body->alone = true;
+        for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) {
+            if (pairs_of(p)[k].body != b) continue;
+            mine++;
+            body->alone = body->alone && !touches_others(p, pairs_of(p)[k].matter, b);
+        }
+        if (!body->alone || mine == 0) continue;
+        for (int r = 0; r < WAYS; r++) {
+            body->direction[r] = body->aim[r] - body->best[r];
+            for (int c = 0; c < WAYS; c++) body->factor[r][c] = r == c;
+        }
+        for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++)
+            if (pairs_of(p)[k].body == b) sum_together(p, &pairs_of(p)[k], body);
+        cholesky_factor(body->factor, WAYS, 1.0);
+        cholesky_forward(body->factor, body->direction, WAYS);
+        cholesky_backward(body->factor, body->direction, WAYS);
+        for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++)
+            if (pairs_of(p)[k].body == b) move_together(p, &pairs_of(p)[k], body);
+        for (int k = 0; k < WAYS; k++) body->best[k] += body->direction[k];
+    }
+    move_surfaces(p, true);
+}
+
 /* ---- Impulses ---- */
 
 static double size_of(const double v[3]) { return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
@@ -701,37 +805,46 @@ static void share_missing(const Primal *p, const YieldAccount *account, bool wit
     }
 }
 
-/* A body was given what it went for: q - a. */
+/* Whether a grip's share of what a body was given may change: what others of the same matter take then. */
+static bool may_settle(const Primal *p, const YieldGrip *grip, uint32_t index, const YieldAccount *account)
+{
+    if (grip->body != index || !contacts_of(p)[grip->contact].active) return false;
+    return bodies_of(p)[index].alone || account[matter_of(p, grip->block)].slack > 0.0;
+}
+
+/* A body was given what it went for: q - a. Of what is alone with it only the moment may be another. */
 static void settle_body(const Primal *p, uint32_t index, const YieldAccount *account)
 {
     const YieldGrip *grip = grips_of(p);
     const YieldBody *body = &bodies_of(p)[index];
-    double *booked = p->contacts->colliders->impulses.contact.data, owed[WAYS];
+    double *booked = p->contacts->colliders->impulses.contact.data, owed[WAYS], mean[WAYS][3] = {{0}}, trace = 0.0, count = 0.0;
     SmallMatrix m;
     memset(m, 0, sizeof m);
     for (int k = 0; k < WAYS; k++) owed[k] = body->best[k] - body->aim[k];
-    double trace = 0.0;
     for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) {
         if (grip[g].body != index) continue;
-        const double *b = booked + 3 * (size_t)grip[g].contact;
-        for (int r = 0; r < WAYS; r++) {
-            for (int a = 0; a < 3; a++) owed[r] += grip[g].move[r][a] * b[a];
-            for (int c = 0; c < WAYS && contacts_of(p)[grip[g].contact].active && account[matter_of(p, grip[g].block)].slack > 0.0; c++)
-                for (int a = 0; a < 3; a++) m[r][c] += grip[g].move[r][a] * grip[g].move[c][a];
-        }
+        for (int r = 0; r < WAYS; r++)
+            for (int a = 0; a < 3; a++) owed[r] += grip[g].move[r][a] * booked[3 * (size_t)grip[g].contact + (size_t)a];
+        if (!may_settle(p, &grip[g], index, account)) continue;
+        count += 1.0;
+        for (int r = 0; r < WAYS; r++)
+            for (int a = 0; a < 3; a++) mean[r][a] += grip[g].move[r][a];
     }
+    for (int r = 0; r < WAYS && count > 0.0; r++)
+        for (int a = 0; a < 3; a++) mean[r][a] = body->alone ? mean[r][a] / count : 0.0;
+    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
+        for (int r = 0; r < WAYS && may_settle(p, &grip[g], index, account); r++)
+            for (int c = 0; c < WAYS; c++)
+                for (int a = 0; a < 3; a++) m[r][c] += (grip[g].move[r][a] - mean[r][a]) * (grip[g].move[c][a] - mean[c][a]);
     for (int k = 0; k < WAYS; k++) trace += m[k][k];
     if (!(trace > 0.0)) return;
     for (int k = 0; k < WAYS; k++) m[k][k] += 1e-9 * trace;
     cholesky_factor(m, WAYS, 1e-12 * trace);
     cholesky_forward(m, owed, WAYS);
     cholesky_backward(m, owed, WAYS);
-    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) {
-        if (grip[g].body != index || !contacts_of(p)[grip[g].contact].active || !(account[matter_of(p, grip[g].block)].slack > 0.0)) continue;
-        float moved[3];
-        motion_of(&grip[g], owed, moved);
-        for (int a = 0; a < 3; a++) booked[3 * (size_t)grip[g].contact + (size_t)a] -= (double)moved[a];
-    }
+    for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
+        for (int k = 0; k < WAYS && may_settle(p, &grip[g], index, account); k++)
+            for (int a = 0; a < 3; a++) booked[3 * (size_t)grip[g].contact + (size_t)a] -= owed[k] * (grip[g].move[k][a] - mean[k][a]);
 }
 
 void primal_yield_book(Primal *p, const float *after)

@@ -59,6 +59,9 @@ void primal_yield_add_steps(Primal *p);
 void primal_yield_try(Primal *p);
 void primal_yield_return(Primal *p);
 
+/* the momentum of bodies with what they touch, of an unfinished solution; */
+void primal_yield_keep_momentum(Primal *p);
+
 /* what contacts gave, as constraints_book_impulses(); */
 void primal_yield_book(Primal *p, const float *after);
 
