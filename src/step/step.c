@@ -279,6 +279,8 @@ static pbmpm_result take_substep(World *world, int part, uint32_t *marked)
 
     /* Where their materials let them go. */
     if (world->grid.particle_blocks > 0) solver_solve(world, &contacts); /* else all fly */
+    if (world->primal.yield_grips > 0) result = contacts_prepare_push(&contacts, &world->memory); /* bodies ended elsewhere */
+    if (result != PBMPM_OK) return result;
     if (world->sleep.on) sleep_judge(world);
     lap(&record->ms_iterate, &clock);
 

@@ -816,6 +816,7 @@ static bool may_settle(const Primal *p, const YieldGrip *grip, uint32_t index, c
 static void settle_body(const Primal *p, uint32_t index, const YieldAccount *account)
 {
     const YieldGrip *grip = grips_of(p);
+    static const double RIDGE = 1e-9; /* ways that change nothing of it get nothing */
     const YieldBody *body = &bodies_of(p)[index];
     double *booked = p->contacts->colliders->impulses.contact.data, owed[WAYS], mean[WAYS][3] = {{0}}, trace = 0.0, count = 0.0;
     SmallMatrix m;
@@ -834,12 +835,13 @@ static void settle_body(const Primal *p, uint32_t index, const YieldAccount *acc
         for (int a = 0; a < 3; a++) mean[r][a] = body->alone ? mean[r][a] / count : 0.0;
     for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
         for (int r = 0; r < WAYS && may_settle(p, &grip[g], index, account); r++)
-            for (int c = 0; c < WAYS; c++)
-                for (int a = 0; a < 3; a++) m[r][c] += (grip[g].move[r][a] - mean[r][a]) * (grip[g].move[c][a] - mean[c][a]);
-    for (int k = 0; k < WAYS; k++) trace += m[k][k];
+            for (int a = 0; a < 3; a++) {
+                trace += grip[g].move[r][a] * grip[g].move[r][a];
+                for (int c = 0; c < WAYS; c++) m[r][c] += (grip[g].move[r][a] - mean[r][a]) * (grip[g].move[c][a] - mean[c][a]);
+            }
     if (!(trace > 0.0)) return;
-    for (int k = 0; k < WAYS; k++) m[k][k] += 1e-9 * trace;
-    cholesky_factor(m, WAYS, 1e-12 * trace);
+    for (int k = 0; k < WAYS; k++) m[k][k] += RIDGE * trace;
+    cholesky_factor(m, WAYS, RIDGE * trace);
     cholesky_forward(m, owed, WAYS);
     cholesky_backward(m, owed, WAYS);
     for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
@@ -879,8 +881,16 @@ void primal_yield_close(Primal *p)
             for (int a = 0; a < 6; a++) more[a] += dt * faster * free->open[k][a];
         }
         for (int a = 0; a < 6; a++) free->pace[a] += more[a];
-if (getenv("YDBG")) { double s[WAYS] = {0}; for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) for (int a = 0; a < 3; a++) s[1] -= grips_of(p)[g].move[1][a] * ((double*)p->contacts->colliders->impulses.contact.data)[3*grips_of(p)[g].contact+(unsigned)a]; fprintf(stderr, "booked %g of %g  ", s[1]/body[b].unit, (body[b].best[1]-body[b].aim[1])/body[b].unit); }
-        if (getenv("YDBG")) fprintf(stderr, "yield it %u fail %u aim %g q %g r %g (vel units; mass-scaled) grips %u active %d\n", p->world->record.iterations_used, p->world->record.energy_checks_failed, body[b].aim[1]/body[b].unit, body[b].best[1]/body[b].unit, body[b].right[1]/body[b].unit, state_of(p)->yield_grips, ({int c=0; for (uint32_t g=0; g<state_of(p)->yield_grips; g++) c+=contacts_of(p)[grips_of(p)[g].contact].active; c;}));
+if (getenv("YDBG")) {
+            const int K = atoi(getenv("YDBG"));
+            double s[WAYS] = {0};
+            int c = 0;
+            for (uint32_t g = 0; g < state_of(p)->yield_grips; g++) c += contacts_of(p)[grips_of(p)[g].contact].active && grips_of(p)[g].body == b;
+            for (uint32_t g = 0; g < state_of(p)->yield_grips; g++)
+                for (int a = 0; a < 3 && grips_of(p)[g].body == b; a++) s[K] -= grips_of(p)[g].move[K][a] * ((double *)p->contacts->colliders->impulses.contact.data)[3 * grips_of(p)[g].contact + (unsigned)a];
+            fprintf(stderr, "[%u] booked %g of %g it %u fail %u aim %g q %g r %g grips %u active %d alone %d pairs %u\n", b, s[K] / body[b].unit, (body[b].best[K] - body[b].aim[K]) / body[b].unit, p->world->record.iterations_used,
+                    p->world->record.energy_checks_failed, body[b].aim[K] / body[b].unit, body[b].best[K] / body[b].unit, body[b].right[K] / body[b].unit, state_of(p)->yield_grips, c, body[b].alone, state_of(p)->yield_pairs);
+        }
         free->met = 1;
         solid_displace(&o->end, free->centre, more);
         obstacle_set_turn(o);
