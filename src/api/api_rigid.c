@@ -151,9 +151,10 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (result == PBMPM_OK && problem) result = api_invalid(problem);
     if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
     if (result != PBMPM_OK) LET_GO(result);
-    RigidStops stops;
+    RigidStops stops = {.count = 0};
     if (push.met) rigid_follow(&own, &next, push.went, w->def.dimension);
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
+    if (push.met) rigid_slow_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops); /* what presses it against one may weigh much more */
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));

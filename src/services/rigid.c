@@ -549,23 +549,16 @@ static Solid solid_at(const Collider *collider, const pbmpm_rigid_state *state, 
     return solid;
 }
 
-void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops)
+void rigid_slow_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops)
 {
     static const double no_gravity[3] = {0};
-    stops->count = 0;
     if (!def->stays_inside || is_held(def)) return;
-    const Ways ways = ways_to_move(def, dimension);
     double low[3], high[3], point[CORNERS][3];
-    Solid solid = solid_at(collider, state, dimension);
-    box_around(&solid, low, high);
-    for (int a = 0; a < dimension; a++) {
-        if (high[a] > domain->high[a]) go_back(&ways, state, a, high[a] - domain->high[a]);
-        else if (low[a] < domain->low[a]) go_back(&ways, state, a, low[a] - domain->low[a]);
-    }
-    solid = solid_at(collider, state, dimension);
+    const Solid solid = solid_at(collider, state, dimension);
     const FreeBody body = rigid_free_body(def, state, no_gravity, dimension);
     WallTouch touch[TOUCHES];
     int touches = 0;
+    box_around(&solid, low, high);
     for (int a = 0; a < dimension; a++) {
         const double side = high[a] - domain->high[a] > domain->low[a] - low[a] ? 1.0 : -1.0; /* the nearer wall */
         const int count = touching_points(&solid, body.centre, a, side, point);
@@ -575,6 +568,20 @@ void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, c
         }
     }
     stop_at_touches(touch, touches, state);
-    for (int k = 0; k < touches; k++)
+    for (int k = 0; k < touches && stops->count < RIGID_STOPS; k++)
         if (touch[k].given > 0.0) memcpy(stops->unit[stops->count++], touch[k].unit, sizeof touch[k].unit);
+}
+
+void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops)
+{
+    if (!def->stays_inside || is_held(def)) return;
+    const Ways ways = ways_to_move(def, dimension);
+    double low[3], high[3];
+    const Solid solid = solid_at(collider, state, dimension);
+    box_around(&solid, low, high);
+    for (int a = 0; a < dimension; a++) {
+        if (high[a] > domain->high[a]) go_back(&ways, state, a, high[a] - domain->high[a]);
+        else if (low[a] < domain->low[a]) go_back(&ways, state, a, low[a] - domain->low[a]);
+    }
+    rigid_slow_at_walls(def, state, collider, domain, dimension, dt, stops);
 }

@@ -45,6 +45,9 @@ typedef struct RigidStops {
     int count;
 } RigidStops;
 
+/* Stops what of a body touches walls, and would pass them in a step. Notes what was stopped. */
+void rigid_slow_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops);
+
 /* Puts a body that passed walls back to them, along what way it may move, and stops what of it touches them: it may still turn about a corner, until it lies flat. */
 void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops);
 

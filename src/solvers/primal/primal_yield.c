@@ -266,16 +266,18 @@ void primal_yield_open(Primal *p)
 /* A contact's part in the next Newton step of a start. */
 static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 {
+    static const double STIFF = 1e-6; /* share of its motions along a normal that a body which may not go there has by rounding */
     static const double HARD = 1e3; /* times what weighs there: all that is left of it is rounding to what is solved for */
     const Contact *contact = contacts_of(p) + grip->contact;
     const float *u = p->node + node_of(p, grip);
-    double along[WAYS] = {0}, room = (double)contact->gap, yields = 0.0;
+    double along[WAYS] = {0}, room = (double)contact->gap, yields = 0.0, moves = 0.0;
     for (int a = 0; a < 3; a++) room += (double)contact->normal[a] * ((double)u[a] - (double)grip->surface[a]);
     for (int k = 0; k < WAYS; k++) {
         for (int a = 0; a < 3; a++) along[k] += (double)contact->normal[a] * grip->move[k][a];
         yields += along[k] * along[k];
+        for (int a = 0; a < 3; a++) moves += grip->move[k][a] * grip->move[k][a];
     }
-    if (!(room < product(along, body->at)) || !(yields > 0.0)) return;
+    if (!(room < product(along, body->at)) || !(yields > STIFF * moves)) return;
     const double hard = HARD * ((double)p->base[node_of(p, grip) + 3] + 1.0 / yields);
     for (int r = 0; r < WAYS; r++) {
         body->direction[r] += hard * room * along[r];
@@ -657,6 +659,7 @@ void primal_yield_try(Primal *p)
 {
     YieldBody *body = bodies_of(p);
     if (!p->yields) return;
+    if (getenv("YDBG2")) fprintf(stderr, "  try share %g energy %g best %g direction %g right %g D %g pairs %d sb %g sa %g te %g\n", p->share, p->energy, body[0].best[0], body[0].direction[0], body[0].right[0], body[0].factor[0][0], p->pairs, p->slope_before, p->slope_after, p->trial_energy);
     for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++)
         for (int k = 0; k < WAYS; k++) body[b].at[k] = body[b].best[k] - (double)p->share * body[b].direction[k];
     move_surfaces(p, false);
