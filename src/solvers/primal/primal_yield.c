@@ -23,13 +23,14 @@ typedef struct YieldGrip {
 typedef struct YieldBody {
     Obstacle *obstacle;
     double unit; /* of q over that of velocities along the ways */
-    double way[WAYS][6]; /* W */
+    double way[WAYS][6], whole[WAYS][6]; /* W; the same if walls of the domain held nothing */
     double aim[WAYS];    /* a */
     double at[WAYS], force[WAYS];        /* where the energy was evaluated, and its gradient */
     double best[WAYS], gradient[WAYS];   /* the same where it was accepted */
     double right[WAYS], direction[WAYS]; /* r, and D^-1 r with what pairs add */
     double step[PRIMAL_MEMORY][WAYS], change[PRIMAL_MEMORY][WAYS];
     SmallMatrix factor; /* of D */
+    double yields; /* to an impulse of 1 along a contact's normal, there, at most */
     bool alone; /* what it touches touches nothing else */
 } YieldBody;
 
@@ -69,20 +70,36 @@ static void list_body(YieldBody *body, Obstacle *o, const ContactFrame *contacts
     const double half = pow(contacts->cell_size, 0.5 * contacts->grid->dimension); /* see wall_bodies_list() */
     *body = (YieldBody){.obstacle = o, .unit = contacts->substep->dt / (half * contacts->cell_size)};
     for (int k = 0; k < o->body->ways; k++)
-        for (int a = 0; a < 6; a++) body->way[k][a] = (a < 3 ? half : half * contacts->cell_size) * o->body->open[k][a];
+        for (int a = 0; a < 6; a++) {
+            const double scale = a < 3 ? half : half * contacts->cell_size;
+            body->way[k][a] = scale * o->body->open[k][a];
+            body->whole[k][a] = scale * o->body->way[k][a];
+        }
 }
 
-static void list_grip(YieldGrip *grip, const YieldBody *body, const Contact *contact, const ContactFrame *contacts)
+static void motion_along(const double way[6], const double arm[3], double out[3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        out[a] = way[a] + way[3 + b] * arm[c] - way[3 + c] * arm[b];
+    }
+}
+
+static void list_grip(YieldGrip *grip, YieldBody *body, const Contact *contact, const ContactFrame *contacts)
 {
     double point[3], arm[3] = {0};
     memcpy(grip->surface, contact->surface, sizeof grip->surface);
     contacts_node_position(contacts, grip->block, contact->node, point);
     for (int a = 0; a < contacts->grid->dimension; a++) arm[a] = (point[a] - body->obstacle->body->centre[a]) / contacts->cell_size;
-    for (int k = 0; k < WAYS; k++)
-        for (int a = 0; a < 3; a++) {
-            const int b = (a + 1) % 3, c = (a + 2) % 3;
-            grip->move[k][a] = body->way[k][a] + body->way[k][3 + b] * arm[c] - body->way[k][3 + c] * arm[b];
-        }
+    double yields = 0.0;
+    for (int k = 0; k < WAYS; k++) {
+        double whole[3], along = 0.0;
+        motion_along(body->way[k], arm, grip->move[k]);
+        motion_along(body->whole[k], arm, whole);
+        for (int a = 0; a < 3; a++) along += (double)contact->normal[a] * whole[a];
+        yields += along * along;
+    }
+    body->yields = fmax(body->yields, yields);
 }
 
 static void list_grips(PrimalState *state, const ContactFrame *contacts, const uint32_t *body_of)
@@ -266,19 +283,16 @@ void primal_yield_open(Primal *p)
 /* A contact's part in the next Newton step of a start. */
 static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 {
-    static const double STIFF = 1e-6; /* share of its motions along a normal that a body which may not go there has by rounding */
-    static const double HARD = 1e3; /* times what weighs there: all that is left of it is rounding to what is solved for */
+    static const double HARD = 30.0; /* times what the body weighs at the contact that it yields to most: dozens stop it; and one beside a hinge does not throw it */
     const Contact *contact = contacts_of(p) + grip->contact;
     const float *u = p->node + node_of(p, grip);
-    double along[WAYS] = {0}, room = (double)contact->gap, yields = 0.0, moves = 0.0;
+    double along[WAYS] = {0}, room = (double)contact->gap;
     for (int a = 0; a < 3; a++) room += (double)contact->normal[a] * ((double)u[a] - (double)grip->surface[a]);
-    for (int k = 0; k < WAYS; k++) {
+    if (!(body->yields > 0.0)) return;
+    for (int k = 0; k < WAYS; k++)
         for (int a = 0; a < 3; a++) along[k] += (double)contact->normal[a] * grip->move[k][a];
-        yields += along[k] * along[k];
-        for (int a = 0; a < 3; a++) moves += grip->move[k][a] * grip->move[k][a];
-    }
-    if (!(room < product(along, body->at)) || !(yields > STIFF * moves)) return;
-    const double hard = HARD * ((double)p->base[node_of(p, grip) + 3] + 1.0 / yields);
+    if (!(room < product(along, body->at))) return;
+    const double hard = HARD / body->yields;
     for (int r = 0; r < WAYS; r++) {
         body->direction[r] += hard * room * along[r];
         for (int c = 0; c < WAYS; c++) body->factor[r][c] += hard * along[r] * along[c];
