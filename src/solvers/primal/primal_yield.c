@@ -7,6 +7,7 @@
 
 #include "base/cholesky.h"
 #include "base/result.h"
+#include "base/vector.h"
 #include "contact/contact_constraints.h"
 #include "solvers/passes.h"
 
@@ -20,6 +21,15 @@ typedef struct YieldGrip {
     double move[WAYS][3]; /* C W */
 } YieldGrip;
 
+/* A translation of bodies and matter that touch: as BodyMove. */
+typedef struct YieldHeap {
+    bool stays;
+    double mass, missing[3];
+    int blocked;
+    double normal[3][3];
+    double way[3], pull[3], stiffness;
+} YieldHeap;
+
 typedef struct YieldBody {
     Obstacle *obstacle;
     double unit; /* of q over that of velocities along the ways */
@@ -31,6 +41,8 @@ typedef struct YieldBody {
     double step[PRIMAL_MEMORY][WAYS], change[PRIMAL_MEMORY][WAYS];
     SmallMatrix factor; /* of D */
     double yields; /* to an impulse of 1 along a contact's normal, there, at most */
+    uint32_t heap;  /* another body of its heap, or itself: then `move` is the heap's */
+    YieldHeap move;
     bool alone; /* what it touches touches nothing else */
 } YieldBody;
 
@@ -46,6 +58,7 @@ typedef struct YieldPair {
 typedef struct YieldAccount {
     double missing[3];
     double given, slack; /* sizes added up */
+    uint32_t heap;       /* a body of it; UINT32_MAX: it touches none */
 } YieldAccount;
 
 static PrimalState *state_of(const Primal *p) { return &p->world->primal; }
@@ -749,10 +762,8 @@ static void move_together(Primal *p, const YieldPair *pair, const YieldBody *bod
  *     q - a + W' sum over all nodes C' m (u - u*) = 0,
  *
  * which is their momentum along the body's ways. An unfinished solution gets there by q += d, u += C W d. */
-void primal_yield_keep_momentum(Primal *p)
+static void keep_alone(Primal *p)
 {
-    if (!p->yields) return;
-    find_pairs(p);
     for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
         YieldBody *body = &bodies_of(p)[b];
         uint32_t mine = 0;
@@ -776,6 +787,161 @@ void primal_yield_keep_momentum(Primal *p)
             if (pairs_of(p)[k].body == b) move_together(p, &pairs_of(p)[k], body);
         for (int k = 0; k < WAYS; k++) body->best[k] += body->direction[k];
     }
+}
+
+/* ---- Heaps: bodies and matter that touch ---- */
+
+/* All of a heap goes along what obstacles outside of it leave open: what its members push each other with cancels out. */
+static uint32_t heap_of(const Primal *p, uint32_t body)
+{
+    const YieldBody *bodies = bodies_of(p);
+    while (bodies[body].heap != body) body = bodies[body].heap;
+    return body;
+}
+
+static YieldAccount *account_of(const Primal *p, int32_t block) { return (YieldAccount *)state_of(p)->yield_account.data + matter_of(p, block); }
+
+/* Whether the domain and its joints leave it free to go anywhere: its first ways are the axes then. */
+static bool goes_anywhere(const Primal *p, const YieldBody *body)
+{
+    for (int k = 0; k < p->world->def.dimension; k++)
+        for (int a = 0; a < 6; a++)
+            if (body->way[k][a] != body->whole[k][a] || (a == k) != (body->whole[k][a] != 0.0)) return false;
+    return body->obstacle->body->ways >= p->world->def.dimension;
+}
+
+static void find_heaps(Primal *p)
+{
+    YieldBody *bodies = bodies_of(p);
+    const YieldPair *pair = pairs_of(p);
+    YieldAccount *account = state_of(p)->yield_account.data;
+    for (int32_t i = 0; i < state_of(p)->bodies.count; i++) account[i].heap = UINT32_MAX;
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) bodies[b].heap = b;
+    for (uint32_t k = 0; k < state_of(p)->yield_pairs; k++) {
+        YieldAccount *of = &account[pair[k].matter];
+        const uint32_t mine = heap_of(p, pair[k].body);
+        if (of->heap == UINT32_MAX) of->heap = mine;
+        const uint32_t other = heap_of(p, of->heap);
+        bodies[mine > other ? mine : other].heap = mine > other ? other : mine;
+    }
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) bodies[b].move = (YieldHeap){.stays = false};
+}
+
+static void block_normal(YieldHeap *heap, const float *normal)
+{
+    double n[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
+    for (int k = 0; k < heap->blocked; k++) {
+        const double part = dot3(heap->normal[k], n);
+        for (int a = 0; a < 3; a++) n[a] -= part * heap->normal[k][a];
+    }
+    const double length = sqrt(dot3(n, n));
+    if (length < 1e-3 || heap->blocked == 3) return;
+    for (int a = 0; a < 3; a++) heap->normal[heap->blocked][a] = n[a] / length;
+    heap->blocked++;
+}
+
+static void weigh_heaps(Primal *p)
+{
+    YieldBody *bodies = bodies_of(p);
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+        YieldHeap *heap = &bodies[heap_of(p, b)].move;
+        if (!goes_anywhere(p, &bodies[b])) heap->stays = true;
+        for (int k = 0; k < p->world->def.dimension && !heap->stays; k++) {
+            const double inverse = 1.0 / bodies[b].way[k][k];
+            if (k == 0) heap->mass += inverse * inverse;
+            heap->missing[k] += (bodies[b].aim[k] - bodies[b].best[k]) * inverse;
+        }
+    }
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        const uint32_t of = account_of(p, block)->heap;
+        if (of == UINT32_MAX) continue;
+        YieldHeap *heap = &bodies[heap_of(p, of)].move;
+        for (size_t i = (size_t)block * (size_t)p->floats, end = i + (size_t)p->floats; i < end; i += W) {
+            heap->mass += (double)p->base[i + 3];
+            for (size_t a = 0; a < 3; a++) heap->missing[a] += (double)p->base[i + 3] * ((double)p->base[i + a] - (double)p->best[i + a]);
+        }
+    }
+}
+
+/* Calls for each contact of a heap with what is outside of it. */
+typedef void HeapContact(const Primal *p, const Contact *contact, const float *u, YieldHeap *heap);
+
+static void over_outside(Primal *p, HeapContact *visit)
+{
+    const uint32_t *begin = p->contacts->colliders->contact_begin.data;
+    uint32_t g = 0;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
+            const Contact *contact = contacts_of(p) + i;
+            const uint32_t of = account_of(p, block)->heap;
+            const bool grips = g < state_of(p)->yield_grips && grips_of(p)[g].contact == i;
+            if (grips) g++;
+            if (of == UINT32_MAX || (grips && heap_of(p, grips_of(p)[g - 1].body) == heap_of(p, of))) continue;
+            visit(p, contact, p->best + (size_t)block * (size_t)p->floats + (size_t)contact->node * W, &bodies_of(p)[heap_of(p, of)].move);
+        }
+}
+
+static void block_contact(const Primal *p, const Contact *contact, const float *u, YieldHeap *heap)
+{
+    (void)p;
+    const double longest = sqrt(dot3(heap->missing, heap->missing)) / fmax(heap->mass, 1e-30);
+    if (!contact->active && (double)constraints_room(contact, u) > longest) return;
+    if (constraints_stick(contact)) heap->stays = true;
+    else block_normal(heap, contact->normal);
+}
+
+static void rub_contact(const Primal *p, const Contact *contact, const float *u, YieldHeap *heap)
+{
+    float moved[3], rub[3];
+    for (int a = 0; a < 3; a++) moved[a] = u[a] + (float)heap->way[a];
+    if (!constraints_rub(contact, moved, p->slip_min, rub)) return;
+    for (int a = 0; a < 3; a++) heap->pull[a] -= (double)rub[a];
+    heap->stiffness += (double)constraints_friction_stiffness(contact, moved, p->slip_min);
+}
+
+static void keep_heaps(Primal *p)
+{
+    enum { STEPS = 3 }; /* as primal_keep_momentum() */
+    YieldBody *bodies = bodies_of(p);
+    find_heaps(p);
+    weigh_heaps(p);
+    over_outside(p, block_contact);
+    for (int step = 0; step < STEPS; step++) {
+        for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+            YieldHeap *heap = &bodies[b].move;
+            for (int a = 0; a < 3; a++) heap->pull[a] = heap->missing[a] - heap->mass * heap->way[a];
+            heap->stiffness = heap->mass;
+        }
+        over_outside(p, rub_contact);
+        for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+            YieldHeap *heap = &bodies[b].move;
+            for (int k = 0; k < heap->blocked; k++) {
+                const double part = dot3(heap->normal[k], heap->pull);
+                for (int a = 0; a < 3; a++) heap->pull[a] -= part * heap->normal[k][a];
+            }
+            for (int a = 0; a < 3 && heap->stiffness > 0.0 && !heap->stays; a++) heap->way[a] += heap->pull[a] / heap->stiffness;
+        }
+    }
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+        const uint32_t of = account_of(p, block)->heap;
+        if (of == UINT32_MAX) continue;
+        const YieldHeap *heap = &bodies[heap_of(p, of)].move;
+        for (size_t i = (size_t)block * (size_t)p->floats, end = i + (size_t)p->floats; i < end && !heap->stays; i += W)
+            for (size_t a = 0; a < 3 && p->base[i + 3] > 0.0f; a++) p->best[i + a] += (float)heap->way[a];
+    }
+    for (uint32_t b = 0; b < state_of(p)->yield_bodies; b++) {
+        const YieldHeap *heap = &bodies[heap_of(p, b)].move;
+        for (int k = 0; k < p->world->def.dimension && !heap->stays; k++) bodies[b].best[k] += heap->way[k] / bodies[b].way[k][k];
+    }
+    move_surfaces(p, true);
+}
+
+void primal_yield_keep_momentum(Primal *p)
+{
+    if (!p->yields) return;
+    find_pairs(p);
+    keep_heaps(p);
+    keep_alone(p);
     move_surfaces(p, true);
 }
 
