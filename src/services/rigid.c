@@ -296,6 +296,28 @@ static void change(const double asked[3], double heavier, double last[3], double
     }
 }
 
+/* The size of an impulse along a body's ways. */
+static double size_along(const FreeBody *body, const double impulse[6])
+{
+    double size2 = 0.0;
+    for (int k = 0; k < body->ways; k++) {
+        double along = 0.0;
+        for (int a = 0; a < 6; a++) along += body->way[k][a] * impulse[a];
+        size2 += along * along;
+    }
+    return sqrt(size2);
+}
+
+/* The share of what solids gave in the last step that they are likely to give in this one: to what rests all of it, which is what gravity and the host give it; of an impact as much. */
+static double share_expected(const FreeBody *body, const double impulse[6], double dt)
+{
+    static const double MOST = 2.0; /* times that: enough for what comes to rest */
+    double weight[6];
+    for (int a = 0; a < 6; a++) weight[a] = dt * body->push[a];
+    const double given = size_along(body, impulse), most = MOST * size_along(body, weight);
+    return given > most ? most / given : 1.0;
+}
+
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt)
 {
     const FreeBody body = rigid_free_body(def, state, push->gravity, dimension);
@@ -309,15 +331,15 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
         impulse[3 + a] = push->angular[a] - moment[a];
     }
     free_body_yields(&body, impulse, of_matter);
-    memcpy(push->expected, impulse, sizeof impulse);
+    const double share = push->met && !push->walled ? share_expected(&body, impulse, dt) : 0.0;
+    for (int a = 0; a < 6; a++) push->expected[a] = share * impulse[a];
     for (int a = 0; a < 6; a++) impulse[a] += dt * body.push[a];
     free_body_yields(&body, impulse, asked);
     for (int a = 0; a < 6; a++) {
         push->later[a] = push->walled ? of_matter[a] - push->yielded[a] : 0.0;
         asked[a] += push->delayed[a] - push->later[a] - push->expects[a];
-        push->expects[a] = push->met && !push->walled ? of_matter[a] : 0.0; /* matter is likely to give the same again: what rests stays where it is */
+        push->expects[a] = share * of_matter[a];
         asked[a] += push->expects[a];
-        if (!push->met || push->walled) push->expected[a] = 0.0;
     }
     keep_ways(&turns, state->angular_velocity);
     keep_ways(&turns, state->angular_velocity_change);
