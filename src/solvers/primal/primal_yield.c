@@ -88,7 +88,7 @@ pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts)
     Colliders *colliders = contacts->colliders;
     uint32_t body_of[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1], bodies = 0;
     state->yield_bodies = state->yield_grips = 0;
-    if (world->record.solver != PBMPM_SOLVER_PRIMAL || solver_holds_liquid(world) || colliders->contacts == 0) return PBMPM_OK;
+    if (world->record.solver != PBMPM_SOLVER_PRIMAL || solver_holds_liquid(world) || solver_holds_sand(world) || colliders->contacts == 0) return PBMPM_OK;
     for (int i = 0; i < colliders->obstacle_count; i++)
         if (may_yield(&colliders->obstacle[i])) body_of[i] = bodies++;
     if (bodies == 0) return PBMPM_OK;
