@@ -5,23 +5,23 @@
  *
  *     |q - a|^2 / 2,
  *
- * where a is what is right if matter gives nothing more. Let J be what matter gave in the step so far, X what the body's velocity has of it already, and F the push of
- * gravity and the host. They act evenly over the step, and the velocity has all of that. In part p of P
+ * where a is what is right if matter gives nothing more. Let J be what matter gave in the step so far, X what the body's velocity has of it already (rigid.h), and F the
+ * push of gravity and the host. They act evenly over the step, and the velocity has all of that. c is the change of velocity that z has from the parts before.
+ * With `unit` = q over velocity along the ways, in part p of P
  *
- *     a = s (B'(J - X - F dt (1 - (p+1)/P)) - c) / ...,   c: the change of its velocity that z has already.
+ *     a = unit (B' (J - X - F dt (P - p - 1)) - c).
  *
- * Contacts ask for n.(u_i - z_i - C_i W q) >= -gap_i, C_i the motion of the contact's foot. Where they are active nodes go along: u = P u + (1 - P) C W q, P the projection of
+ * Contacts ask for n.(u_i - z_i - C_i W q) >= -gap_i, C_i the motion of the place of the node. Where they are active nodes go along: u = P u + (1 - P) C W q, P the projection of
  * constraints_remove(). So the gradient by q is
  *
  *     r = q - a - W' sum C_i' f_i + W' sum C_i' (1 - P) g_i,
  *
- * f_i that of friction at the node, which depends on the slip alone. At the solution q - a is all that contacts give. Steps are preconditioned like those of nodes:
- * to change q by one way costs what it weighs, 1, and the stiffness of nodes that go along,
+ * f_i that of friction at the node, which depends on the slip alone. At the solution q - a is all that contacts give. With T: (u, q) -> (u + f C W q, q), matter that goes along
+ * by the share f (primal_yield_along.c), the preconditioner is T diag(B, D^-1) T'. D is what a way costs then. Thus what is light follows what is stiff: both its own weight and
+ * the stiffness of what it presses are in D. Obeyed one step late, contacts of the stiffness k throw off what has k dt^2 / m > 4.
  *
- *     D = 1 + sum W' C_i' (m_i + k_i) C_i W.
- *
- * Where friction holds, nodes go along the surface, too: with T: (u, q) -> (u + P C W q, q) the preconditioner is T diag(B, 1/D) T'. Thus what is light follows what is stiff,
- * whatever the step: added mass and stiffness are in D. */
+ * L-BFGS, its pairs and Armijo's rule are those of primal.c, in the space of u and q. Where an unfinished solution ends: primal_yield_heaps.c, primal_yield_book.c. Without walls
+ * of liquid, which have a law of their own (wall_bodies.h). Not among sand: it rests and flows by turns, and the dual, which solves what flows, knows no q. */
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_YIELD_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_YIELD_H
 

@@ -3,7 +3,7 @@
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_YIELD_BODIES_H
 
 #include "base/cholesky.h"
-#include "solvers/primal/primal_yield.h"
+#include "solvers/primal/primal_solve.h"
 
 enum { WAYS = FREE_BODY_WAYS, BLOCK_FLOATS = 64 * W };
 

@@ -10,6 +10,7 @@
 
 #include "base/vector.h"
 #include "contact/contact_constraints.h"
+#include "solvers/primal/primal_yield.h"
 #include "solvers/primal/primal_yield_bodies.h"
 
 static double size_of(const double v[3]) { return sqrt(dot3(v, v)); }

@@ -12,6 +12,7 @@
 
 #include "base/vector.h"
 #include "contact/contact_constraints.h"
+#include "solvers/primal/primal_yield.h"
 #include "solvers/primal/primal_yield_bodies.h"
 
 /* ---- Bodies with what touches nothing else ---- */
