@@ -68,6 +68,13 @@ void primal_yield_book(Primal *p, const float *after);
 /* whether a piece of matter presses such a body; */
 bool primal_yield_presses(const Primal *p, int32_t matter);
 
+/* of a body with which a piece of matter is alone, for primal_bounce.c: the square of its change, |q - a|^2, that times its motion, and the energy that it lost; false: it is not
+ * alone with one; */
+typedef struct YieldBounce {
+    double square, along, lost;
+} YieldBounce;
+bool primal_yield_bounce(const Primal *p, int32_t matter, YieldBounce *bounce);
+
 /* the end: bodies go where they yielded to. */
 void primal_yield_close(Primal *p);
 

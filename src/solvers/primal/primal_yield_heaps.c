@@ -265,3 +265,69 @@ void primal_yield_keep_momentum(Primal *p)
         if (yield_bodies(p)[b].alone) keep_alone(p, b);
     yield_move_to_best(p);
 }
+
+/* ---- Bounces ---- */
+
+/* The pair of a piece of matter and a body that touch nothing else; null: there is none. */
+static const YieldPair *only_pair(const Primal *p, int32_t matter)
+{
+    const YieldPair *pair = yield_pairs(p), *found = NULL;
+    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+        if (pair[k].matter != matter) continue;
+        if (found || !yield_bodies(p)[pair[k].body].alone) return NULL;
+        found = &pair[k];
+    }
+    for (uint32_t k = 0; found && k < yield_state(p)->yield_pairs; k++)
+        if (pair[k].body == found->body && &pair[k] != found) return NULL;
+    return found;
+}
+
+/* How an obstacle was sent, along its body's ways: the z of W z = its motion. */
+static void find_sent(const Primal *p, const YieldBody *body, double z[WAYS])
+{
+    static const double RIDGE = 1e-12; /* of ways that there are not */
+    const Obstacle *o = body->obstacle;
+    double motion[6], trace = 0.0;
+    float moved[3];
+    SmallMatrix m = {{0}};
+    obstacle_motion(o, o->body->centre, p->contacts->cell_size, p->contacts->max_displacement, moved);
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        motion[a] = (double)moved[a];
+        motion[3 + a] = 0.5 * (o->turn[3 * c + b] - o->turn[3 * b + c]); /* of small turns */
+    }
+    for (int r = 0; r < WAYS; r++) {
+        z[r] = 0.0;
+        for (int a = 0; a < 6; a++) {
+            z[r] += body->whole[r][a] * motion[a];
+            for (int c = 0; c < WAYS; c++) m[r][c] += body->whole[r][a] * body->whole[c][a];
+        }
+        trace += m[r][r];
+    }
+    for (int k = 0; k < WAYS; k++) m[k][k] += RIDGE * trace;
+    cholesky_factor(m, WAYS, RIDGE * trace);
+    cholesky_forward(m, z, WAYS);
+    cholesky_backward(m, z, WAYS);
+}
+
+/* Energies as those of matter: |z + a - g|^2 / 2 before, |z + q|^2 / 2 - g.(z + q) after, g what its push adds in the substep. Obstacles still are as they were sent. */
+bool primal_yield_bounce(const Primal *p, int32_t matter, YieldBounce *bounce)
+{
+    const YieldPair *pair = only_pair(p, matter);
+    double z[WAYS];
+    if (!pair) return false;
+    const YieldBody *body = &yield_bodies(p)[pair->body];
+    const FreeBody *free = body->obstacle->body;
+    find_sent(p, body, z);
+    *bounce = (YieldBounce){.square = 0.0};
+    for (int k = 0; k < WAYS; k++) {
+        const double change = body->best[k] - body->aim[k], after = z[k] + body->best[k];
+        double fall = 0.0;
+        for (int a = 0; a < 6; a++) fall += body->unit * p->contacts->substep->dt * free->open[k][a] * free->push[a];
+        const double before = z[k] + body->aim[k] - fall;
+        bounce->square += change * change;
+        bounce->along += change * after;
+        bounce->lost += 0.5 * (before * before - after * after) + fall * after;
+    }
+    return true;
+}
