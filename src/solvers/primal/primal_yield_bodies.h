@@ -38,6 +38,7 @@ typedef struct YieldBody {
     uint32_t heap;                       /* another body of its heap, or itself: then `move` is the heap's */
     YieldHeap move;
     bool alone;                          /* what it touches touches nothing else */
+    int32_t level;                       /* as YieldAccount's */
 } YieldBody;
 
 /* A body and a piece of matter that it presses, which goes along by the share f: see primal_yield_along.c. */
@@ -48,10 +49,11 @@ typedef struct YieldPair {
     double sum[8], square[3][3];
 } YieldPair;
 
-/* What a piece of matter was given by contacts, and by those of them that belong to no body. */
+/* What a piece of matter gained, and what of it contacts have not been booked for. */
 typedef struct YieldAccount {
     double gained[3], missing[3];
-    double given, slack; /* sizes added up */
+    double sum;          /* of sizes of impulses, of those contacts that share what is missing */
+    int32_t level;       /* how far from obstacles that yield to nothing: see primal_yield_book.c */
     uint32_t heap;       /* a body of it; UINT32_MAX: it touches none */
 } YieldAccount;
 

@@ -2,7 +2,7 @@
  *
  * A body was given what it went for, q - a, and matter what it gained. At the solution both are what contacts push. An unfinished one leaves a difference. Given to the
  * body in the next step it would throw what is light, as if nothing had been solved for. So obstacles that yield to nothing take it: they push matter as much more as the body pushes
- * it less. Momentum is exact, and what a floor was given errs as far as the solution does.
+ * it less. Momentum is exact, and what a floor was given errs as far as the solution does. In a tower it goes down from body to matter to body, until there is a floor.
  *
  * What touches nothing but one body has that body's momentum, see primal_yield_heaps.c. There only the moment is made right, by pushes that add up to nothing. */
 #include <math.h>
@@ -33,38 +33,95 @@ static void open_accounts(Primal *p)
         for (int a = 0; a < 3; a++) yield_account(p, block)->gained[a] += sums[(size_t)block * SUMS + (size_t)a];
 }
 
-/* What is booked, and what is missing. */
 static void add_up(Primal *p)
 {
     YieldAccount *account = yield_state(p)->yield_account.data;
-    uint32_t g = 0;
-    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) {
-        memcpy(account[i].missing, account[i].gained, sizeof account[i].missing);
-        account[i].given = account[i].slack = 0.0;
-    }
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        YieldAccount *of = yield_account(p, block);
-        for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
-            const double *booked = booked_at(p, i), size = size_of(booked);
-            for (int a = 0; a < 3; a++) of->missing[a] -= booked[a];
-            of->given += size;
-            if (!yield_takes(p, i, &g)) of->slack += size;
-        }
-    }
+    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) memcpy(account[i].missing, account[i].gained, sizeof account[i].missing);
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
+            for (int a = 0; a < 3; a++) yield_account(p, block)->missing[a] -= booked_at(p, i)[a];
 }
 
-/* Contacts share what is missing, in proportion to what they gave. `slack`: of matter that other obstacles push, these; else of all other matter. */
-static void share_missing(Primal *p, bool slack)
+/* ---- Levels: matter that other obstacles push has 0, bodies that press it 1, other matter that presses these 2, and so on; NOWHERE where no other obstacle is ---- */
+
+enum { NOWHERE = INT32_MAX };
+
+static void begin_levels(Primal *p)
 {
+    YieldAccount *account = yield_state(p)->yield_account.data;
     uint32_t g = 0;
-    for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
-        const YieldAccount *of = yield_account(p, block);
-        const double sum = slack ? of->slack : of->given;
-        for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
-            const bool grips = yield_takes(p, i, &g);
-            if (slack != (of->slack > 0.0) || (slack && grips) || !(sum > 0.0)) continue;
-            const double share = size_of(booked_at(p, i)) / sum;
-            for (int a = 0; a < 3; a++) booked_at(p, i)[a] += share * of->missing[a];
+    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].level = NOWHERE;
+    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) yield_bodies(p)[b].level = NOWHERE;
+    for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
+        for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
+            if (!yield_takes(p, i, &g) && size_of(booked_at(p, i)) > 0.0) yield_account(p, block)->level = 0;
+}
+
+/* Goes on from what has a level. Returns the last one. */
+static int32_t spread_levels(Primal *p)
+{
+    const YieldGrip *grip = yield_grips(p);
+    int32_t last = 0;
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+            int32_t *matter = &yield_account(p, grip[g].block)->level, *body = &yield_bodies(p)[grip[g].body].level;
+            if (!yield_contacts(p)[grip[g].contact].active) continue;
+            int32_t *far = *matter < *body ? body : matter;
+            const int32_t next = *matter < *body ? *matter : *body;
+            if (next == NOWHERE || *far <= next + 1) continue;
+            *far = next + 1;
+            changed = true;
+        }
+    }
+    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+        const int32_t matter = yield_account(p, grip[g].block)->level, body = yield_bodies(p)[grip[g].body].level;
+        if (matter != NOWHERE && matter > last) last = matter;
+        if (body != NOWHERE && body > last) last = body;
+    }
+    return last;
+}
+
+/* What flies freely has its momentum, see primal_yield_heaps.c: then the first body of a heap ends the chain. */
+static int32_t find_levels(Primal *p)
+{
+    begin_levels(p);
+    int32_t last = spread_levels(p);
+    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+        YieldBody *body = &yield_bodies(p)[b];
+        if (body->level != NOWHERE || body->alone) continue;
+        body->level = 1;
+        last = spread_levels(p);
+    }
+    return last;
+}
+
+/* ---- Matter ---- */
+
+/* Whether a contact shares what is missing of matter at this level: towards those at the next lower one. */
+static bool may_share(const Primal *p, const YieldAccount *of, const YieldGrip *grip, int32_t level)
+{
+    if (of->level != level) return false;
+    if (level == 0) return !grip;
+    return level == NOWHERE || (grip && yield_bodies(p)[grip->body].level == level - 1);
+}
+
+/* In proportion to what they gave. */
+static void share_missing(Primal *p, int32_t level)
+{
+    YieldAccount *account = yield_state(p)->yield_account.data;
+    for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].sum = 0.0;
+    for (int pass = 0; pass < 2; pass++) {
+        uint32_t g = 0;
+        for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
+            YieldAccount *of = yield_account(p, block);
+            for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
+                const YieldGrip *grip = yield_takes(p, i, &g) ? &yield_grips(p)[g - 1] : NULL;
+                const double size = size_of(booked_at(p, i));
+                if (!may_share(p, of, grip, level)) continue;
+                if (pass == 0) of->sum += size;
+                for (int a = 0; a < 3 && pass == 1 && of->sum > 0.0; a++) booked_at(p, i)[a] += size / of->sum * of->missing[a];
+            }
         }
     }
 }
@@ -75,7 +132,7 @@ static void share_missing(Primal *p, bool slack)
 static bool may_settle(const Primal *p, const YieldGrip *grip, uint32_t index)
 {
     if (grip->body != index || !yield_contacts(p)[grip->contact].active) return false;
-    return yield_bodies(p)[index].alone || yield_account(p, grip->block)->slack > 0.0;
+    return yield_bodies(p)[index].alone || yield_account(p, grip->block)->level == yield_bodies(p)[index].level - 1;
 }
 
 /* q - a less what was booked. */
@@ -145,9 +202,16 @@ void primal_yield_book(Primal *p, const float *after)
     p->after = after;
     constraints_book_contacts(p->contacts, p->gradient, p->best, p->slip_min);
     open_accounts(p);
+    const int32_t last = find_levels(p);
     add_up(p);
-    share_missing(p, false);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) settle_body(p, b);
-    add_up(p);
-    share_missing(p, true);
+    share_missing(p, NOWHERE);
+    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+        if (yield_bodies(p)[b].alone) settle_body(p, b);
+    for (int32_t level = last; level >= 0; level--) {
+        for (uint32_t b = 0; b < yield_state(p)->yield_bodies && level % 2 == 1; b++)
+            if (yield_bodies(p)[b].level == level && !yield_bodies(p)[b].alone) settle_body(p, b);
+        if (level % 2 == 1) continue;
+        add_up(p);
+        share_missing(p, level);
+    }
 }
