@@ -232,6 +232,48 @@ def test_a_tower_stays_where_it_is(density: float) -> None:
         assert box.position == pytest.approx((1, 0.494), abs=0.004)
 
 
+def test_a_high_tower_stands() -> None:
+    """Five stiff crates and five light boxes by turns. What upper solutions leave goes down to the floor; it threw the boxes about at 150 m/s."""
+    high, thick = 0.3, 0.4
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (2, 6)), iterations=5) as world:
+        matter, boxes = _elastic(world, 1e7), []
+        for level in range(5):
+            foot = level * (high + thick)
+            world.fill(pbmpm.Box((1, foot + high / 2), (0.4, high / 2)), matter)
+            collider = world.add_collider(pbmpm.Box((1, foot + high + thick / 2), (0.45, thick / 2)), kinematic=True, measures_impulse=True)
+            boxes.append(pbmpm.RigidBody(collider, density=100))
+        for _ in range(90):
+            for box in boxes:
+                box.advance(DT)
+            world.step(DT)
+        assert world.stats.max_speed < 0.2
+        for level, box in enumerate(boxes):
+            assert box.position == pytest.approx((1, level * (high + thick) + high + thick / 2), abs=0.05)
+
+
+def _bounce(density: float | None, modulus: float) -> float:
+    """How high the middle of a ball comes that fell by a metre onto a box: held, or a body that lies on the floor."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (3, 4)), iterations=5) as world:
+        world.fill(pbmpm.Sphere((1.5, 1.3), 0.25), _elastic(world, modulus))
+        collider = world.add_collider(pbmpm.Box((1.5, 0.1), (0.5, 0.1)), kinematic=True, measures_impulse=True)
+        body = None if density is None else pbmpm.RigidBody(collider, density=density)
+        heights = []
+        for _ in range(110):
+            if body:
+                body.advance(DT)
+            world.step(DT)
+            heights.append(world.positions[:, 1].mean())
+    lowest = int(np.argmin(heights[:60]))
+    return float(max(heights[lowest:]))
+
+
+@pytest.mark.parametrize("density", [50, 500])
+def test_a_ball_bounces_off_a_body_as_off_what_is_held(density: float) -> None:
+    """It gets back what it lost with the body, and no more than it had. Without that it stayed down, at 0.5 m."""
+    assert _bounce(density, 1e5) == pytest.approx(_bounce(None, 1e5), abs=0.1)
+    assert _bounce(density, 1e6) < 1.3
+
+
 def _pushed(deep: float | None, density: float = 1000.0) -> tuple[float, float]:
     """How deep a box lies in a jelly, and what that pushes it with over its weight; `deep`: it is pressed in so deep."""
     high = 0.4
