@@ -89,7 +89,6 @@ void primal_free(World *world)
     Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
-    primal_yield_free(world);
     bodies_free(&s->bodies, &world->memory);
     multilevel_free(&s->multilevel, &world->memory);
 }

@@ -55,57 +55,51 @@ static void list_grip(YieldGrip *grip, YieldBody *body, const Contact *contact, 
     body->yields = fmax(body->yields, yields);
 }
 
-static void list_grips(PrimalState *state, const ContactFrame *contacts, const uint32_t *body_of)
+static void list_grips(YieldList *list, const ContactFrame *contacts, const uint32_t *body_of)
 {
     const Contact *contact = contacts->colliders->contact.data;
     const uint32_t *begin = contacts->colliders->contact_begin.data;
     const Obstacle *obstacle = contacts->colliders->obstacle;
-    YieldGrip *grip = state->yield_grip.data;
     for (int32_t block = 0; block < contacts->grid->node_blocks; block++)
         for (uint32_t i = begin[block]; i < begin[block + 1]; i++) {
             const uint16_t o = contact[i].obstacle;
             if (o >= contacts->colliders->obstacle_count || !may_yield(&obstacle[o])) continue;
-            YieldGrip *next = &grip[state->yield_grips++];
+            YieldGrip *next = &list->grip[list->grips++];
             *next = (YieldGrip){.block = block, .contact = i, .body = body_of[o]};
-            list_grip(next, (YieldBody *)state->yield_body.data + next->body, &contact[i], contacts);
+            list_grip(next, &list->body[next->body], &contact[i], contacts);
         }
 }
 
-/* Those that have no part in what is solved for are not listed. */
-static pbmpm_result make_room(World *world, const Colliders *colliders, size_t bodies)
+/* Their memory is the scratch of walls, which nobody finds here. */
+static YieldList *make_room(World *world, size_t contacts, size_t bodies)
 {
-    PrimalState *state = &world->primal;
-    const bool ok = array_reserve(&world->memory, &state->yield_body, bodies, sizeof(YieldBody)) &&
-                    array_reserve(&world->memory, &state->yield_grip, colliders->contacts, sizeof(YieldGrip)) &&
-                    array_reserve(&world->memory, &state->yield_pair, colliders->contacts, sizeof(YieldPair)) &&
-                    array_reserve(&world->memory, &state->yield_account, (size_t)state->bodies.count, sizeof(YieldAccount));
-    return ok ? PBMPM_OK : fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %zu rigid bodies on solids", bodies);
+    const size_t matter = (size_t)world->primal.bodies.count, each = sizeof(YieldGrip) + sizeof(YieldPair);
+    if (!array_reserve(&world->memory, &world->walls.scratch, sizeof(YieldList) + bodies * sizeof(YieldBody) + contacts * each + matter * sizeof(YieldAccount), 1)) return NULL;
+    YieldList *list = world->walls.scratch.data;
+    *list = (YieldList){.body = (YieldBody *)(list + 1)};
+    list->grip = (YieldGrip *)(list->body + bodies);
+    list->pair = (YieldPair *)(list->grip + contacts);
+    list->account = (YieldAccount *)(list->pair + contacts);
+    return list;
 }
 
 pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts)
 {
-    PrimalState *state = &world->primal;
     Colliders *colliders = contacts->colliders;
     uint32_t body_of[PBMPM_MAX_COLLIDERS + DOMAIN_WALLS + 1], bodies = 0;
-    state->yield_bodies = state->yield_grips = 0;
+    world->primal.yield_grips = 0;
     if (world->record.solver != PBMPM_SOLVER_PRIMAL || solver_holds_liquid(world) || solver_holds_sand(world) || colliders->contacts == 0) return PBMPM_OK;
     for (int i = 0; i < colliders->obstacle_count; i++)
         if (may_yield(&colliders->obstacle[i])) body_of[i] = bodies++;
     if (bodies == 0) return PBMPM_OK;
-    const pbmpm_result result = make_room(world, colliders, bodies);
-    if (result != PBMPM_OK) return result;
-    state->yield_bodies = bodies;
+    YieldList *list = make_room(world, colliders->contacts, bodies);
+    if (!list) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies on solids", bodies);
+    list->bodies = bodies;
     for (int i = 0; i < colliders->obstacle_count; i++)
-        if (may_yield(&colliders->obstacle[i])) list_body((YieldBody *)state->yield_body.data + body_of[i], &colliders->obstacle[i], contacts);
-    list_grips(state, contacts, body_of);
+        if (may_yield(&colliders->obstacle[i])) list_body(&list->body[body_of[i]], &colliders->obstacle[i], contacts);
+    list_grips(list, contacts, body_of);
+    world->primal.yield_grips = list->grips;
     return PBMPM_OK;
-}
-
-void primal_yield_free(World *world)
-{
-    PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->yield_body, &s->yield_grip, &s->yield_pair, &s->yield_account};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
 }
 
 /* ---- Nodes that go along ---- */
@@ -129,7 +123,7 @@ static uint32_t end_of_block(const Primal *p, uint32_t first)
 {
     const YieldGrip *grip = yield_grips(p);
     uint32_t end = first;
-    while (end < yield_state(p)->yield_grips && grip[end].block == grip[first].block) end++;
+    while (end < yield_list(p)->grips && grip[end].block == grip[first].block) end++;
     return end;
 }
 
@@ -188,7 +182,7 @@ static void unfold(const Primal *p, uint32_t first, float vector[BLOCK_FLOATS])
 static void move_surfaces(Primal *p, bool to_best)
 {
     const YieldGrip *grip = yield_grips(p);
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
         const YieldBody *body = &yield_bodies(p)[grip[g].body];
         float moved[3];
         motion_of(&grip[g], to_best ? body->best : body->at, moved);
@@ -202,7 +196,7 @@ void yield_move_to_best(Primal *p) { move_surfaces(p, true); }
 static void take_friction(Primal *p, const float *u, bool accepted)
 {
     const YieldGrip *grip = yield_grips(p);
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
         YieldBody *body = &yield_bodies(p)[grip[g].body];
         float rub[3];
         if (!constraints_rub(yield_contacts(p) + grip[g].contact, u + node_of(p, &grip[g]), p->slip_min, rub)) continue;
@@ -230,8 +224,8 @@ static void find_aim(const Primal *p, YieldBody *body)
 
 void primal_yield_open(Primal *p)
 {
-    p->yields = !p->joint && yield_state(p)->yield_grips > 0;
-    for (uint32_t b = 0; p->yields && b < yield_state(p)->yield_bodies; b++) find_aim(p, &yield_bodies(p)[b]);
+    p->yields = !p->joint && p->world->primal.yield_grips > 0;
+    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) find_aim(p, &yield_bodies(p)[b]);
 }
 
 /* A contact's part in the next Newton step of a start. */
@@ -262,12 +256,12 @@ void primal_yield_start(Primal *p)
     const YieldGrip *grip = yield_grips(p);
     YieldBody *body = yield_bodies(p);
     for (int round = 0; round < ROUNDS; round++) {
-        for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+        for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
             memcpy(body[b].direction, body[b].aim, sizeof body[b].aim);
             yield_begin_factor(&body[b]);
         }
-        for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) add_stop(p, &grip[g], &body[grip[g].body]);
-        for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+        for (uint32_t g = 0; g < yield_list(p)->grips; g++) add_stop(p, &grip[g], &body[grip[g].body]);
+        for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
             cholesky_factor(body[b].factor, WAYS, 1.0);
             yield_solve(&body[b], body[b].direction);
             memcpy(body[b].at, body[b].direction, sizeof body[b].at);
@@ -280,11 +274,11 @@ void primal_yield_evaluate(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int k = 0; k < WAYS; k++) body[b].force[k] = body[b].at[k] - body[b].aim[k];
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) p->trial_energy += 0.5 * product(body[b].force, body[b].force);
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) p->trial_energy += 0.5 * product(body[b].force, body[b].force);
     take_friction(p, p->node, false);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int k = 0; k < WAYS; k++) {
             p->slope_before += body[b].gradient[k] * (body[b].at[k] - body[b].best[k]);
             p->slope_after += body[b].force[k] * (body[b].at[k] - body[b].best[k]);
@@ -300,7 +294,7 @@ static void shift(double pairs[PRIMAL_MEMORY][WAYS], int to, int from)
 
 void primal_yield_keep_pair(Primal *p)
 {
-    for (uint32_t b = 0; p->yields && b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) {
         YieldBody *body = &yield_bodies(p)[b];
         shift(body->step, 1, 0);
         shift(body->change, 1, 0);
@@ -316,7 +310,7 @@ void primal_yield_keep_pair(Primal *p)
 
 void primal_yield_drop_pair(Primal *p)
 {
-    for (uint32_t b = 0; p->yields && b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) {
         shift(yield_bodies(p)[b].step, 0, 1);
         shift(yield_bodies(p)[b].change, 0, 1);
     }
@@ -326,18 +320,18 @@ void primal_yield_accept(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         memcpy(body[b].best, body[b].at, sizeof body[b].best);
         for (int k = 0; k < WAYS; k++) body[b].gradient[k] = body[b].best[k] - body[b].aim[k];
     }
     take_friction(p, p->best, true);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) memcpy(body[b].right, body[b].gradient, sizeof body[b].right);
-    for (uint32_t first = 0; first < yield_state(p)->yield_grips; first = end_of_block(p, first)) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) memcpy(body[b].right, body[b].gradient, sizeof body[b].right);
+    for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         float own[BLOCK_FLOATS];
         memcpy(own, p->gradient + (size_t)yield_grips(p)[first].block * (size_t)p->floats, (size_t)p->floats * sizeof *own);
         fold(p, first, own);
     }
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int i = 0; i < p->pairs; i++) p->first[i] += product(body[b].step[i], body[b].right);
 }
 
@@ -346,17 +340,17 @@ void primal_yield_accept(Primal *p)
 void primal_yield_begin_plain(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
-    for (uint32_t b = 0; p->yields && b < yield_state(p)->yield_bodies; b++) memcpy(body[b].right, body[b].gradient, sizeof body[b].right);
+    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) memcpy(body[b].right, body[b].gradient, sizeof body[b].right);
 }
 
 void primal_yield_add_changes(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int i = 0; i < p->pairs; i++)
             for (int k = 0; k < WAYS; k++) body[b].right[k] -= p->first[i] * body[b].change[i][k];
-    for (uint32_t first = 0; first < yield_state(p)->yield_grips; first = end_of_block(p, first)) {
+    for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         const size_t begin = (size_t)yield_grips(p)[first].block * (size_t)p->floats;
         float own[BLOCK_FLOATS];
         memcpy(own, p->right + begin, (size_t)p->floats * sizeof *own);
@@ -373,14 +367,14 @@ void primal_yield_find_direction(Primal *p)
     if (!p->yields) return;
     memcpy(total, p->total, sizeof total);
     yield_weigh_along(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) memcpy(body[b].direction, body[b].right, sizeof body[b].direction);
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) memcpy(body[b].direction, body[b].right, sizeof body[b].direction);
     yield_fold_along(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         yield_solve(&body[b], body[b].direction);
         for (int i = 0; i < p->pairs; i++) total[i] += product(body[b].change[i], body[b].direction);
     }
     yield_spread_along(p, total);
-    for (uint32_t first = 0; first < yield_state(p)->yield_grips; first = end_of_block(p, first)) {
+    for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         const size_t begin = (size_t)yield_grips(p)[first].block * (size_t)p->floats;
         float in[BLOCK_FLOATS];
         unfold(p, first, in);
@@ -393,13 +387,13 @@ void primal_yield_find_direction(Primal *p)
 void primal_yield_add_steps(Primal *p)
 {
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldBody *body = &yield_bodies(p)[b];
         for (int i = 0; i < p->pairs; i++)
             for (int k = 0; k < WAYS; k++) body->direction[k] += p->second[i] * body->step[i][k];
         p->total[0] += product(body->gradient, body->direction);
     }
-    for (uint32_t first = 0; first < yield_state(p)->yield_grips; first = end_of_block(p, first)) {
+    for (uint32_t first = 0; first < yield_list(p)->grips; first = end_of_block(p, first)) {
         const size_t begin = (size_t)yield_grips(p)[first].block * (size_t)p->floats;
         float in[BLOCK_FLOATS];
         unfold(p, first, in);
@@ -416,7 +410,7 @@ void primal_yield_try(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         for (int k = 0; k < WAYS; k++) body[b].at[k] = body[b].best[k] - (double)p->share * body[b].direction[k];
     move_surfaces(p, false);
 }
@@ -425,13 +419,13 @@ void primal_yield_return(Primal *p)
 {
     YieldBody *body = yield_bodies(p);
     if (!p->yields) return;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) memcpy(body[b].at, body[b].best, sizeof body[b].at);
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) memcpy(body[b].at, body[b].best, sizeof body[b].at);
     move_surfaces(p, true);
 }
 
 bool primal_yield_presses(const Primal *p, int32_t matter)
 {
-    for (uint32_t g = 0; p->yields && g < yield_state(p)->yield_grips; g++)
+    for (uint32_t g = 0; p->yields && g < yield_list(p)->grips; g++)
         if (yield_contacts(p)[yield_grips(p)[g].contact].active && yield_matter(p, yield_grips(p)[g].block) == matter) return true;
     return false;
 }
@@ -439,7 +433,7 @@ bool primal_yield_presses(const Primal *p, int32_t matter)
 void primal_yield_close(Primal *p)
 {
     const double dt = p->contacts->substep->dt;
-    for (uint32_t b = 0; p->yields && b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; p->yields && b < yield_list(p)->bodies; b++) {
         const YieldBody *body = &yield_bodies(p)[b];
         FreeBody *free = body->obstacle->body;
         double more[6] = {0};

@@ -29,7 +29,6 @@
 
 /* Lists the bodies that yield and their contacts, once these are found. */
 pbmpm_result primal_yield_list(World *world, const ContactFrame *contacts);
-void primal_yield_free(World *world);
 
 /* All below do nothing where no body yields. In the order of a solution: before the first evaluation; */
 void primal_yield_open(Primal *p);

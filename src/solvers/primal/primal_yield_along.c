@@ -17,16 +17,16 @@
 
 void yield_find_pairs(Primal *p)
 {
-    PrimalState *state = yield_state(p);
+    YieldList *list = yield_list(p);
     const YieldGrip *grip = yield_grips(p);
     YieldPair *pair = yield_pairs(p);
-    state->yield_pairs = 0;
-    for (uint32_t g = 0; g < state->yield_grips; g++) {
+    list->pairs = 0;
+    for (uint32_t g = 0; g < list->grips; g++) {
         const int32_t matter = yield_matter(p, grip[g].block);
         uint32_t i = 0;
         if (!yield_contacts(p)[grip[g].contact].active) continue;
-        while (i < state->yield_pairs && !(pair[i].matter == matter && pair[i].body == grip[g].body)) i++;
-        if (i == state->yield_pairs) pair[state->yield_pairs++] = (YieldPair){.matter = matter, .body = grip[g].body};
+        while (i < list->pairs && !(pair[i].matter == matter && pair[i].body == grip[g].body)) i++;
+        if (i == list->pairs) pair[list->pairs++] = (YieldPair){.matter = matter, .body = grip[g].body};
     }
 }
 
@@ -79,10 +79,10 @@ static void fit_pairs(Primal *p)
 {
     YieldPair *pair = yield_pairs(p);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
-        for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++)
+        for (uint32_t k = 0; k < yield_list(p)->pairs; k++)
             for (uint32_t i = yield_first(p, block); i < yield_end(p, block) && pair[k].matter == yield_matter(p, block); i++)
                 if (yield_contacts(p)[i].active) add_place(p, &pair[k], block, yield_contacts(p) + i);
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) fit(&pair[k]);
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) fit(&pair[k]);
 }
 
 static double share_at(const YieldPair *pair, const double x[3])
@@ -147,13 +147,13 @@ void yield_weigh_along(Primal *p)
     YieldBody *body = yield_bodies(p);
     yield_find_pairs(p);
     fit_pairs(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) yield_begin_factor(&body[b]);
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) yield_begin_factor(&body[b]);
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         p->pair = &yield_pairs(p)[k];
         primal_over_blocks(p, sum_cost);
         yield_add_moments(p->total, &body[p->pair->body]);
     }
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) cholesky_factor(body[b].factor, WAYS, 1.0);
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) cholesky_factor(body[b].factor, WAYS, 1.0);
 }
 
 /* ---- Going along ---- */
@@ -173,7 +173,7 @@ static void sum_along(Primal *p, int32_t block, size_t begin, size_t end, double
 
 void yield_fold_along(Primal *p)
 {
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         p->pair = &yield_pairs(p)[k];
         YieldBody *body = &yield_bodies(p)[p->pair->body];
         primal_over_blocks(p, sum_along);
@@ -201,7 +201,7 @@ static void spread(Primal *p, int32_t block, size_t begin, size_t end, double *s
 {
     float along[BLOCK_FLOATS] = {0};
     bool any = false;
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         if (yield_pairs(p)[k].matter != yield_matter(p, block)) continue;
         spread_block(p, &yield_pairs(p)[k], block, along);
         any = true;

@@ -57,13 +57,23 @@ typedef struct YieldAccount {
     uint32_t heap;       /* a body of it; UINT32_MAX: it touches none */
 } YieldAccount;
 
+/* All of a substep. */
+typedef struct YieldList {
+    uint32_t bodies, grips, pairs;
+    YieldBody *body;
+    YieldGrip *grip;
+    YieldPair *pair;
+    YieldAccount *account; /* per piece of matter */
+} YieldList;
+
 static inline PrimalState *yield_state(const Primal *p) { return &p->world->primal; }
-static inline YieldBody *yield_bodies(const Primal *p) { return yield_state(p)->yield_body.data; }
-static inline YieldGrip *yield_grips(const Primal *p) { return yield_state(p)->yield_grip.data; }
-static inline YieldPair *yield_pairs(const Primal *p) { return yield_state(p)->yield_pair.data; }
+static inline YieldList *yield_list(const Primal *p) { return p->world->walls.scratch.data; }
+static inline YieldBody *yield_bodies(const Primal *p) { return yield_list(p)->body; }
+static inline YieldGrip *yield_grips(const Primal *p) { return yield_list(p)->grip; }
+static inline YieldPair *yield_pairs(const Primal *p) { return yield_list(p)->pair; }
 static inline Contact *yield_contacts(const Primal *p) { return p->contacts->colliders->contact.data; }
 static inline int32_t yield_matter(const Primal *p, int32_t block) { return ((const int32_t *)yield_state(p)->bodies.of_block.data)[block]; }
-static inline YieldAccount *yield_account(const Primal *p, int32_t block) { return (YieldAccount *)yield_state(p)->yield_account.data + yield_matter(p, block); }
+static inline YieldAccount *yield_account(const Primal *p, int32_t block) { return yield_list(p)->account + yield_matter(p, block); }
 
 /* The contacts of a block. */
 static inline uint32_t yield_first(const Primal *p, int32_t block) { return ((const uint32_t *)p->contacts->colliders->contact_begin.data)[block]; }
@@ -72,7 +82,7 @@ static inline uint32_t yield_end(const Primal *p, int32_t block) { return yield_
 /* Whether contact i is the next grip; then counts it. All contacts are asked in their order. */
 static inline bool yield_takes(const Primal *p, uint32_t i, uint32_t *grips)
 {
-    if (*grips == yield_state(p)->yield_grips || yield_grips(p)[*grips].contact != i) return false;
+    if (*grips == yield_list(p)->grips || yield_grips(p)[*grips].contact != i) return false;
     ++*grips;
     return true;
 }

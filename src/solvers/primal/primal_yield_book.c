@@ -27,7 +27,7 @@ static void sum_gained(Primal *p, int32_t block, size_t begin, size_t end, doubl
 static void open_accounts(Primal *p)
 {
     const double *sums = yield_state(p)->sums.data;
-    memset(yield_state(p)->yield_account.data, 0, (size_t)yield_state(p)->bodies.count * sizeof(YieldAccount));
+    memset(yield_list(p)->account, 0, (size_t)yield_state(p)->bodies.count * sizeof(YieldAccount));
     primal_over_blocks(p, sum_gained);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (int a = 0; a < 3; a++) yield_account(p, block)->gained[a] += sums[(size_t)block * SUMS + (size_t)a];
@@ -35,7 +35,7 @@ static void open_accounts(Primal *p)
 
 static void add_up(Primal *p)
 {
-    YieldAccount *account = yield_state(p)->yield_account.data;
+    YieldAccount *account = yield_list(p)->account;
     for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) memcpy(account[i].missing, account[i].gained, sizeof account[i].missing);
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
@@ -48,10 +48,10 @@ enum { NOWHERE = INT32_MAX };
 
 static void begin_levels(Primal *p)
 {
-    YieldAccount *account = yield_state(p)->yield_account.data;
+    YieldAccount *account = yield_list(p)->account;
     uint32_t g = 0;
     for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].level = NOWHERE;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) yield_bodies(p)[b].level = NOWHERE;
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) yield_bodies(p)[b].level = NOWHERE;
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++)
         for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++)
             if (!yield_takes(p, i, &g) && size_of(booked_at(p, i)) > 0.0) yield_account(p, block)->level = 0;
@@ -64,7 +64,7 @@ static int32_t spread_levels(Primal *p)
     int32_t last = 0;
     for (bool changed = true; changed;) {
         changed = false;
-        for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+        for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
             int32_t *matter = &yield_account(p, grip[g].block)->level, *body = &yield_bodies(p)[grip[g].body].level;
             if (!yield_contacts(p)[grip[g].contact].active) continue;
             int32_t *far = *matter < *body ? body : matter;
@@ -74,7 +74,7 @@ static int32_t spread_levels(Primal *p)
             changed = true;
         }
     }
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
         const int32_t matter = yield_account(p, grip[g].block)->level, body = yield_bodies(p)[grip[g].body].level;
         if (matter != NOWHERE && matter > last) last = matter;
         if (body != NOWHERE && body > last) last = body;
@@ -87,7 +87,7 @@ static int32_t find_levels(Primal *p)
 {
     begin_levels(p);
     int32_t last = spread_levels(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldBody *body = &yield_bodies(p)[b];
         if (body->level != NOWHERE || body->alone) continue;
         body->level = 1;
@@ -109,7 +109,7 @@ static bool may_share(const Primal *p, const YieldAccount *of, const YieldGrip *
 /* In proportion to what they gave. */
 static void share_missing(Primal *p, int32_t level)
 {
-    YieldAccount *account = yield_state(p)->yield_account.data;
+    YieldAccount *account = yield_list(p)->account;
     for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].sum = 0.0;
     for (int pass = 0; pass < 2; pass++) {
         uint32_t g = 0;
@@ -141,7 +141,7 @@ static void find_owed(const Primal *p, uint32_t index, double owed[WAYS])
     const YieldGrip *grip = yield_grips(p);
     const YieldBody *body = &yield_bodies(p)[index];
     for (int k = 0; k < WAYS; k++) owed[k] = body->best[k] - body->aim[k];
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++)
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++)
         for (int k = 0; k < WAYS && grip[g].body == index; k++) owed[k] += dot3(grip[g].move[k], booked_at(p, grip[g].contact));
 }
 
@@ -151,7 +151,7 @@ static void find_mean(const Primal *p, uint32_t index, double mean[WAYS][3])
     const YieldGrip *grip = yield_grips(p);
     double count = 0.0;
     memset(mean, 0, WAYS * sizeof *mean);
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips && yield_bodies(p)[index].alone; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips && yield_bodies(p)[index].alone; g++) {
         if (!may_settle(p, &grip[g], index)) continue;
         count += 1.0;
         for (int k = 0; k < WAYS; k++)
@@ -176,7 +176,7 @@ static void settle_body(Primal *p, uint32_t index)
     SmallMatrix m = {{0}};
     find_owed(p, index, owed);
     find_mean(p, index, mean);
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
         if (!may_settle(p, &grip[g], index)) continue;
         own_moves(&grip[g], mean, move);
         for (int r = 0; r < WAYS; r++) {
@@ -189,7 +189,7 @@ static void settle_body(Primal *p, uint32_t index)
     cholesky_factor(m, WAYS, RIDGE * whole);
     cholesky_forward(m, owed, WAYS);
     cholesky_backward(m, owed, WAYS);
-    for (uint32_t g = 0; g < yield_state(p)->yield_grips; g++) {
+    for (uint32_t g = 0; g < yield_list(p)->grips; g++) {
         if (!may_settle(p, &grip[g], index)) continue;
         own_moves(&grip[g], mean, move);
         for (int k = 0; k < WAYS; k++)
@@ -205,10 +205,10 @@ void primal_yield_book(Primal *p, const float *after)
     const int32_t last = find_levels(p);
     add_up(p);
     share_missing(p, NOWHERE);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         if (yield_bodies(p)[b].alone) settle_body(p, b);
     for (int32_t level = last; level >= 0; level--) {
-        for (uint32_t b = 0; b < yield_state(p)->yield_bodies && level % 2 == 1; b++)
+        for (uint32_t b = 0; b < yield_list(p)->bodies && level % 2 == 1; b++)
             if (yield_bodies(p)[b].level == level && !yield_bodies(p)[b].alone) settle_body(p, b);
         if (level % 2 == 1) continue;
         add_up(p);

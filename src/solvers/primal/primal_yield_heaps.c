@@ -60,9 +60,9 @@ static void move_together(Primal *p, int32_t block, size_t begin, size_t end, do
 static void find_alone(Primal *p)
 {
     YieldBody *bodies = yield_bodies(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) bodies[b].alone = false;
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) bodies[yield_pairs(p)[k].body].alone = true;
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) bodies[b].alone = false;
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) bodies[yield_pairs(p)[k].body].alone = true;
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++)
         if (touches_others(p, &yield_pairs(p)[k])) bodies[yield_pairs(p)[k].body].alone = false;
 }
 
@@ -71,7 +71,7 @@ static void keep_alone(Primal *p, uint32_t index)
     YieldBody *body = &yield_bodies(p)[index];
     yield_begin_factor(body);
     for (int k = 0; k < WAYS; k++) body->direction[k] = body->aim[k] - body->best[k];
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         p->pair = &yield_pairs(p)[k];
         if (p->pair->body != index) continue;
         primal_over_blocks(p, sum_together);
@@ -80,7 +80,7 @@ static void keep_alone(Primal *p, uint32_t index)
     }
     cholesky_factor(body->factor, WAYS, 1.0);
     yield_solve(body, body->direction);
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         p->pair = &yield_pairs(p)[k];
         if (p->pair->body == index) primal_over_blocks(p, move_together);
     }
@@ -113,13 +113,13 @@ static YieldHeap *heap_at(const Primal *p, int32_t block)
 static void find_heaps(Primal *p)
 {
     YieldBody *bodies = yield_bodies(p);
-    YieldAccount *account = yield_state(p)->yield_account.data;
+    YieldAccount *account = yield_list(p)->account;
     for (int32_t i = 0; i < yield_state(p)->bodies.count; i++) account[i].heap = UINT32_MAX;
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         bodies[b].heap = b;
         bodies[b].move = (YieldHeap){.stays = false};
     }
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         const YieldPair *pair = &yield_pairs(p)[k];
         YieldAccount *of = &account[pair->matter];
         const uint32_t mine = first_of(p, pair->body), other = of->heap == UINT32_MAX ? mine : first_of(p, of->heap);
@@ -158,7 +158,7 @@ static void weigh_heaps(Primal *p)
         heap->mass += sums[(size_t)block * SUMS];
         for (int a = 0; a < 3; a++) heap->missing[a] += sums[(size_t)block * SUMS + 1 + (size_t)a];
     }
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         const YieldBody *body = &yield_bodies(p)[b];
         YieldHeap *heap = heap_of(p, b);
         if (!goes_anywhere(p, body)) heap->stays = true;
@@ -214,13 +214,13 @@ static void rub_contact(const Primal *p, const Contact *contact, const float *u,
 /* A step of Newton's method, with friction's secant for its stiffness, which never goes too far. */
 static void find_way(Primal *p)
 {
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldHeap *heap = &yield_bodies(p)[b].move;
         for (int a = 0; a < 3; a++) heap->pull[a] = heap->missing[a] - heap->mass * heap->way[a];
         heap->stiffness = heap->mass;
     }
     over_outside(p, rub_contact);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         YieldHeap *heap = &yield_bodies(p)[b].move;
         for (int k = 0; k < heap->blocked; k++) {
             const double part = dot3(heap->normal[k], heap->pull);
@@ -247,7 +247,7 @@ static void keep_heaps(Primal *p)
     over_outside(p, block_contact);
     for (int step = 0; step < STEPS; step++) find_way(p);
     primal_over_blocks(p, move_heap);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++) {
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++) {
         const YieldHeap *heap = heap_of(p, b);
         YieldBody *body = &yield_bodies(p)[b];
         for (int k = 0; k < p->world->def.dimension && !heap->stays; k++) body->best[k] += heap->way[k] / body->way[k][k];
@@ -261,7 +261,7 @@ void primal_yield_keep_momentum(Primal *p)
     yield_find_pairs(p);
     find_alone(p);
     keep_heaps(p);
-    for (uint32_t b = 0; b < yield_state(p)->yield_bodies; b++)
+    for (uint32_t b = 0; b < yield_list(p)->bodies; b++)
         if (yield_bodies(p)[b].alone) keep_alone(p, b);
     yield_move_to_best(p);
 }
@@ -272,12 +272,12 @@ void primal_yield_keep_momentum(Primal *p)
 static const YieldPair *only_pair(const Primal *p, int32_t matter)
 {
     const YieldPair *pair = yield_pairs(p), *found = NULL;
-    for (uint32_t k = 0; k < yield_state(p)->yield_pairs; k++) {
+    for (uint32_t k = 0; k < yield_list(p)->pairs; k++) {
         if (pair[k].matter != matter) continue;
         if (found || !yield_bodies(p)[pair[k].body].alone) return NULL;
         found = &pair[k];
     }
-    for (uint32_t k = 0; found && k < yield_state(p)->yield_pairs; k++)
+    for (uint32_t k = 0; found && k < yield_list(p)->pairs; k++)
         if (pair[k].body == found->body && &pair[k] != found) return NULL;
     return found;
 }
@@ -313,7 +313,7 @@ static void find_sent(const Primal *p, const YieldBody *body, double z[WAYS])
 /* Energies as those of matter: |z + a - g|^2 / 2 before, |z + q|^2 / 2 - g.(z + q) after, g what its push adds in the substep. Obstacles still are as they were sent. */
 bool primal_yield_bounce(const Primal *p, int32_t matter, YieldBounce *bounce)
 {
-    const YieldPair *pair = only_pair(p, matter);
+    const YieldPair *pair = p->yields ? only_pair(p, matter) : NULL;
     double z[WAYS];
     if (!pair) return false;
     const YieldBody *body = &yield_bodies(p)[pair->body];
