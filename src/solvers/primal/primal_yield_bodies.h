@@ -68,9 +68,9 @@ typedef struct YieldList {
 
 static inline PrimalState *yield_state(const Primal *p) { return &p->world->primal; }
 static inline YieldList *yield_list(const Primal *p) { return p->world->walls.scratch.data; }
-static inline YieldBody *yield_bodies(const Primal *p) { return yield_list(p)->body; }
-static inline YieldGrip *yield_grips(const Primal *p) { return yield_list(p)->grip; }
-static inline YieldPair *yield_pairs(const Primal *p) { return yield_list(p)->pair; }
+static inline YieldBody *yield_bodies(const Primal *p) { return p->yields ? yield_list(p)->body : NULL; }
+static inline YieldGrip *yield_grips(const Primal *p) { return p->yields ? yield_list(p)->grip : NULL; }
+static inline YieldPair *yield_pairs(const Primal *p) { return p->yields ? yield_list(p)->pair : NULL; }
 static inline Contact *yield_contacts(const Primal *p) { return p->contacts->colliders->contact.data; }
 static inline int32_t yield_matter(const Primal *p, int32_t block) { return ((const int32_t *)yield_state(p)->bodies.of_block.data)[block]; }
 static inline YieldAccount *yield_account(const Primal *p, int32_t block) { return yield_list(p)->account + yield_matter(p, block); }
