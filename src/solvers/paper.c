@@ -55,8 +55,7 @@ static double weight_head(const World *world, const LiquidState *liquid)
 }
 
 /* The pressure over density that crushed liquid may grow with [m^2/s^2]: K_HEADS times that of its weight, and that of its motion when it is stopped, once: more would
- * feed on the speed that it makes. There is no plateau: with 3.5 times a column of 64 cells gains 0.2 % of its energy at 30 Hz x 20, with 4 times 2 %; with 3 stiff liquid
- * that slips between walls takes 1.5 s to come back (H03 in 3D at 480 Hz x 20), for most of it bears the whole bound, and nothing parts it. */
+ * feed on the speed that it makes. With 3.5 times a column of 64 cells gains 0.2 % of its energy at 30 Hz x 20, with 4 times 2 %. */
 static double pressure_head(double weight, const LiquidState *liquid) { return (double)K_HEADS * weight + 0.5 * liquid->speed2; }
 
 /* What drives crushed liquid when it grows, as the square of a way per substep [cells^2]. The pressure alone does not bound the speed: a sheet that is

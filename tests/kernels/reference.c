@@ -270,7 +270,7 @@ double reference_control(const RefStep *step, const RefGrid *grid, const RefPart
     return reference_compression(grid, p) > REF_CRUSHED ? 1.0 : 1.0 - share * step->excess;
 }
 
-double reference_stale(const KernelMaterial *material) { return 0.9 - fmin((double)material->pressure_max, 0.1); }
+double reference_stale(const KernelMaterial *material) { return 1.0 - fmin((double)material->pressure_max, 0.2); }
 
 static bool is_weightless(const RefStep *step) { return step->gravity[0] == 0.0 && step->gravity[1] == 0.0 && step->gravity[2] == 0.0; }
 

@@ -309,7 +309,7 @@ def main() -> int:
     arguments.add_argument("--list", action="store_true", help="print the faults and plant none")
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/mutants", help="where to work and keep verdicts")
     options = arguments.parse_args()
-    options.files = options.files or ["src/**/*.c", "ispc/*.isph", *(["src/**/*.h"] if options.constants else [])]
+    options.files = options.files or ["src/**/*.c", "ispc/*.isph", *(["src/**/*.h", "ispc/*.h"] if options.constants else [])]
     if options.list:
         files = [str(path.relative_to(ROOT)) for pattern in options.files for path in ROOT.glob(pattern)]
         for _, fault in zip(range(options.count), choose(ROOT, files, options.seed)):

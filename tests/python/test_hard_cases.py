@@ -271,6 +271,12 @@ def test_a_light_block_that_bears_the_heavy_one_is_judged_by_the_height(solver: 
     assert all(check.passed for check in checks), checks
 
 
+def test_stiff_liquid_of_the_paper_forgets_that_it_was_crushed() -> None:
+    """J of 0.9 passed for noise where the grid showed gaps. There it pressed with all that is allowed, and so did all below: 0.90 came back."""
+    checks = find_case("H03").function(Setting("liquid", 3, "plain", 480, 20, solver="paper"))
+    assert all(check.passed for check in checks), checks
+
+
 def test_stiff_liquids_of_the_paper_do_not_lock() -> None:
     """Each particle held its own volume: what flowed bent like a jelly, and the liquids took 21 s."""
     setting = Setting("liquid", 2, "1:10", 480, 20, solver="paper")

@@ -116,6 +116,8 @@ class Advice:
         name = self.change.name.lower().replace("_", " ")
         if self.change is Change.KILL_BOUNDS:
             return "kill bounds, or an obstacle below"
+        if self.change is Change.PARAMETER:
+            return "leave it out"
         if self.change is Change.SOLVER:
             name += f" {Solver(int(self.value)).name.lower()}"
         elif self.change is Change.INTEGRATOR:

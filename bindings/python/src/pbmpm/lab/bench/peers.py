@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import tempfile
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -35,7 +36,8 @@ class Peer:
     """A program that speaks as ``peer_taichi.py`` does."""
 
     def __init__(self, command: Sequence[str]) -> None:
-        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        self._said = tempfile.TemporaryFile("w+")  # a pipe that nobody empties would stop it once it has warned enough
+        self._process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said, text=True)
         self.facts = self._answer()
         self.seconds: list[float] = []
 
@@ -44,6 +46,7 @@ class Peer:
 
     def __exit__(self, *_: object) -> None:
         self._process.communicate()
+        self._said.close()
 
     def take(self, substeps: int) -> float:
         """CPU time [s] of so many substeps."""
@@ -59,7 +62,9 @@ class Peer:
         assert self._process.stdout is not None
         line = self._process.stdout.readline()
         if not line:
-            said = self._process.communicate()[1].strip().splitlines() or ["it ended without a word"]
+            self._process.wait()
+            self._said.seek(0)
+            said = self._said.read().strip().splitlines() or ["it ended without a word"]
             raise InputError(f"the peer does not run: {said[-1]} (pip install 'pbmpm[peers]', or name a Python that has Taichi by --peer-python)")
         facts: dict[str, Any] = json.loads(line)
         return facts
