@@ -17,8 +17,12 @@
  * than the liquid that it moves (docs/method.md, Walls). To what contacts with solids give it beside that, it yields one step later. Liquid
  * does not rub on it, whatever its friction.
  *
+ * With the primal and the convergent solver a body yields within the step to solids, too, where neither liquid nor sand is with them (docs/method.md, The primal solver). Velocities
+ * of the state then have what solids are expected to give: what they gave in the last step, but at most twice the body's weight. Places are those that follow. The step corrects
+ * both; the next pbmpm_rigid_advance() reads it. Until then a body that is hit is not quite where its state says, but where its obstacle is.
+ *
  * All other matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that moves along would
- * oscillate more and more, at any dt. So where no liquid follows its walls each change of velocity is smoothed:
+ * oscillate more and more, at any dt. So where it does not yield within the step each change of velocity is smoothed:
  *
  *     change = (what the impulses ask for + b * last change) / (1 + b),    b = V / mass,    V = density * volume * share,
  *
@@ -113,7 +117,7 @@ typedef struct pbmpm_rigid_state {
     double velocity_change[3];         /**< by which the last call changed `velocity` [m/s]; the virtual mass needs it in the next one */
     double angular_velocity_change[3]; /**< the same of `angular_velocity` [rad/s] */
     double point[3];                   /**< as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used */
-    double virtual_mass;               /**< V of the last call [kg], 0 where liquid followed its walls; for information: the library never reads it */
+    double virtual_mass;               /**< V of the last call [kg], 0 where it yielded within the step; for information: the library never reads it */
 } pbmpm_rigid_state;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -87,19 +87,38 @@ static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *coll
     if (!body) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     pbmpm_submersion under = {.volume = 0.0};
     const int dimension = world->def.dimension;
-    const pbmpm_result result = body->walled ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
+    const pbmpm_result result = body->walled || body->met ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
     if (result != PBMPM_OK) return result;
     for (int a = 0; a < dimension; a++) point[a] = (double)collider->shape.position[a];
     const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], point, dimension);
     *push = (RigidPush){.walled = body->walled != 0, .virtual_mass = under.density * under.volume * under.share};
     memcpy(push->yielded, body->yielded, sizeof push->yielded);
     memcpy(push->delayed, body->delayed, sizeof push->delayed);
+    memcpy(push->went, body->went, sizeof push->went);
+    memcpy(push->expects, body->expects, sizeof push->expects);
+    push->met = body->met != 0;
     for (int a = 0; a < 3; a++) {
         push->gravity[a] = a < dimension ? (double)world->settings.gravity[a] : 0.0;
         push->linear[a] = a < dimension ? given.linear[a] : 0.0;
         push->angular[a] = given.angular[a];
     }
     return PBMPM_OK;
+}
+
+/* What the world has to know of it during the step. */
+static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *stops)
+{
+    memcpy(body->delayed, push->later, sizeof push->later);
+    memcpy(body->expected, push->expected, sizeof push->expected);
+    memcpy(body->open, body->way, sizeof body->open);
+    for (int k = 0; k < stops->count; k++) free_body_hold(body, stops->unit[k]);
+    body->yields = !push->walled;
+    if (stops->count == 0) memcpy(body->expects, push->expects, sizeof body->expects);
+    for (int k = 0; k < body->ways && stops->count > 0; k++) { /* what walls stopped of it they took */
+        double along = 0.0;
+        for (int a = 0; a < 6; a++) along += body->open[k][a] * push->expected[a];
+        for (int a = 0; a < 6; a++) body->expects[a] += along * body->open[k][a];
+    }
 }
 
 /* Sends the obstacle where the body is. */
@@ -132,13 +151,16 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (result == PBMPM_OK && problem) result = api_invalid(problem);
     if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
     if (result != PBMPM_OK) LET_GO(result);
+    RigidStops stops = {.count = 0};
+    if (push.met) rigid_follow(&own, &next, push.went, w->def.dimension);
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
+    if (push.met) rigid_slow_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops); /* what presses it against one may weigh much more */
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
-    rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt);
+    rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
     *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
-    memcpy(found->body->delayed, push.later, sizeof push.later);
+    keep_body(found->body, &push, &stops);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);
 }

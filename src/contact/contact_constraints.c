@@ -93,6 +93,16 @@ void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin,
     }
 }
 
+void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block)
+{
+    const BlockContacts list = contacts_of(frame, block);
+    for (int sweep = 0; sweep < 2; sweep++)
+        for (uint32_t i = list.begin; i < list.end; i++)
+            if (list.contact[i].active) take_out(&list.contact[i], vector + list.contact[i].node * K_NODE_WIDTH);
+}
+
+void constraints_take_out(const Contact *contact, float *vector) { take_out(contact, vector); }
+
 /* ---- Friction ---- */
 
 /* Below this slip [cells per 1/60 s] friction grows with it: a kink that iterations could not find. */
@@ -129,6 +139,14 @@ static float slip_of(const Contact *contact, const float *u, float slip[3])
 static float rub_of(const Contact *contact, float length, float least) { return contact->limit / fmaxf(length, least); }
 
 float constraints_slip_min(const Substep *substep) { return SLIP_MIN * (float)substep->reference_steps; }
+
+bool constraints_rub(const Contact *contact, const float *u, float least, float rub[3])
+{
+    if (!(contact->limit > 0.0f)) return false;
+    const float factor = rub_of(contact, slip_of(contact, u, rub), least);
+    for (int a = 0; a < 3; a++) rub[a] *= factor;
+    return true;
+}
 
 float constraints_friction_stiffness(const Contact *contact, const float *u, float least)
 {
@@ -364,17 +382,25 @@ static void share_missing(const ContactFrame *frame, const double missing[3], co
     }
 }
 
-void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
+void constraints_book_contacts(const ContactFrame *frame, float *gradient, const float *u, float least)
 {
     const Colliders *colliders = frame->colliders;
-    double *booked = colliders->impulses.contact.data, missing[3];
-    if (!colliders->measures || colliders->contacts == 0) return;
+    double *booked = colliders->impulses.contact.data;
     memset(booked, 0, 3 * (size_t)colliders->contacts * sizeof *booked);
     for (int32_t block = 0; block < frame->grid->node_blocks; block++) {
         const BlockContacts list = contacts_of(frame, block);
         for (int sweep = 0; sweep < 2; sweep++)
             for (uint32_t i = list.begin; i < list.end; i++) book_contact(&list, i, gradient, u, least, sweep == 0, booked + 3 * (size_t)i);
     }
+}
+
+void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least)
+{
+    const Colliders *colliders = frame->colliders;
+    const double *booked = colliders->impulses.contact.data;
+    double missing[3];
+    if (!colliders->measures || colliders->contacts == 0) return;
+    constraints_book_contacts(frame, gradient, u, least);
     sum_gained(frame->grid, after, base, missing);
     for (uint32_t i = 0; i < colliders->contacts; i++)
         for (size_t a = 0; a < 3; a++) missing[a] -= booked[3 * (size_t)i + a];

@@ -15,6 +15,12 @@ void constraints_find_active(const ContactFrame *frame, const float *displacemen
 /* Takes out of a vector what the active contacts hold. */
 void constraints_remove(const ContactFrame *frame, float *vector, int32_t begin, int32_t end);
 
+/* The same of a block's own vector. */
+void constraints_remove_from(const ContactFrame *frame, float *vector, int32_t block);
+
+/* Takes out of a node's vector what one contact holds. */
+void constraints_take_out(const Contact *contact, float *vector);
+
 /* ---- Friction ----
  *
  * In the energy that is minimised, sum_i f_i huber(|v_i|), v the slip of an active contact's node along the surface, f its limit: coefficient times what
@@ -52,6 +58,9 @@ double constraints_friction(const ContactFrame *frame, const float *u, float *gr
 /* 0: it slips, or is held. */
 float constraints_friction_coefficient(const Contact *contact);
 
+/* What friction adds to the gradient at a node; false: nothing. */
+bool constraints_rub(const Contact *contact, const float *u, float least, float rub[3]);
+
 /* Friction's stiffness along the surface. */
 float constraints_friction_stiffness(const Contact *contact, const float *u, float least);
 
@@ -81,6 +90,9 @@ bool constraints_stick(const Contact *contact);
  * Nodes that a truncated solution leaves out of balance change momentum too. Matter has it from the obstacles in the end, so contacts share it in
  * proportion to what they gave; without any it stays unaccounted. `after`: the displacements that make the velocities. Uses up `gradient`. */
 void constraints_book_impulses(const ContactFrame *frame, float *gradient, const float *u, const float *after, const float *base, float least);
+
+/* The first half of that: what each contact gave. */
+void constraints_book_contacts(const ContactFrame *frame, float *gradient, const float *u, float least);
 
 /* What was booked of a block's contacts becomes `factor` times as much. */
 void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double factor);

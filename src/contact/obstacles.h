@@ -15,10 +15,27 @@ typedef struct FreeBody {
     double push[6];    /* gravity and the host: force, and moment about the centre */
     double yielded[6]; /* by how much it yielded to matter at its walls in this step so far */
     double delayed[6]; /* what contacts gave in the last step, and it yields to in this one */
+
+    /* Among solids alone, see primal_yield.h. */
+    int32_t yields; /* to solids, too */
+    int32_t met;    /* it had contacts with them in this step */
+    int32_t part;   /* the substep that `pace` is of */
+    double open[FREE_BODY_WAYS][6]; /* the columns of B without what walls of the domain hold */
+    double expected[6]; /* impulse of matter in this step, and its moment about the centre, that its velocity has already */
+    double expects[6];  /* the velocity */
+    double change[FREE_BODY_WAYS]; /* of its velocity by what matter gave instead, along `open` */
+    double went[6];     /* where that took it before this substep [m], [rad] */
+    double pace[6];     /* and in this substep */
 } FreeBody;
 
 /* B B^T times an impulse and its moment. */
 void free_body_yields(const FreeBody *body, const double push[6], double change[6]);
+
+/* Takes out of `open` what a wall holds: motion along `unit`, outwards, with its moment about the centre. */
+void free_body_hold(FreeBody *body, const double unit[6]);
+
+/* Moves a solid by a way and a turn [rad] about a centre. */
+void solid_displace(Solid *solid, const double centre[3], const double way[6]);
 
 /* An obstacle during one substep: a collider, or a wall of the domain. */
 typedef struct Obstacle {
@@ -39,6 +56,9 @@ typedef struct Obstacle {
 static const uint32_t ALL_GROUPS = UINT32_MAX;
 static inline bool groups_meet(uint32_t meets, uint32_t groups) { return meets == 0 || (meets & groups) != 0; }
 static inline bool obstacle_meets(const Obstacle *obstacle, uint32_t groups) { return groups_meet(obstacle->meets, groups); }
+
+/* Finds `turn`. */
+void obstacle_set_turn(Obstacle *obstacle);
 
 /* Distance [m] of a point from an obstacle at the end of the substep, negative inside, and the outward normal. */
 double obstacle_distance(const Obstacle *obstacle, const double point[3], double normal[3]);

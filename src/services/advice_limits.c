@@ -129,7 +129,16 @@ static double mass_of_material(const World *world, uint32_t slot)
     return sum * world_cell_volume(world);
 }
 
-/* A rigid body yields to solids one step after they pushed it. Such a pair gains energy from k dt^2 / m = 4 on, as a spring whose force is a step old. Pressed matter of the thickness T
+/* Whether all solids of islands that bodies touch are the primal's, to which they yield at once: see primal_yield.h. */
+static bool yields_at_once(const World *world)
+{
+    const pbmpm_solver solver = world->settings.solver;
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (adviser_present(world, slot) && (adviser_flows(&world->materials.def[slot]) || world->materials.def[slot].kind == PBMPM_SAND)) return false;
+    return solver == PBMPM_SOLVER_CONVERGENT || solver == PBMPM_SOLVER_PRIMAL;
+}
+
+/* Beside liquid and sand a rigid body yields to solids one step after they pushed it. Such a pair gains energy from k dt^2 / m = 4 on, as a spring whose force is a step old. Pressed matter of the thickness T
  * and the mass M has k = E A / T = M (c / T)^2 with the speed of sound c, c^2 = E / rho. Planks and boxes on crates were thrown off at 3 to 40, and calm at 2.5. */
 static void limits_of_loads(Adviser *adviser, uint32_t slot)
 {
@@ -137,6 +146,7 @@ static void limits_of_loads(Adviser *adviser, uint32_t slot)
     const World *world = adviser->world;
     const pbmpm_material_def *def = &world->materials.def[slot];
     const double dt = adviser->substep.dt * world->settings.substeps, thickness = adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
+    if (yields_at_once(world)) return;
     const double crossings = dt * sqrt((double)def->young_modulus / (double)def->density) / fmax(thickness, (double)world->def.cell_size);
     for (uint32_t c = 0; c < world->colliders.used; c++) {
         const Collider *collider = &world->colliders.slot[c];

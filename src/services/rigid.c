@@ -296,11 +296,33 @@ static void change(const double asked[3], double heavier, double last[3], double
     }
 }
 
+/* The size of an impulse along a body's ways. */
+static double size_along(const FreeBody *body, const double impulse[6])
+{
+    double size2 = 0.0;
+    for (int k = 0; k < body->ways; k++) {
+        double along = 0.0;
+        for (int a = 0; a < 6; a++) along += body->way[k][a] * impulse[a];
+        size2 += along * along;
+    }
+    return sqrt(size2);
+}
+
+/* The share of what solids gave in the last step that they are likely to give in this one: to what rests all of it, which is what gravity and the host give it; of an impact as much. */
+static double share_expected(const FreeBody *body, const double impulse[6], double dt)
+{
+    static const double MOST = 2.0; /* times that: enough for what comes to rest */
+    double weight[6];
+    for (int a = 0; a < 6; a++) weight[a] = dt * body->push[a];
+    const double given = size_along(body, impulse), most = MOST * size_along(body, weight);
+    return given > most ? most / given : 1.0;
+}
+
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt)
 {
     const FreeBody body = rigid_free_body(def, state, push->gravity, dimension);
     const Ways moves = ways_to_move(def, dimension), turns = ways_to_turn(def, dimension);
-    const double heavier = push->virtual_mass / def->mass;
+    const double heavier = push->met ? 0.0 : push->virtual_mass / def->mass; /* who met solids has yielded to them in the step itself */
     double arm[3], moment[3], impulse[6], asked[6], of_matter[6];
     for (int a = 0; a < 3; a++) arm[a] = body.centre[a] - (a < dimension ? state->position[a] : 0.0);
     cross3(arm, push->linear, moment);
@@ -309,11 +331,15 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
         impulse[3 + a] = push->angular[a] - moment[a];
     }
     free_body_yields(&body, impulse, of_matter);
+    const double share = push->met && !push->walled ? share_expected(&body, impulse, dt) : 0.0;
+    for (int a = 0; a < 6; a++) push->expected[a] = share * impulse[a];
     for (int a = 0; a < 6; a++) impulse[a] += dt * body.push[a];
     free_body_yields(&body, impulse, asked);
     for (int a = 0; a < 6; a++) {
         push->later[a] = push->walled ? of_matter[a] - push->yielded[a] : 0.0;
-        asked[a] += push->delayed[a] - push->later[a];
+        asked[a] += push->delayed[a] - push->later[a] - push->expects[a];
+        push->expects[a] = share * of_matter[a];
+        asked[a] += push->expects[a];
     }
     keep_ways(&turns, state->angular_velocity);
     keep_ways(&turns, state->angular_velocity_change);
@@ -321,7 +347,7 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
     keep_ways(&moves, state->velocity);
     keep_ways(&moves, state->velocity_change);
     change(asked, heavier, state->velocity_change, state->velocity);
-    state->virtual_mass = push->virtual_mass;
+    state->virtual_mass = push->met ? 0.0 : push->virtual_mass;
 }
 
 /* ---- Poses ---- */
@@ -420,6 +446,18 @@ pbmpm_rigid_state rigid_at(const Collider *collider, const pbmpm_rigid_def *def,
     return state;
 }
 
+void rigid_follow(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const double went[6], int dimension)
+{
+    double arm[3], spin[3] = {went[3], went[4], went[5]}, slope[4];
+    arm_of(state, is_held(def) ? def->pivot : def->centre, dimension, arm);
+    for (int a = 0; a < dimension; a++) state->position[a] += arm[a] + went[a];
+    slope_of(spin, state->rotation, slope);
+    for (int i = 0; i < 4; i++) state->rotation[i] += slope[i];
+    normalise(state->rotation);
+    arm_of(state, is_held(def) ? def->pivot : def->centre, dimension, arm);
+    for (int a = 0; a < dimension; a++) state->position[a] -= arm[a];
+}
+
 /* ---- Walls ---- */
 
 /* The box around the solid itself: a baked one's grid is wider. */
@@ -443,7 +481,7 @@ typedef struct WallTouch {
     double given;       /* impulse so far */
 } WallTouch;
 
-enum { CORNERS = 8, TOUCHES = 3 * CORNERS, WALL_ROUNDS = 400 }; /* 0.9^400 is rounding */
+enum { CORNERS = 8, TOUCHES = RIGID_STOPS, WALL_ROUNDS = 400 }; /* 0.9^400 is rounding */
 
 /* Where a solid may touch a wall that lies along `axis`: corners, or the nearest points of a ball or of a capsule's ends. Of a baked solid the box alone is known: it
  * touches before its centre of mass, where the wall does not turn it. */
@@ -533,22 +571,16 @@ static Solid solid_at(const Collider *collider, const pbmpm_rigid_state *state, 
     return solid;
 }
 
-void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt)
+void rigid_slow_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops)
 {
     static const double no_gravity[3] = {0};
     if (!def->stays_inside || is_held(def)) return;
-    const Ways ways = ways_to_move(def, dimension);
     double low[3], high[3], point[CORNERS][3];
-    Solid solid = solid_at(collider, state, dimension);
-    box_around(&solid, low, high);
-    for (int a = 0; a < dimension; a++) {
-        if (high[a] > domain->high[a]) go_back(&ways, state, a, high[a] - domain->high[a]);
-        else if (low[a] < domain->low[a]) go_back(&ways, state, a, low[a] - domain->low[a]);
-    }
-    solid = solid_at(collider, state, dimension);
+    const Solid solid = solid_at(collider, state, dimension);
     const FreeBody body = rigid_free_body(def, state, no_gravity, dimension);
     WallTouch touch[TOUCHES];
     int touches = 0;
+    box_around(&solid, low, high);
     for (int a = 0; a < dimension; a++) {
         const double side = high[a] - domain->high[a] > domain->low[a] - low[a] ? 1.0 : -1.0; /* the nearer wall */
         const int count = touching_points(&solid, body.centre, a, side, point);
@@ -558,4 +590,20 @@ void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, c
         }
     }
     stop_at_touches(touch, touches, state);
+    for (int k = 0; k < touches && stops->count < RIGID_STOPS; k++)
+        if (touch[k].given > 0.0) memcpy(stops->unit[stops->count++], touch[k].unit, sizeof touch[k].unit);
+}
+
+void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops)
+{
+    if (!def->stays_inside || is_held(def)) return;
+    const Ways ways = ways_to_move(def, dimension);
+    double low[3], high[3];
+    const Solid solid = solid_at(collider, state, dimension);
+    box_around(&solid, low, high);
+    for (int a = 0; a < dimension; a++) {
+        if (high[a] > domain->high[a]) go_back(&ways, state, a, high[a] - domain->high[a]);
+        else if (low[a] < domain->low[a]) go_back(&ways, state, a, low[a] - domain->low[a]);
+    }
+    rigid_slow_at_walls(def, state, collider, domain, dimension, dt, stops);
 }

@@ -25,13 +25,30 @@ typedef struct RigidPush {
     double yielded[6];   /* to how much */
     double delayed[6];   /* what it was given to yield to later, and */
     double later[6];     /* found: what it is given so now */
+    bool met;            /* solids made it yield in the step itself; see primal_yield.h */
+    double went[6];      /* where to */
+    double expects[6];   /* what its velocities have for what they would give; then for what they will */
+    double expected[6];  /* found: the impulse of that, and its moment about the centre */
     double virtual_mass;
 } RigidPush;
 
 void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, RigidPush *push, int dimension, double dt);
 void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int dimension, double dt);
 
+/* Where solids made it go beside where it was sent. */
+void rigid_follow(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const double went[6], int dimension);
+
+/* Motions that walls stop, outwards, with their moment about the centre. */
+enum { RIGID_STOPS = 24 };
+typedef struct RigidStops {
+    double unit[RIGID_STOPS][6];
+    int count;
+} RigidStops;
+
+/* Stops what of a body touches walls, and would pass them in a step. Notes what was stopped. */
+void rigid_slow_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops);
+
 /* Puts a body that passed walls back to them, along what way it may move, and stops what of it touches them: it may still turn about a corner, until it lies flat. */
-void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt);
+void rigid_stop_at_walls(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const Collider *collider, const Domain *domain, int dimension, double dt, RigidStops *stops);
 
 #endif

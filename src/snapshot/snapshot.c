@@ -286,7 +286,18 @@ static bool body_is_valid(const FreeBody *body)
     bool finite = true;
     for (int k = 0; k < FREE_BODY_WAYS; k++) finite = finite && all_are_finite(body->way[k]) && all_are_finite(body->way[k] + 3);
     for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->push + k) && all_are_finite(body->yielded + k) && all_are_finite(body->delayed + k);
+    for (int k = 0; k < FREE_BODY_WAYS; k++) finite = finite && all_are_finite(body->open[k]) && all_are_finite(body->open[k] + 3) && isfinite(body->change[k]);
+    for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->expected + k) && all_are_finite(body->expects + k);
+    for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->went + k) && all_are_finite(body->pace + k);
     return finite && all_are_finite(body->centre) && body->ways >= 0 && body->ways <= FREE_BODY_WAYS;
+}
+
+/* Whether it says something of the next step. */
+static bool body_counts(const FreeBody *body)
+{
+    bool expects = body->ways > 0 || body->walled || body->met;
+    for (int a = 0; a < 6; a++) expects = expects || body->expects[a] != 0.0;
+    return expects;
 }
 
 static bool take_collider(SnapshotIn *in, SavedCollider *saved)
@@ -334,7 +345,7 @@ static pbmpm_result check_colliders(World *world, SnapshotIn in)
             return fail(PBMPM_ERROR_FOREIGN, "collider %d has another shape, friction or kind than in the snapshot; PBMPM_RESTORE_KEEP_PARAMETERS keeps its own",
                         place);
         if (!poses_fit(world, own, &saved)) return snapshot_malformed();
-        if ((saved.motion.body.ways > 0 || saved.motion.body.walled) && !collider_body(own, &world->memory))
+        if (body_counts(&saved.motion.body) && !collider_body(own, &world->memory))
             return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     }
     return snapshot_all_matched(world, &in, KEYED_COLLIDERS, &matched);

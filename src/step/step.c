@@ -14,6 +14,7 @@
 #include "solvers/granular.h"
 #include "solvers/joint.h"
 #include "solvers/passes.h"
+#include "solvers/primal/primal_yield.h"
 #include "solvers/solver.h"
 #include "solvers/viscosity.h"
 #include "step/build_groups.h"
@@ -225,6 +226,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
         contacts->walls = &world->walls;
     }
     if (result == PBMPM_OK) result = contacts_find(contacts, &world->memory, world->pool);
+    if (result == PBMPM_OK) result = primal_yield_list(world, contacts);
     if (result == PBMPM_OK && solver == SOLVER_JOINT) result = joint_find_contacts(world, contacts);
     if (result == PBMPM_OK) result = contacts_prepare_push(contacts, &world->memory);
     if (result == PBMPM_OK && with_volume && !contacts_open_volume(contacts, &world->memory, world->pool, by_ratio))
@@ -277,6 +279,8 @@ static pbmpm_result take_substep(World *world, int part, uint32_t *marked)
 
     /* Where their materials let them go. */
     if (world->grid.particle_blocks > 0) solver_solve(world, &contacts); /* else all fly */
+    if (world->primal.yield_grips > 0) result = contacts_prepare_push(&contacts, &world->memory); /* bodies ended elsewhere */
+    if (result != PBMPM_OK) return result;
     if (world->sleep.on) sleep_judge(world);
     lap(&record->ms_iterate, &clock);
 

@@ -4,6 +4,7 @@
 
 #include "base/numbers.h"
 #include "base/result.h"
+#include "base/vector.h"
 
 static size_t obstacle_bytes(uint32_t room) { return (room + DOMAIN_WALLS + 1) * sizeof(Obstacle); }
 
@@ -137,7 +138,10 @@ void collider_place(Collider *collider, const float position[3], const float *ro
     memmove(collider->target_rotation, rotation ? rotation : shape->rotation, sizeof collider->target_rotation);
     normalise_quaternion(collider->target_rotation); /* so that poses between two are evenly spaced */
     collider->moving = !at_once;
-    if (collider->body) collider->body->ways = 0;
+    if (collider->body) {
+        collider->body->ways = 0;
+        memset(collider->body->went, 0, sizeof collider->body->went); /* the host knows where it is */
+    }
     if (!at_once) return;
     memcpy(shape->position, collider->target_position, sizeof shape->position);
     memcpy(shape->rotation, collider->target_rotation, sizeof shape->rotation);
@@ -179,10 +183,49 @@ Obstacle collider_obstacle(const Collider *collider, int dimension, int part, in
     const pbmpm_shape end = pose_between(collider, (float)(part + 1) / (float)parts);
     o.start = solid_at(collider, &start, dimension);
     o.end = solid_at(collider, &end, dimension);
-    for (int r = 0; r < 3; r++)
-        for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++) o.turn[r * 3 + c] += o.end.rotation[r * 3 + k] * o.start.rotation[c * 3 + k];
+    obstacle_set_turn(&o);
     return o;
+}
+
+/* ---- Rigid bodies that solids made yield ---- */
+
+/* What a body did in the last substep belongs to the way that it has gone. */
+static void go_on(FreeBody *body, int part)
+{
+    if (body->part == part) return;
+    for (int a = 0; a < 6; a++) body->went[a] += body->pace[a];
+    body->part = part;
+}
+
+/* From where it was sent. */
+static void yield(Obstacle *o)
+{
+    const FreeBody *body = o->body;
+    double way[6];
+    for (int a = 0; a < 6; a++) way[a] = body->went[a] + body->pace[a];
+    solid_displace(&o->start, body->centre, body->went);
+    solid_displace(&o->end, body->centre, way);
+    obstacle_set_turn(o);
+}
+
+/* The target is where it was sent, and as much farther as it yielded. */
+static void yield_at_last(Collider *collider)
+{
+    FreeBody *body = collider->body;
+    double went[6], q[4], turn[3];
+    Solid solid = solid_of(&collider->shape, 3);
+    for (int a = 0; a < 6; a++) went[a] = body->went[a] + body->pace[a];
+    for (int a = 0; a < 3; a++) solid.position[a] = (double)collider->target_position[a];
+    solid_displace(&solid, body->centre, went);
+    for (int i = 0; i < 4; i++) q[i] = (double)collider->target_rotation[i];
+    cross3(went + 3, q, turn);
+    for (int a = 0; a < 3; a++) {
+        collider->target_position[a] = (float)solid.position[a];
+        collider->target_rotation[a] = (float)(q[a] + 0.5 * (went[3 + a] * q[3] + turn[a]));
+    }
+    collider->target_rotation[3] = (float)(q[3] - 0.5 * dot3(went + 3, q));
+    collider_place(collider, collider->target_position, collider->target_rotation, true);
+    memcpy(body->went, went, sizeof went);
 }
 
 static Obstacle domain_wall(const Domain *domain, int dimension, int axis, bool upper)
@@ -209,6 +252,8 @@ void colliders_begin_substep(Colliders *colliders, const Domain *domain, int dim
         o->body = collider_yields(&colliders->slot[slot]) ? colliders->slot[slot].body : NULL;
         o->part = part;
         o->parts = parts;
+        if (o->body) go_on(o->body, part);
+        if (o->body && o->body->met) yield(o);
         colliders->measures = colliders->measures || o->measures;
     }
     for (int place = 0; domain && place < 2 * dimension; place++)
@@ -221,7 +266,9 @@ void colliders_end_step(Colliders *colliders)
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         Collider *collider = &colliders->slot[slot];
         if (collider->body) collider->body->ways = 0;
-        if (collider->generation != 0 && collider->moving)
+        if (collider->generation != 0 && collider->moving && collider->body && collider->body->met)
+            yield_at_last(collider);
+        else if (collider->generation != 0 && collider->moving)
             collider_place(collider, collider->target_position, collider->target_rotation, true);
     }
 }

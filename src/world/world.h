@@ -140,6 +140,7 @@ typedef struct PrimalState {
     Array body_sums;           /* per body */
     Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */
     bool bounces;              /* a body of this substep, see primal_bounce.c */
+    uint32_t yield_grips;      /* contacts with bodies that yield, see primal_yield.h */
     Array block_share;         /* see KernelArgs; with BDF2 */
     Array body_share;          /* the same per body */
     Bodies bodies;

@@ -9,6 +9,7 @@
 #include "solvers/passes.h"
 #include "solvers/primal/multistep.h"
 #include "solvers/primal/primal_solve.h"
+#include "solvers/primal/primal_yield.h"
 
 /* Levels overlap: smooth motion is corrected by each of them. With 1 steps were too long by about the factor 2; iterations for the bar and the
  * cantilever of the accuracy cases were fewest around 2, by trial. */
@@ -240,6 +241,7 @@ static void evaluate_after(Primal *p, Loops *loops, Kernel *force)
     p->trial_energy = p->total[0] + sum_energies(p);
     p->slope_before = p->total[1];
     p->slope_after = p->total[2];
+    primal_yield_evaluate(p);
 }
 
 void primal_evaluate(Primal *p)
@@ -372,6 +374,7 @@ static void drop_newest_pair(Primal *p)
     p->step[PRIMAL_MEMORY - 1] = step;
     p->change[PRIMAL_MEMORY - 1] = change;
     p->pairs--;
+    primal_yield_drop_pair(p);
 }
 
 /* Makes p->node the accepted displacements. */
@@ -381,6 +384,7 @@ void primal_accept(Primal *p, bool with_pair)
     if (with_pair) {
         shift_pairs(p);
         primal_over_blocks(p, keep_pair);
+        primal_yield_keep_pair(p);
         memcpy(p->product[0], p->total, sizeof p->product[0]);
         if (!(p->product[0][0] > CURVATURE_MIN * sqrt(p->total[SUMS - 1] * p->total[SUMS - 2]))) drop_newest_pair(p);
     } else {
@@ -390,6 +394,7 @@ void primal_accept(Primal *p, bool with_pair)
     primal_over_blocks(p, p->rubs ? take_over_bare : take_over);
     if (p->rubs) renew_friction(p);
     memcpy(p->first, p->total, sizeof p->first);
+    primal_yield_accept(p);
     memcpy(state->accepted_energy.data, state->block_energy.data, K_ENERGIES * (size_t)p->world->grid.particle_blocks * sizeof(float));
 }
 
@@ -468,6 +473,7 @@ double primal_find_direction(Primal *p)
         p->first[i] = along / p->product[i][i];
     }
     if (p->rigid) primal_weigh_rigid(p);
+    primal_yield_add_changes(p);
     add_pass(p, &loops, add_changes);
     if (p->rigid) {
         run_and_sum(p, &loops);
@@ -481,6 +487,7 @@ double primal_find_direction(Primal *p)
         primal_correct_rigid(p);
         primal_over_blocks(p, add_rigid);
     }
+    primal_yield_find_direction(p);
     memcpy(coefficient, p->total, sizeof coefficient);
     for (int i = p->pairs - 1; i >= 0; i--) {
         double along = coefficient[i];
@@ -488,6 +495,7 @@ double primal_find_direction(Primal *p)
         p->second[i] = p->first[i] - along / p->product[i][i];
     }
     primal_over_blocks(p, add_steps);
+    primal_yield_add_steps(p);
     return p->total[0];
 }
 
@@ -527,6 +535,7 @@ bool primal_descend(Primal *p, uint32_t *passes, uint32_t most)
     Loops loops;
     loops_open(&loops, p->world->pool);
     for (p->share = 1.0f; *passes < most && (double)p->share > SMALLEST_STEP; p->share *= shorter(p)) {
+        primal_yield_try(p);
         add_pass(p, &loops, try_step);
         evaluate_after(p, &loops, p->world->kernels->force);
         ++*passes;
@@ -537,6 +546,7 @@ bool primal_descend(Primal *p, uint32_t *passes, uint32_t most)
         primal_accept(p, true);
         return true;
     }
+    primal_yield_return(p);
     return false;
 }
 
@@ -545,6 +555,7 @@ double primal_find_plain_direction(Primal *p)
 {
     p->pairs = 0;
     memcpy(p->right, p->gradient, (size_t)p->world->grid.node_blocks * (size_t)p->floats * sizeof *p->right);
+    primal_yield_begin_plain(p);
     return primal_find_direction(p);
 }
 
@@ -627,8 +638,16 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
         for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
-    constraints_project(p->contacts, p->node, block, block + 1);
+    if (!p->yields) constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
+}
+
+static void project_start(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
+{
+    (void)begin;
+    (void)end;
+    (void)sum;
+    constraints_project(p->contacts, p->node, block, block + 1);
 }
 
 static void find_friction(Primal *p)
@@ -648,6 +667,7 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     Primal p = open_solve(world, contacts);
     p.sketches = sketches;
     find_friction(&p);
+    primal_yield_open(&p);
     primal_find_leaning(&p);
     primal_find_rigid(&p);
     bind_couples(&p);
@@ -655,6 +675,11 @@ static Primal begin_solve(World *world, const ContactFrame *contacts, bool sketc
     Loops loops;
     loops_open(&loops, world->pool);
     add_pass(&p, &loops, start);
+    if (p.yields) {
+        loops_run(&loops);
+        primal_yield_start(&p);
+        add_pass(&p, &loops, project_start);
+    }
     evaluate_after(&p, &loops, world->kernels->force_first);
     primal_accept(&p, false);
     add_pass(&p, &loops, weigh_nodes);
@@ -689,8 +714,13 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_find_kept(&p);
     forget_past(&p);
     if ((solver_holds_liquid(world) && !p.joint) || world->record.energy_checks_failed > 0) primal_keep_momentum(&p);
+    primal_yield_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
-    constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
+    if (p.yields)
+        primal_yield_book(&p, primal_kept_motion(&p));
+    else
+        constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
     primal_find_bounces(&p);
+    primal_yield_close(&p);
 }

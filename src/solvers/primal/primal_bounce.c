@@ -15,6 +15,7 @@
 #include "contact/contact_constraints.h"
 #include "solvers/primal/primal.h"
 #include "solvers/primal/primal_solve.h"
+#include "solvers/primal/primal_yield.h"
 #include "world/sleep_rows.h"
 
 static const double KEPT = 1.0;      /* all of it: with more a ball would bounce higher than it fell */
@@ -38,10 +39,15 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
     sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
-static void find_bounce(RigidBody *body, const BodySum *of, const float *g)
+/* Alone with a rigid body that yields, matter shares what both lost with it: its impulses count 1 + s times, too. */
+static void find_bounce(RigidBody *body, const BodySum *of, const float *g, const YieldBounce *other)
 {
     const double weight = IMPACT * body->mass[0][0] * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])), *push = body->sum + 4;
-    const double *sum = body->sum, lost = KEPT * (of->before + of->work - of->after - sum[3]);
+    const double *sum = body->sum, gave = other ? other->lost : of->work, lost = KEPT * (of->before + gave - of->after - sum[3]);
+    if (other) {
+        body->sum[0] += other->square;
+        body->sum[1] += other->along;
+    }
     body->bounce = 0.0;
     if (push[0] * push[0] + push[1] * push[1] + push[2] * push[2] < weight * weight) return;
     if (!(lost > 0.0) || !(sum[0] > 0.0) || sum[2] > 0.0) return; /* other forces are not known to the particles */
@@ -60,6 +66,8 @@ void primal_find_bounces(Primal *p)
     for (int32_t i = 0; i < state->bodies.count; i++) {
         body[i].bounce = 0.0;
         body[i].bounces = of[i].touches && !of[i].with_liquid && !of[i].held && !body[i].multistep && body[i].kept == 1.0;
+        YieldBounce other;
+        if (primal_yield_presses(p, i) && !primal_yield_bounce(p, i, &other)) body[i].bounces = false; /* what more than two lost is not known */
         p->bounces = p->bounces || body[i].bounces;
     }
     p->world->primal.bounces = p->bounces;
@@ -67,7 +75,10 @@ void primal_find_bounces(Primal *p)
     primal_over_blocks(p, sum_change);
     primal_gather_rigid(p, 7);
     for (int32_t i = 0; i < state->bodies.count; i++)
-        if (body[i].bounces) find_bounce(&body[i], &of[i], p->world->args.gravity);
+        if (body[i].bounces) {
+            YieldBounce other;
+            find_bounce(&body[i], &of[i], p->world->args.gravity, primal_yield_bounce(p, i, &other) ? &other : NULL);
+        }
 }
 
 /* ---- What particles may get ---- */

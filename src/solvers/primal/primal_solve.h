@@ -77,6 +77,9 @@ typedef struct Primal {
     float slip_min; /* see constraints_slip_min() */
     bool bounces; /* a body does */
     bool turned; /* failed bodies go back to their rigid motion; else to their mean one */
+    bool yields; /* rigid bodies do, see primal_yield.h */
+    const struct YieldPair *pair; /* in passes of primal_yield_along.c and primal_yield_heaps.c */
+    const float *after;           /* in one of primal_yield_book.c */
     bool rigid; /* a body's rigid motions are solved for */
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
