@@ -17,9 +17,9 @@
  * than the liquid that it moves (docs/method.md, Walls). To what contacts with solids give it beside that, it yields one step later. Liquid
  * does not rub on it, whatever its friction.
  *
- * With the primal and the convergent solver a body yields within the step to solids, too, where neither liquid nor sand is with them (docs/method.md, The primal solver). Velocities
- * of the state then have what solids are expected to give: what they gave in the last step, but at most twice the body's weight. Places are those that follow. The step corrects
- * both; the next pbmpm_rigid_advance() reads it. Until then a body that is hit is not quite where its state says, but where its obstacle is.
+ * With the primal and the convergent solver a body yields to solids within the step, too, but not beside liquid or sand. See docs/method.md, The primal solver.
+ * Velocities of the state then have what solids are expected to give. That is what they gave in the last step, but at most twice the body's weight. Places follow from them.
+ * The step corrects both, and the next pbmpm_rigid_advance() reads it. Until then a body that is hit is where its obstacle is, not quite where its state says.
  *
  * All other matter feels the body's velocity one step later than the body feels matter. A body that is lighter than the matter that moves along would
  * oscillate more and more, at any dt. So where it does not yield within the step each change of velocity is smoothed:
