@@ -17,7 +17,7 @@
  * than the liquid that it moves (docs/method.md, Walls). To what contacts with solids give it beside that, it yields one step later. Liquid
  * does not rub on it, whatever its friction.
  *
- * With the primal and the convergent solver a body yields to solids within the step, too, but not beside liquid or sand. See docs/method.md, The primal solver.
+ * With the primal and the convergent solver a body yields to solids, too, within the step. Beside liquid or sand it does not. See docs/method.md, The primal solver.
  * Velocities of the state then have what solids are expected to give. That is what they gave in the last step, but at most twice the body's weight. Places follow from them.
  * The step corrects both, and the next pbmpm_rigid_advance() reads it. Until then a body that is hit is where its obstacle is, not quite where its state says.
  *

@@ -1453,7 +1453,7 @@ namespace Pbmpm
         public Double3 AngularVelocityChange;
         /// <summary>as `position`, after a shift too: where the pivot stays, or a point of the line or plane that the centre of mass moves on [m]; `moves` ALL: not used</summary>
         public Double3 Point;
-        /// <summary>V of the last call [kg], 0 where liquid followed its walls; for information: the library never reads it</summary>
+        /// <summary>V of the last call [kg], 0 where it yielded within the step; for information: the library never reads it</summary>
         public double VirtualMass;
     }
 
