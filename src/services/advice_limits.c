@@ -142,7 +142,7 @@ static bool yields_at_once(const World *world)
  * and the mass M has k = E A / T = M (c / T)^2 with the speed of sound c, c^2 = E / rho. Planks and boxes on crates were thrown off at 3 to 40, and calm at 2.5. */
 static void limits_of_loads(Adviser *adviser, uint32_t slot)
 {
-    static const double HOLDS = 2.5;
+    static const double HOLDS = 2.5; /* by trial: see above; theory says 4 of one spring and one mass */
     const World *world = adviser->world;
     const pbmpm_material_def *def = &world->materials.def[slot];
     const double dt = adviser->substep.dt * world->settings.substeps, thickness = adviser->survey.heap[slot].thickness * (double)world->def.cell_size;

@@ -30,7 +30,7 @@ This page is written by `python3 tests/mutants/constants.py`; `sh tests/mutants.
 """
 PLATEAUS = Path(__file__).with_name("plateaus.json")
 BY_TRIAL = """No theory gives these. Each is halved and doubled. The table tells how many field tests that loses and wins, at 60 Hz x 5.
-It tells the same of hard cases, in 2D, with the dual and the primal. A change of rounding alone (SSE4 for AVX2) swaps some six field tests. What swaps no more lies on a plateau.
+It tells the same of hard cases, in 2D, with paper, dual and primal. A change of rounding alone (SSE4 for AVX2) swaps some six field tests. What swaps no more lies on a plateau.
 `tests/mutants/plateau.py` fills the table, for hours, and plateaus.json beside it names the checks. A dash means that nobody has tried yet."""
 WORDS = 22
 """Of what a line says about a constant."""
