@@ -430,6 +430,14 @@ double constraints_friction_loss(const ContactFrame *frame, const float *u, floa
     return sum;
 }
 
+/* What an active contact gives its node. */
+static void given_by(const Contact *contact, const float *gradient, const float *u, float least, float given[3])
+{
+    float slip[3];
+    const float rub = contact->limit > 0.0f ? rub_of(contact, slip_of(contact, u, slip), least) : 0.0f;
+    for (int a = 0; a < 3; a++) given[a] = gradient[a] - (rub > 0.0f ? rub * slip[a] : 0.0f);
+}
+
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block)
 {
     double work = 0.0;
@@ -438,17 +446,36 @@ double constraints_work(const ContactFrame *frame, const float *gradient, const 
     for (uint32_t i = list.begin; i < list.end; i++) {
         const Contact *contact = &list.contact[i];
         const size_t node = list.node + contact->node * K_NODE_WIDTH;
-        float slip[3];
+        float given[3];
         if (contact->stays) { /* its surface is its own motion: what walls do to all of them is the sum, with its sign */
             work += is_held(contact) ? (double)along(gradient + node, contact->surface) : 0.0;
             continue;
         }
         if (!contact->active) continue;
-        const float rub = contact->limit > 0.0f ? rub_of(contact, slip_of(contact, u + node, slip), least) : 0.0f;
-        const float rubbed = rub > 0.0f ? rub * along(slip, contact->surface) : 0.0f;
-        work += fmax(0.0, (double)(along(gradient + node, contact->surface) - rubbed));
+        given_by(contact, gradient + node, u + node, least, given);
+        work += fmax(0.0, (double)along(given, contact->surface));
     }
     return work;
+}
+
+void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum)
+{
+    if (frame->colliders->contacts == 0) return;
+    const BlockContacts list = contacts_of(frame, block);
+    for (uint32_t i = list.begin; i < list.end; i++) {
+        const Contact *contact = &list.contact[i];
+        const size_t node = list.node + contact->node * K_NODE_WIDTH;
+        float given[3];
+        if (!contact->active) continue;
+        given_by(contact, gradient + node, u + node, least, given);
+        const double size = sqrt((double)along(given, given));
+        sum->work += (double)along(given, contact->surface);
+        sum->size += size;
+        for (int a = 0; a < 3; a++) {
+            sum->given[a] += (double)given[a];
+            sum->surface[a] += size * (double)contact->surface[a];
+        }
+    }
 }
 
 void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3])

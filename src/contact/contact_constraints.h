@@ -104,6 +104,15 @@ double constraints_friction_loss(const ContactFrame *frame, const float *u, floa
  * their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 
+/* What active contacts of moving surfaces do, with its sign: what recedes takes energy. */
+typedef struct ContactExchange {
+    double work, size;             /* sums of work and of sizes of impulses */
+    double given[3], surface[3];   /* of impulses, and of surfaces' motions times sizes */
+} ContactExchange;
+
+/* Adds those of a block. */
+void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum);
+
 /* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
 void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3]);
 

@@ -4,9 +4,9 @@
  * speed. What a substep lost, E, is known per body: energy before and work, less energy after and what friction took. While a body is pushed its
  * velocities get back the share KEPT of it along their change: v + s (v - v*), v* those of the predictor, with
  *
- *     s^2/2 sum m |u - u*|^2 + s sum m u.(u - u*) = KEPT E,
+ *     s^2/2 sum m |u - u*|^2 + s (sum m u.(u - u*) - W) = KEPT E,
  *
- * the smaller root: a body that is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so
+ * W the work of moving surfaces in the substep: what contacts give more does that much more. So E and s are the same for one who moves along. The smaller root: a body that is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so
  * momentum is kept and impulses stay exact. No body has more energy than before. The energy is convex in s, so less than s is no more, and a body gets as
  * much as leaves all of its particles within max_displacement. */
 #include <math.h>
@@ -22,6 +22,9 @@ static const double KEPT = 1.0;      /* all of it: with more a ball would bounce
 static const double IMPACT = 2.0;    /* times its weight: what pushes a body less carries it, or it rolls */
 static const double MOST = 1.0;      /* of the change: the velocity at the end of a step whose mean is that of the solution */
 
+enum { BOUNCE_SUMS = 7 + sizeof(ContactExchange) / sizeof(double) };
+_Static_assert((int)BOUNCE_SUMS <= (int)SUMS, "a pass adds up so many");
+
 static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
     const float *before = p->world->args.grid.node_before;
@@ -36,18 +39,30 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[4 + c] += mass * change;
         }
     }
+    ContactExchange exchange = {0};
+    constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
+    memcpy(sum + 7, &exchange, sizeof exchange);
     sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
+}
+
+/* W. Impulses of an unfinished solution do not add up to what the body gained: what is missing goes with the surfaces' mean motion. So bounces are the same
+ * for one who moves along, however far the solution is. */
+static double exchanged(const double *sum)
+{
+    ContactExchange all;
+    memcpy(&all, sum + 7, sizeof all);
+    double work = all.work;
+    for (int c = 0; c < 3 && all.size > 0.0; c++) work += (sum[4 + c] - all.given[c]) * all.surface[c] / all.size;
+    return work;
 }
 
 /* Alone with a rigid body that yields, matter shares what both lost with it: its impulses count 1 + s times, too. */
 static void find_bounce(RigidBody *body, const BodySum *of, const float *g, const YieldBounce *other)
 {
     const double weight = IMPACT * body->mass[0][0] * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])), *push = body->sum + 4;
-    const double *sum = body->sum, gave = other ? other->lost : of->work, lost = KEPT * (of->before + gave - of->after - sum[3]);
-    if (other) {
-        body->sum[0] += other->square;
-        body->sum[1] += other->along;
-    }
+    const double *sum = body->sum, work = exchanged(body->sum), gave = other ? other->lost : work, lost = KEPT * (of->before + gave - of->after - sum[3]);
+    if (other) body->sum[0] += other->square;
+    body->sum[1] += other ? other->along : -work;
     body->bounce = 0.0;
     if (push[0] * push[0] + push[1] * push[1] + push[2] * push[2] < weight * weight) return;
     if (!(lost > 0.0) || !(sum[0] > 0.0) || sum[2] > 0.0) return; /* other forces are not known to the particles */
@@ -73,7 +88,7 @@ void primal_find_bounces(Primal *p)
     p->world->primal.bounces = p->bounces;
     if (!p->bounces) return;
     primal_over_blocks(p, sum_change);
-    primal_gather_rigid(p, 7);
+    primal_gather_rigid(p, BOUNCE_SUMS);
     for (int32_t i = 0; i < state->bodies.count; i++)
         if (body[i].bounces) {
             YieldBounce other;
