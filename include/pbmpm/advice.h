@@ -36,7 +36,7 @@ typedef enum pbmpm_advice_code {
                                             overfull places; for liquids, of all liquids together */
     PBMPM_ADVICE_KNOWN_LIMIT = 18,     /**< what neither rate nor iterations mend; the text says what. No figure */
     PBMPM_ADVICE_NO_FRICTION = 19,     /**< sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
-                                            with kinematic_viscosity among walls none of which holds it. Figure: 0 */
+                                            with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0 */
     PBMPM_ADVICE_EMITTER_OUTSIDE = 20, /**< an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells] */
     PBMPM_ADVICE_EMITTER_REFUSED = 21, /**< came true: an emitter found its place full, so it gave less than its rate. Figure: the share that was refused so far */
     /* Came true: measured in the present state. */

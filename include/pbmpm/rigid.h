@@ -9,6 +9,9 @@
  * matter, the walls of the domain and their own joint. They feel neither each other nor other obstacles. A physics engine does that: it takes
  * pbmpm_collider_impulse() and pbmpm_collider_submerged() instead of these calls.
  *
+ * Walls of the domain stop a body without bounce. They rub on it with the geometric mean of its coefficient of friction and theirs. Theirs is 0 by default
+ * (world_def.domain_friction): a body then glides without end. Where one of both slips nothing rubs; else, where one sticks, the body does not slide.
+ *
  * Motion. Velocities change first, then poses, each with the new velocities: first order in dt. A fall from rest is at g dt^2 n (n + 1) / 2 after n
  * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so no spin grows by itself. A step is turned in up to 64 parts
  * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
@@ -92,7 +95,7 @@ PBMPM_API pbmpm_result pbmpm_collider_submerged(pbmpm_world_id world, pbmpm_coll
  *  A hinge: `moves` NONE, `turns` AXIS. A ball joint: `moves` NONE, `turns` ALL (2D: a hinge). A slider: `moves` AXIS, `turns` NONE. */
 typedef struct pbmpm_rigid_def {
     uint32_t size;         /**< sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init() */
-    int32_t stays_inside;  /**< 0 or 1. 1 (default): corners and round parts stop at walls of the domain, without bounce or friction; of a baked shape its box. Not with `moves` NONE. 0: it passes. */
+    int32_t stays_inside;  /**< 0 or 1. 1 (default): corners and round parts stop at walls of the domain, see above; of a baked shape its box. Not with `moves` NONE. 0: it passes. */
     pbmpm_freedom moves;   /**< of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL */
     pbmpm_freedom turns;   /**< 2D: NONE, or else about the third axis. Default ALL */
     double mass;           /**< [kg] (2D: per metre of depth), in [1e-12, 1e15]; default 1 */

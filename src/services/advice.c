@@ -33,8 +33,11 @@ static const struct {
     {PBMPM_ADVICE_OVERLAPS, "PBMPM_ADVICE_OVERLAPS", "", advise_overlaps},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_known_limits},
     {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_soft_bounce},
+    {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_thrown_off},
+    {PBMPM_ADVICE_KNOWN_LIMIT, "PBMPM_ADVICE_KNOWN_LIMIT", "", advise_rigid_enters},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_no_friction},
     {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_slips},
+    {PBMPM_ADVICE_NO_FRICTION, "PBMPM_ADVICE_NO_FRICTION", "", advise_rigid_glides},
     {PBMPM_ADVICE_EMITTER_OUTSIDE, "PBMPM_ADVICE_EMITTER_OUTSIDE", "cells", advise_emitter_outside},
     {PBMPM_ADVICE_EMITTER_REFUSED, "PBMPM_ADVICE_EMITTER_REFUSED", "", advise_emitter_refused},
 };

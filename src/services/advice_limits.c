@@ -2,8 +2,6 @@
 
 #include <math.h>
 
-#include "base/vector.h"
-#include "shape/shapes.h"
 #include "solvers/dual/dual.h"
 #include "world/depth.h"
 
@@ -91,72 +89,6 @@ static void limits_of_bodies(Adviser *adviser, uint32_t slot)
     if (sinks(world, def) && falls) tell_limit(adviser, slot, "where a heavy body fell into a liquid, the liquid goes on moving by some centimetres per second");
 }
 
-/* ---- Rigid bodies on elastic ones ---- */
-
-/* The mass that gravity has to move [kg], by the last advance (its other columns are 0); infinite where it moves nothing. */
-static double mass_of(const World *world, const Collider *collider)
-{
-    double down[3], yields = 0.0;
-    gravity_direction(world, down);
-    for (int k = 0; k < FREE_BODY_WAYS; k++) {
-        const double along = dot3(collider->body->way[k], down);
-        yields += along * along;
-    }
-    return yields > 0.0 ? 1.0 / yields : INFINITY;
-}
-
-/* Whether matter of a material is as near as splines reach from one to the other. */
-static bool touches(const World *world, uint32_t slot, const Collider *collider)
-{
-    static const double REACH = 1.5; /* [cells] of a spline */
-    const Particles *p = &world->particles;
-    Solid solid = solid_of(&collider->shape, p->dimension);
-    solid.grid = collider->grid;
-    for (uint32_t row = 0; row < p->count; row++) {
-        double at[3] = {0};
-        if (p->material[row] != slot) continue;
-        for (int a = 0; a < p->dimension; a++) at[a] = particles_coordinate(p, row, a) * (double)world->def.cell_size;
-        if (solid_gap(&solid, at) < REACH * (double)world->def.cell_size) return true;
-    }
-    return false;
-}
-
-static double mass_of_material(const World *world, uint32_t slot)
-{
-    const Particles *p = &world->particles;
-    double sum = 0.0;
-    for (uint32_t row = 0; row < p->count; row++) sum += p->material[row] == slot ? (double)p->mass[row] : 0.0;
-    return sum * world_cell_volume(world);
-}
-
-/* Whether all solids of islands that bodies touch are the primal's, to which they yield at once: see primal_yield.h. */
-static bool yields_at_once(const World *world)
-{
-    const pbmpm_solver solver = world->settings.solver;
-    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
-        if (adviser_present(world, slot) && (adviser_flows(&world->materials.def[slot]) || world->materials.def[slot].kind == PBMPM_SAND)) return false;
-    return solver == PBMPM_SOLVER_CONVERGENT || solver == PBMPM_SOLVER_PRIMAL;
-}
-
-/* Beside liquid and sand a rigid body yields to solids one step after they pushed it. Such a pair gains energy from k dt^2 / m = 4 on, as a spring whose force is a step old. Pressed matter of the thickness T
- * and the mass M has k = E A / T = M (c / T)^2 with the speed of sound c, c^2 = E / rho. Planks and boxes on crates were thrown off at 3 to 40, and calm at 2.5. */
-static void limits_of_loads(Adviser *adviser, uint32_t slot)
-{
-    static const double HOLDS = 2.5; /* by trial: see above; theory says 4 of one spring and one mass */
-    const World *world = adviser->world;
-    const pbmpm_material_def *def = &world->materials.def[slot];
-    const double dt = adviser->substep.dt * world->settings.substeps, thickness = adviser->survey.heap[slot].thickness * (double)world->def.cell_size;
-    if (yields_at_once(world)) return;
-    const double crossings = dt * sqrt((double)def->young_modulus / (double)def->density) / fmax(thickness, (double)world->def.cell_size);
-    for (uint32_t c = 0; c < world->colliders.used; c++) {
-        const Collider *collider = &world->colliders.slot[c];
-        if (collider->generation == 0 || !collider->body) continue;
-        if (crossings * crossings * mass_of_material(world, slot) <= HOLDS * mass_of(world, collider) || !touches(world, slot, collider)) continue;
-        adviser_give(adviser, (pbmpm_advice){.code = PBMPM_ADVICE_KNOWN_LIMIT, .material = adviser_id_of(world, slot), .collider = {c, collider->generation},
-                                             .text = "a rigid body that touches matter as stiff as this is thrown off: more steps per second hold it, substeps and iterations do not"});
-    }
-}
-
 void advise_known_limits(Adviser *adviser)
 {
     const World *world = adviser->world;
@@ -165,7 +97,6 @@ void advise_known_limits(Adviser *adviser)
         if (!adviser_present(world, slot) || kind == PBMPM_LIQUID || world->settings.solver == PBMPM_SOLVER_PAPER) continue;
         if (kind == PBMPM_SAND) limits_of_sand(adviser, slot);
         else limits_of_bodies(adviser, slot);
-        if (kind == PBMPM_ELASTIC) limits_of_loads(adviser, slot);
         limits_of_edges(adviser, slot);
     }
 }

@@ -50,6 +50,11 @@ void advise_sand_slides(Adviser *adviser);
 void advise_sand_runs(Adviser *adviser);
 void advise_no_friction(Adviser *adviser);
 
+/* advice_rigid.c: bodies that pbmpm_rigid_advance() moves */
+void advise_rigid_thrown_off(Adviser *adviser);
+void advise_rigid_glides(Adviser *adviser);
+void advise_rigid_enters(Adviser *adviser);
+
 /* advice_limits.c: what no setting mends */
 void advise_known_limits(Adviser *adviser);
 

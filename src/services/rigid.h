@@ -38,6 +38,9 @@ void rigid_change_pose(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, int
 /* Where solids made it go beside where it was sent. */
 void rigid_follow(const pbmpm_rigid_def *def, pbmpm_rigid_state *state, const double went[6], int dimension);
 
+/* Coulomb's coefficient between a body and a wall; infinite where it does not slide. */
+double rigid_friction(const pbmpm_collider_def *body, const pbmpm_domain_wall *wall);
+
 /* Motions that walls stop, outwards, with their moment about the centre. */
 enum { RIGID_STOPS = 24 };
 typedef struct RigidStops {

@@ -480,6 +480,80 @@ static void test_a_plank_that_falls_on_a_corner_lies_down(void)
     TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.0, body.state.angular_velocity[2]);
 }
 
+/* A world of 40 m with a floor, whose friction a body of a shape on it shares. */
+static rigid put_on_floor(int32_t dimension, pbmpm_shape shape, float of_body, float of_floor)
+{
+    pbmpm_world_def def = default_world(dimension, 0.1f, 16);
+    def.domain_enabled = 1;
+    def.domain_friction = of_floor;
+    for (int a = 0; a < dimension; a++) def.domain_max[a] = 40;
+    rigid body = {.world = create_world(&def), .state = {.size = sizeof body.state}};
+    pbmpm_collider_def rough;
+    OK(pbmpm_collider_def_init(&rough, sizeof rough));
+    rough.kinematic = rough.measures_impulse = 1;
+    rough.friction_coefficient = of_body;
+    OK(pbmpm_collider_create(body.world, &rough, &shape, &body.collider));
+    const pbmpm_mass_properties mass = mass_of(body.world, shape, 500);
+    OK(pbmpm_rigid_def_init(&body.def, sizeof body.def));
+    body.def.mass = mass.mass;
+    memcpy(body.def.inertia, mass.inertia, sizeof mass.inertia);
+    OK(pbmpm_rigid_begin(body.world, body.collider, &body.def, &body.state));
+    set_gravity(body.world, 0, -10, 0);
+    return body;
+}
+
+/* Coulomb's law: 5 m/s on a floor with 0.5 (of 0.4 and 0.625) end after 1 s. In 3D askew, where a law for each axis would bend the way. */
+static void test_walls_brake_what_slides(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        rigid body = put_on_floor(dimension, box_shape(5, 0.1f, 5, 0.6f, 0.1f, 0.6f), 0.4f, 0.625f);
+        body.state.velocity[0] = dimension == 3 ? 4 : 5;
+        body.state.velocity[2] = dimension == 3 ? 3 : 0;
+        for (int n = 0; n < 30; n++) step(&body);
+        const double half = 2.5 / 5.0; /* of the speed is left after 30 steps */
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, half * (dimension == 3 ? 4 : 5), body.state.velocity[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-5, half * (dimension == 3 ? 3 : 0), body.state.velocity[2]);
+        for (int n = 0; n < 60; n++) step(&body);
+        for (int a = 0; a < dimension; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, body.state.velocity[a]);
+        for (int a = 0; a < 3; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, body.state.angular_velocity[a]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, body.state.position[1]);
+        set_gravity(body.world, 4.9f, -10, 0);
+        for (int n = 0; n < 30; n++) step(&body);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-9, 0.0, body.state.velocity[0], "it stands on less than the friction angle");
+        set_gravity(body.world, 6, -10, 0);
+        for (int n = 0; n < 60; n++) step(&body);
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-5, 1.0, body.state.velocity[0], "and slides on more");
+    }
+}
+
+/* A ball that slides comes to roll, with 5/7 of its speed, a disc with 2/3 (J. A. Greenwood, Classical Dynamics): the moment about the floor's points is kept. */
+static void test_friction_of_walls_makes_balls_roll(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++) {
+        rigid body = put_on_floor(dimension, sphere_shape(5, 0.5f, 5, 0.5f), 0.5f, 0.5f);
+        const double rolls = dimension == 3 ? 5.0 / 7 : 2.0 / 3;
+        body.state.velocity[0] = 3;
+        for (int n = 0; n < 120; n++) step(&body);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, 3 * rolls, body.state.velocity[0]);
+        TEST_ASSERT_DOUBLE_WITHIN(1e-6, -3 * rolls / 0.5, body.state.angular_velocity[2]);
+    }
+}
+
+static void test_a_wall_without_friction_lets_glide(void)
+{
+    rigid body = put_on_floor(2, box_shape(5, 0.1f, 0, 0.2f, 0.1f, 0), 0.4f, 0);
+    body.state.velocity[0] = 2;
+    for (int n = 0; n < 60; n++) step(&body);
+    TEST_ASSERT_EQUAL_DOUBLE(2.0, body.state.velocity[0]);
+    pbmpm_domain_wall wall = {.size = sizeof wall};
+    OK(pbmpm_domain_wall_get(body.world, 1, 0, &wall));
+    wall.friction = PBMPM_FRICTION_STICK;
+    OK(pbmpm_domain_wall_set(body.world, 1, 0, &wall));
+    step(&body);
+    const double foot = body.state.velocity[0] + 0.1 * body.state.angular_velocity[2];
+    TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-6, 0.0, foot, "its foot sticks; it tips");
+}
+
 /* ---- On solids ---- */
 
 static pbmpm_material_id create_elastic(pbmpm_world_id world, float modulus)
@@ -581,24 +655,31 @@ static void test_a_hit_keeps_momentum(void)
     TEST_ASSERT_DOUBLE_WITHIN(0.01, 0.0, stats.momentum[1] + body.def.mass * body.state.velocity[1]);
 }
 
-/* What is advised of a plank of this density on a block of 1e6 Pa, at this step; `pool`: there is water in the world. */
-static bool told_that_it_is_thrown_off(float density, float dt, bool pool)
+/* Whether advice of an obstacle has these words. */
+static bool advised(pbmpm_world_id world, float dt, const char *words)
 {
     enum { ROOM = 32 };
     static pbmpm_advice told[ROOM];
+    uint32_t count = 0;
+    bool found = false;
+    told[0].size = sizeof told[0];
+    OK(pbmpm_world_advice(world, dt, told, ROOM, &count));
+    for (uint32_t i = 0; i < count; i++) found = found || (told[i].collider.generation != 0 && strstr(told[i].text, words));
+    return found;
+}
+
+/* What is advised of a plank of this density on a block of 1e6 Pa, at this step; `pool`: there is water in the world. */
+static bool told_that_it_is_thrown_off(float density, float dt, bool pool)
+{
     pbmpm_world_def def = default_world(2, 0.05f, 4000);
     def.domain_enabled = 1;
     def.domain_max[0] = def.domain_max[1] = 4;
     rigid body = make_rigid(create_world(&def), box_shape(2, 0.66f, 0, 0.6f, 0.1f, 0), density, NULL);
-    uint32_t count = 0;
-    bool found = false;
     fill_shape(body.world, create_elastic(body.world, 1e6f), box_shape(2, 0.3f, 0, 0.3f, 0.25f, 0), STILL);
     if (pool) fill_shape(body.world, create_material(body.world, PBMPM_LIQUID), box_shape(3.5f, 0.2f, 0, 0.5f, 0.2f, 0), STILL);
     set_gravity(body.world, 0, -10, 0);
     advance(&body);
-    told[0].size = sizeof told[0];
-    OK(pbmpm_world_advice(body.world, dt, told, ROOM, &count));
-    for (uint32_t i = 0; i < count; i++) found = found || (told[i].code == PBMPM_ADVICE_KNOWN_LIMIT && told[i].collider.generation != 0);
+    const bool found = advised(body.world, dt, "thrown off");
     OK(pbmpm_world_destroy(body.world));
     return found;
 }
@@ -611,6 +692,43 @@ static void test_it_is_told_where_solids_throw_it_off(void)
     TEST_ASSERT_FALSE(told_that_it_is_thrown_off(100.0f, 1.0f / 60.0f, false));
     TEST_ASSERT_FALSE(told_that_it_is_thrown_off(2000.0f, 1.0f / 60.0f, true));
     TEST_ASSERT_FALSE(told_that_it_is_thrown_off(100.0f, 1.0f / 240.0f, true));
+}
+
+/* It lies on a floor without friction; before it got there, and with friction, nothing is told. */
+static void test_it_is_told_where_a_body_glides(void)
+{
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (int rough = 0; rough < 2; rough++) {
+            rigid body = put_on_floor(dimension, box_shape(5, 0.3f, 5, 0.2f, 0.1f, 0.2f), 0.2f, rough ? 0.1f : 0.0f);
+            step(&body);
+            TEST_ASSERT_FALSE(advised(body.world, DT, "glides"));
+            for (int n = 0; n < 30; n++) step(&body);
+            TEST_ASSERT_EQUAL(!rough, advised(body.world, DT, "glides"));
+        }
+}
+
+/* A box that falls onto a box, onto a plane, and onto a box that is a body, too. Beside an obstacle nothing is told; nor of a wheel about its axle. */
+static void test_it_is_told_where_a_body_enters_another(void)
+{
+    static const char *const what[] = {"a box", "a plane", "a body", "beside"};
+    for (int32_t dimension = 2; dimension <= 3; dimension++)
+        for (int other = 0; other < 4; other++) {
+            rigid body = make_rigid(empty_world(dimension, 0.1f), box_shape(0, 0.35f, 0, 0.2f, 0.1f, 0.2f), 500, NULL), below;
+            const pbmpm_shape box = box_shape(other == 3 ? 1 : 0, 0, 0, 0.4f, 0.2f, 0.4f);
+            if (other == 0 || other == 3) create_collider(body.world, box, false);
+            if (other == 1) create_collider(body.world, plane_shape(0, 0.2f, 0, 0, 1, 0), false);
+            if (other == 2) below = make_rigid(body.world, box, 500, NULL);
+            advance(&body);
+            if (other == 2) advance(&below);
+            TEST_ASSERT_FALSE(advised(body.world, DT, "has entered"));
+            set_gravity(body.world, 0, -10, 0);
+            for (int n = 0; n < 15; n++) step(&body);
+            TEST_ASSERT_EQUAL_INT_MESSAGE(other != 3, advised(body.world, DT, "has entered"), what[other]);
+        }
+    rigid wheel = make_rigid(empty_world(2, 0.1f), box_shape(0, -0.5f, 0, 0.1f, 0.6f, 0), 500, short_pendulum);
+    create_collider(wheel.world, sphere_shape(0, 0, 0, 0.05f), false); /* where it turns */
+    advance(&wheel);
+    TEST_ASSERT_FALSE(advised(wheel.world, DT, "has entered"));
 }
 
 /* ---- In water ---- */
@@ -777,11 +895,16 @@ int main(void)
     RUN_TEST(test_a_plane_locks_one_axis);
     RUN_TEST(test_walls_stop_a_body);
     RUN_TEST(test_a_plank_that_falls_on_a_corner_lies_down);
+    RUN_TEST(test_walls_brake_what_slides);
+    RUN_TEST(test_friction_of_walls_makes_balls_roll);
+    RUN_TEST(test_a_wall_without_friction_lets_glide);
     RUN_TEST(test_planks_rest_on_crates);
     RUN_TEST(test_a_crate_lies_on_what_lies_on_a_floor);
     RUN_TEST(test_a_hit_keeps_momentum);
     RUN_TEST(test_a_body_on_crates_goes_on_from_a_save);
     RUN_TEST(test_it_is_told_where_solids_throw_it_off);
+    RUN_TEST(test_it_is_told_where_a_body_glides);
+    RUN_TEST(test_it_is_told_where_a_body_enters_another);
     RUN_TEST(test_bodies_that_cannot_be);
     RUN_TEST(test_light_boxes_let_go_under_water_are_stable);
     RUN_TEST(test_a_body_goes_on_from_a_save);

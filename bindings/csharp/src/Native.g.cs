@@ -306,7 +306,7 @@ namespace Pbmpm
         /// <summary>what neither rate nor iterations mend; the text says what. No figure</summary>
         KnownLimit = 18,
         /// <summary>sand above a floor of the domain that has no friction, with no obstacle between. Figure: its Coulomb coefficient. Or a liquid
-        /// with kinematic_viscosity among walls none of which holds it. Figure: 0</summary>
+        /// with kinematic_viscosity among walls none of which holds it, or a rigid body on such a floor. Figure: 0</summary>
         NoFriction = 19,
         /// <summary>an emitter stands wholly beyond a wall of the domain, so it emits nothing. Figure: how far beyond [cells]</summary>
         EmitterOutside = 20,
@@ -1393,7 +1393,7 @@ namespace Pbmpm
     {
         /// <summary>sizeof(pbmpm_rigid_def), set by pbmpm_rigid_def_init()</summary>
         public uint Size;
-        /// <summary>0 or 1. 1 (default): corners and round parts stop at walls of the domain, without bounce or friction; of a baked shape its box. Not with `moves` NONE. 0: it passes.</summary>
+        /// <summary>0 or 1. 1 (default): corners and round parts stop at walls of the domain, see above; of a baked shape its box. Not with `moves` NONE. 0: it passes.</summary>
         public int StaysInside;
         /// <summary>of its centre of mass; NONE: its `pivot` stays in place instead. Default ALL</summary>
         public Freedom Moves;

@@ -34,7 +34,7 @@ class AdviceCode(Choice):
     STEP_TOO_LONG = ffi.integer_const("PBMPM_ADVICE_STEP_TOO_LONG")  #: the longest way in a substep [cells]
     OVERLAPS = ffi.integer_const("PBMPM_ADVICE_OVERLAPS")  #: share of the matter that was put where there is other matter
     KNOWN_LIMIT = ffi.integer_const("PBMPM_ADVICE_KNOWN_LIMIT")  #: what neither rate nor iterations mend; the text says what
-    NO_FRICTION = ffi.integer_const("PBMPM_ADVICE_NO_FRICTION")  #: Coulomb coefficient of the domain's floor below sand; 0 of walls that a viscous liquid slips on
+    NO_FRICTION = ffi.integer_const("PBMPM_ADVICE_NO_FRICTION")  #: Coulomb coefficient of the domain's floor below sand; 0 of walls that a viscous liquid or a rigid body slips on
     EMITTER_OUTSIDE = ffi.integer_const("PBMPM_ADVICE_EMITTER_OUTSIDE")  #: how far beyond a wall of the domain an emitter stands [cells]
     EMITTER_REFUSED = ffi.integer_const("PBMPM_ADVICE_EMITTER_REFUSED")  #: came true: share of an emitter's particles that found no space
     VOLUME_LOST = ffi.integer_const("PBMPM_ADVICE_VOLUME_LOST")  #: came true: share of the volume that is lost

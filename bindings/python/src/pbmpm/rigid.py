@@ -76,7 +76,8 @@ def _three(name: str, value: Vector, dimension: int) -> list[float]:
 class RigidBody(Bound):
     """An obstacle that moves as matter, gravity and the host push it. `advance()` it before each step of its world.
 
-    Walls of the domain stop it. It passes through other obstacles, rigid bodies too.
+    Walls of the domain stop it, and rub on it with the geometric mean of both coefficients of friction: 0 by default, `World(domain_friction=...)`.
+    It passes through other obstacles, rigid bodies too.
 
     Args:
         collider: kinematic, and measures its impulse; any shape but a plane.
@@ -86,7 +87,7 @@ class RigidBody(Bound):
         turns: 2D: NONE or ALL.
         pivot: with `moves` NONE: what stays, from the shape's position, in the shape's own frame [m].
         move_axis, turn_axis: in the world, one number per axis; `turn_axis` in 3D only.
-        stays_inside: whether walls of the domain stop what of it touches them, without bounce or friction. Not where `moves` is NONE.
+        stays_inside: whether walls of the domain stop what of it touches them, without bounce. Not where `moves` is NONE.
     """
 
     __slots__ = ("_collider", "_definition", "_state")
