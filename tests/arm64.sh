@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 . samples/setup.sh
 . packaging/tools.sh
 . tests/emulated.sh
-too_long='unit_(snapshot|rigid|solids)|api_(async|conservation|determinism|impulses|liquid_laws|particles|random|rigid|sleep|sleep_state|snapshot|solid_laws|solids|solver_laws|solvers|stalls|threads|units)|stir'
+too_long='unit_(snapshot|rigid|solids)|api_(async|conservation|determinism|groups|impulses|liquid_laws|particles|plastic|random|rigid|sleep|sleep_state|snapshot|solid_laws|solids|solver_laws|solvers|stalls|threads|units)|stir'
 root=/usr/aarch64-linux-gnu
 qemu=$(need_tool qemu-aarch64 qemu-user)
 need_tool $root/lib/ld-linux-aarch64.so.1 libc6-arm64-cross >/dev/null

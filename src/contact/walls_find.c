@@ -146,7 +146,8 @@ typedef struct Turn {
  * more is open, and by so much the profile of the normal motion is too high. At sharp edges that is the volume between the edge and its rounded image, see walls_weigh(). */
 static Turn turn_of(const Builder *b, const Bound *bound)
 {
-    static const double SMOOTH = 0.89, OFF_PLANE = 0.25; /* cosine of the turn per cell, and way off the plane [cells]: of a ball with a radius of two cells */
+    static const double LEAST_SLOPE = 0.5; /* by trial: a quarter of that of a plane; less is between two walls, which have no normal in common */
+    static const double SMOOTH = 0.89, OFF_PLANE = 0.25; /* by trial: cosine of the turn per cell, and way off the plane [cells]: of a ball with a radius of two cells */
     const Grid *grid = b->frame->grid;
     const Face *face = &bound->face[0];
     Turn turn = {.bend = 0.0, .rounded = 0.0};
@@ -173,8 +174,8 @@ static Turn turn_of(const Builder *b, const Bound *bound)
     }
     for (int a = 0; a < 3; a++) length += slope[a] * slope[a];
     length = sqrt(length);
-    const double inverse = length > 0.5 ? 1.0 / length : 0.0;
-    for (int a = 0; a < 3; a++) turn.normal[a] = length > 0.5 ? slope[a] * inverse : face->normal[a];
+    const double inverse = length > LEAST_SLOPE ? 1.0 / length : 0.0;
+    for (int a = 0; a < 3; a++) turn.normal[a] = length > LEAST_SLOPE ? slope[a] * inverse : face->normal[a];
     return turn;
 }
 
@@ -194,13 +195,14 @@ static bool pressure_leans(const Bound *bound)
  * count as one differ the push leans where more than the wall bears it: at surfaces. */
 static void lean(const Builder *b, const Bound *bound, double normal[3])
 {
+    static const double HALF_WAY = 0.5; /* by trial, see above */
     const FlowingSite site = {b->frame, bound->block, {bound->local[0], bound->local[1], bound->local[2]}};
     double push[3], size2 = 0.0;
     flowing_push(&site, push);
     const double size = sqrt(dot3(push, push)), along = dot3(push, normal);
     if (!(along > sqrt(1.0 - LEAST_TURN * LEAST_TURN) * size)) return;
     for (int a = 0; a < 3; a++) {
-        normal[a] = field_rounded(0.5 * (normal[a] + push[a] / size));
+        normal[a] = field_rounded(HALF_WAY * (normal[a] + push[a] / size));
         size2 += normal[a] * normal[a];
     }
     for (int a = 0; a < 3; a++) normal[a] /= sqrt(size2);

@@ -99,7 +99,7 @@ const char *material_problem(const pbmpm_material_def *def)
     return problem ? problem : yield_problem(def);
 }
 
-/* Largest growth of ln J by which sand that came apart closes up before it bears pressure, about ln 3. Sand that was shaken or poured comes apart
+/* Largest growth of ln J by which sand that came apart closes up before it bears pressure, about ln 3, by trial. Sand that was shaken or poured comes apart
  * further than that seldom; with less it keeps what it grew by, and with more lone particles, whose J is not that of a grid full of others, would
  * count as looser than they lie. */
 static const float LOOSENESS_MAX = 1.1f;

@@ -40,13 +40,13 @@ static bool any_rigid(const World *world)
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
 static bool slides_far(const Heap *heap)
 {
-    static const double RUN_OUT = 1.2, FAR = 1.0; /* widths: the law of Lube et al.; where volume was lost in trays, see above */
+    static const double RUN_OUT = 1.2, FAR = 1.0; /* widths: the law of Lube et al.; by trial: where volume was lost in trays, see above */
     return RUN_OUT * fmin(heap->slide, heap->depth) > FAR * heap->width * (heap->falls_both_ways ? 0.5 : 1.0);
 }
 
 static void limits_of_sand(Adviser *adviser, uint32_t slot)
 {
-    static const double ROCKS = 0.02; /* rigid_on_sand: at 60 Hz 0.11, at 120 Hz 0.027; at 240 Hz, 0.007, the crate rests */
+    static const double ROCKS = 0.02; /* by trial: rigid_on_sand: at 60 Hz 0.11, at 120 Hz 0.027; at 240 Hz, 0.007, the crate rests */
     static const double FALLS = 4.0;  /* [cells] of hoppers over floors 9 to 70 cells below, with necks of 4 to 12 cells at 60, 120 and 240 Hz, heaps have 0.45 to 0.85 of their volume */
     const World *world = adviser->world;
     const Heap *heap = &adviser->survey.heap[slot];

@@ -44,7 +44,7 @@ static const double CALM_SPEED = 0.01; /* [m/s] a fifth of a cell of 5 cm per se
  * Above SHALLOW the pressures of five iterations do not reach the bottom: the speed is about DEEP f^2, with 3 iterations four times as much, with 10 and 20 hardly more. */
 static const double RESTS = 0.0013, OBLIQUE = 0.0045, SHALLOW = 3.0, DEEP = 0.0015, DEEP_ITERATIONS = 5.0;
 
-/* Liquids that store energy have no eddy damping: that share of f^2 [cells per substep]. */
+/* Liquids that store energy have no eddy damping: that share of f^2 [cells per substep]; by trial. */
 static const double STORES = 0.012;
 
 /* Whether gravity pulls along no axis of the grid. */
@@ -127,7 +127,7 @@ void advise_pool_moves(Adviser *adviser)
 /* At 60 Hz water that fell over a ball moves for more than 30 s, and faster later; at 120 Hz, 0.014, and at 240 Hz it calms down (tests/field/run.py splash). */
 void advise_ball_stirs(Adviser *adviser)
 {
-    static const double FALL = 0.03; /* [cells] g dt^2 / dx, between the 0.055 and the 0.014 of these rates */
+    static const double FALL = 0.03; /* [cells] g dt^2 / dx; by trial: between the 0.055 and the 0.014 of these rates */
     const World *world = adviser->world;
     const double fall = gravity_fall(world, &adviser->substep);
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS && adviser->survey.ball_below && fall > FALL; slot++) {

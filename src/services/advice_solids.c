@@ -29,10 +29,10 @@ void advise_modulus_not_held(Adviser *adviser)
     }
 }
 
-/* A spline reaches 1.5 cells: a body of fewer than three has no inside. Beside liquid about half a cell on each side is neither's. */
+/* A spline reaches 1.5 cells: a body of fewer than three has no inside. Thicker ones float too high among what the grid blurs of the liquid. */
 void advise_body_too_thin(Adviser *adviser)
 {
-    static const double INSIDE = 3.0, AFLOAT = 6.5; /* [cells] twice a reach; and half a cell on each side besides, as far as liquid blurs it */
+    static const double INSIDE = 3.0, AFLOAT = 6.5; /* [cells] twice a reach; and by trial: bodies of six float too high, of seven right (tests/field/run.py floats) */
     const World *world = adviser->world;
     const double bound = adviser_any_present(world, PBMPM_LIQUID) ? AFLOAT : INSIDE;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {

@@ -5,7 +5,7 @@
 #include "base/sized.h"
 #include "services/query.h"
 
-/* Matter that rests on an obstacle has its particles a quarter of a cell from it and from each other, or a little more [cells]. */
+/* [cells] Particles of matter at rest have their places a quarter of a cell from an obstacle, and then at three quarters: half way between. */
 static const double TOUCH_DISTANCE = 0.5;
 
 static bool bit(const uint64_t *bits, uint32_t slot) { return bits[slot / 64] >> slot % 64 & 1; }

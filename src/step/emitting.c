@@ -216,7 +216,8 @@ static Occupancy occupancy_bounds(const World *world, const Emitter *emitter, in
 /* A particle's own nodes may hold so much more than fill_limit: in a stream that is just full they do in places. */
 static const double DENSEST = 1.25;
 
-/* Farther from an obstacle than this [cells] all nodes that count are open: OCCUPANCY_WIDE + 1/2 and their support, 3/2, across the axes. */
+/* Farther from an obstacle than this [cells] all nodes that count are open: OCCUPANCY_WIDE + 1/2 and their support, 3/2, along the axes. Across them it is 4 sqrt(d), 6.93
+ * in 3D: what lies beyond has hardly any weight. */
 static const double FREE = 6.5;
 
 /* A place on a surface is not inside it, whatever rounding says. */

@@ -183,7 +183,7 @@ _NAMED = re.compile(rf"\b([A-Z][A-Z0-9_]+) = ({_VALUE}(?: [*/+-] {_VALUE})*)(?=[
 _DEFINED = re.compile(rf"^#define ([A-Z][A-Z0-9_]+) ({_VALUE})(?=\s|$)")
 _COUNTED = re.compile(r"\b([A-Z_]*(?:ROUNDS|STEPS|EVALUATIONS|HALVINGS|MEMORY|STAGES|LEVELS|SAMPLES|BINS)[A-Z_]*) = (\d+)(?=[, ])")
 #: Of mathematics, of number formats, and marks: nothing that could be chosen otherwise.
-_GIVEN = re.compile(r"PI|TURN|LN2_|HALF_PI_|UNKNOWN|NONE|NOTHING|GUESS_KEEPS_ALL|MAX_ISA")
+_GIVEN = re.compile(r"^(?:PI|TURN|LN2_.*|HALF_PI_.*|.*UNKNOWN.*|.*NONE.*|.*NOTHING.*|GUESS_KEEPS_ALL|.*MAX_ISA.*)$")
 
 
 @dataclass(frozen=True)

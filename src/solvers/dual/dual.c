@@ -29,18 +29,18 @@ static bool shares_world(const World *world)
     return solver_holds_liquid(world) ? bodies || solver_holds_sand(world) : bodies && solver_holds_sand(world);
 }
 
-/* Steps of the guess before the iterations, for liquids and sand. Three carry pressure through a pool of some 12 cells. A fourth calms two floors of
+/* Steps of the guess before the iterations, for liquids and sand; by trial. Three carry pressure through a pool of some 12 cells. A fourth calms two floors of
  * tests/field (ridge_15 from 24 to 2 mm/s, shelf from 16 to 2) and stirs others (ball from 14 to 21, drips from 74 to 108). It costs a tenth of a step, and heaps of
  * sand flatten by two degrees more. Without gravity any guess does harm in free flight, where few iterations follow; before a single one always. */
 static int guess_iterations(const World *world)
 {
-    enum { MOST = 3, FEW = 4 };
+    enum { MOST_STEPS = 3, FEW_STEPS = 4 };
     const int iterations = world->settings.iterations;
     if (!joint_is_chosen(world)) {
         if ((!solver_holds_liquid(world) && !solver_holds_sand(world)) || iterations == 1) return 0;
-        if (iterations < FEW && gravity_strength(world) == 0.0) return 0;
+        if (iterations < FEW_STEPS && gravity_strength(world) == 0.0) return 0;
     }
-    return iterations < MOST ? iterations : MOST;
+    return iterations < MOST_STEPS ? iterations : MOST_STEPS;
 }
 
 /* Pressure carried over without a guess is integral control: unstable where the solution is truncated. Half of it was stable at any number of
@@ -416,7 +416,7 @@ double dual_stiffness_of(const pbmpm_material_def *def, const Substep *substep)
 }
 
 /* Bodies by themselves may gain energy if they are asked for more than the iterations hold. Bodies in a liquid hold together better if they
- * are asked for more, and best above about (4 n)^2; see dual_stiffness_cap(). */
+ * are asked for more, and best above about (4 n)^2 (by trial); see dual_stiffness_cap(). */
 double dual_stiffness_share(const World *world, const pbmpm_material_def *def, const Substep *substep)
 {
     if (def->kind == PBMPM_SAND) return moduli_sand_share(def, substep);
@@ -469,7 +469,11 @@ double dual_stiffened(const World *world, const Substep *substep, double iterati
 }
 
 /* Of solids among liquids or sand, by so many iterations. */
-static double shared_stiffness_cap(double iterations, double stiffness) { return fmin(1.0, 16.0 * iterations * iterations / stiffness); }
+static double shared_stiffness_cap(double iterations, double stiffness)
+{
+    static const double PER_SQUARE = 16.0; /* by trial, see above most_asked() */
+    return fmin(1.0, PER_SQUARE * iterations * iterations / stiffness);
+}
 
 bool dual_holds_solids(const World *world, const Substep *substep)
 {

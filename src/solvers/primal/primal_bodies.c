@@ -216,7 +216,8 @@ static bool search_on(Primal *p)
  * as theirs is also that of a body beside its liquid. Asked after each search, they let a stiff body that hit water gain a tenth of all energy in a substep. */
 static void mend(Primal *p)
 {
-    const int searches = p->joint ? 4 : 1;
+    enum { JOINT_ROUNDS = 4 }; /* by trial, see above */
+    const int searches = p->joint ? JOINT_ROUNDS : 1;
     for (int search = 0; search < searches; search++)
         if (search_on(p)) return;
     if (let_pay(p) == 0) return;

@@ -6,9 +6,9 @@
  *
  *     s^2/2 sum m |u - u*|^2 + s (sum m u.(u - u*) - W) = KEPT E,
  *
- * W the work of moving surfaces in the substep: what contacts give more does that much more. So E and s are the same for one who moves along. The smaller root: a body that is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so
- * momentum is kept and impulses stay exact. No body has more energy than before. The energy is convex in s, so less than s is no more, and a body gets as
- * much as leaves all of its particles within max_displacement. */
+ * W the work of moving surfaces in the substep: what contacts give more does that much more. So E and s are the same for one who moves along. The smaller root: a body that
+ * is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so momentum is kept and impulses stay exact. No
+ * body has more energy than before. The energy is convex in s, so less than s is no more, and a body gets as much as leaves all of its particles within max_displacement. */
 #include <math.h>
 #include <string.h>
 
@@ -18,9 +18,10 @@
 #include "solvers/primal/primal_yield.h"
 #include "world/sleep_rows.h"
 
-static const double KEPT = 1.0;      /* all of it: with more a ball would bounce higher than it fell */
-static const double IMPACT = 2.0;    /* times its weight: what pushes a body less carries it, or it rolls */
-static const double MOST = 1.0;      /* of the change: the velocity at the end of a step whose mean is that of the solution */
+static const double KEPT = 1.0;     /* all of it: with more a ball would bounce higher than it fell */
+static const double IMPACT = 2.0;   /* times its weight: what pushes a body less carries it, or it rolls */
+static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
+static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
 
 enum { BOUNCE_SUMS = 7 + sizeof(ContactExchange) / sizeof(double) };
 _Static_assert((int)BOUNCE_SUMS <= (int)SUMS, "a pass adds up so many");
@@ -67,7 +68,7 @@ static void find_bounce(RigidBody *body, const BodySum *of, const float *g, cons
     if (push[0] * push[0] + push[1] * push[1] + push[2] * push[2] < weight * weight) return;
     if (!(lost > 0.0) || !(sum[0] > 0.0) || sum[2] > 0.0) return; /* other forces are not known to the particles */
     const double root = sqrt(sum[1] * sum[1] + 2.0 * sum[0] * lost);
-    const bool turns_back = sum[1] >= 0.0 || 2.0 * sum[0] * lost > 30.0 * sum[1] * sum[1];
+    const bool turns_back = sum[1] >= 0.0 || 2.0 * sum[0] * lost > RECEDES * sum[1] * sum[1];
     body->bounce = (turns_back ? root - sum[1] : -sum[1] - root) / sum[0];
     body->bounce = fmin(fmax(body->bounce, -MOST), MOST);
 }

@@ -231,7 +231,7 @@ void primal_yield_open(Primal *p)
 /* A contact's part in the next Newton step of a start. */
 static void add_stop(const Primal *p, const YieldGrip *grip, YieldBody *body)
 {
-    static const double HARD = 30.0; /* times what the body weighs at the contact that it yields to most: dozens stop it, and one beside a hinge does not throw it */
+    static const double HARD = 30.0; /* times what the body weighs at the contact that it yields to most: dozens stop it, and one beside a hinge does not throw it; by trial */
     const Contact *contact = yield_contacts(p) + grip->contact;
     const float *u = p->node + node_of(p, grip);
     double along[WAYS] = {0}, room = (double)contact->gap;
