@@ -127,54 +127,53 @@ static uint32_t end_of_block(const Primal *p, uint32_t first)
     return end;
 }
 
-/* One sweep over the active contacts of the block of `first`. Each takes its part out of the vector; grips add theirs to the bodies' right side. */
-static void sweep_out(const Primal *p, uint32_t first, float *vector)
+/* What a sweep does at a contact: `grip` is null where no body is. */
+typedef void SweptContact(const Primal *p, const Contact *contact, const YieldGrip *grip, float *v);
+
+/* It takes its part out of the vector; grips add theirs to the bodies' right side. */
+static void take_part(const Primal *p, const Contact *contact, const YieldGrip *grip, float *v)
 {
-    const YieldGrip *grip = yield_grips(p);
-    const int32_t block = grip[first].block;
-    uint32_t g = first;
-    for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
-        const bool grips = yield_takes(p, i, &g);
-        const Contact *contact = yield_contacts(p) + i;
-        float *v = vector + (size_t)contact->node * W, out[3];
-        if (!contact->active) continue;
-        memcpy(out, v, sizeof out);
-        constraints_take_out(contact, v);
-        for (int a = 0; a < 3; a++) out[a] -= v[a];
-        if (grips) add_push(&grip[g - 1], out, 1.0, yield_bodies(p)[grip[g - 1].body].right);
-    }
+    float out[3];
+    memcpy(out, v, sizeof out);
+    constraints_take_out(contact, v);
+    for (int a = 0; a < 3; a++) out[a] -= v[a];
+    if (grip) add_push(grip, out, 1.0, yield_bodies(p)[grip->body].right);
 }
 
-/* The same where each contact gives its part what the body's motion has: (1 - P) C W q. */
-static void sweep_in(const Primal *p, uint32_t first, float *vector)
+/* It gives its part what the body's motion has: (1 - P) C W q. */
+static void give_part(const Primal *p, const Contact *contact, const YieldGrip *grip, float *v)
+{
+    float moved[3] = {0}, along[3];
+    if (grip) motion_of(grip, yield_bodies(p)[grip->body].direction, moved);
+    memcpy(along, moved, sizeof along);
+    constraints_take_out(contact, v);
+    constraints_take_out(contact, along);
+    for (int a = 0; a < 3; a++) v[a] += moved[a] - along[a];
+}
+
+/* Over the active contacts of the block of `first`. */
+static void sweep(const Primal *p, uint32_t first, float *vector, SweptContact *visit)
 {
     const YieldGrip *grip = yield_grips(p);
     const int32_t block = grip[first].block;
-    uint32_t g = first;
-    for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
-        const bool grips = yield_takes(p, i, &g);
-        const Contact *contact = yield_contacts(p) + i;
-        float *v = vector + (size_t)contact->node * W, moved[3] = {0}, along[3];
-        if (!contact->active) continue;
-        if (grips) motion_of(&grip[g - 1], yield_bodies(p)[grip[g - 1].body].direction, moved);
-        memcpy(along, moved, sizeof along);
-        constraints_take_out(contact, v);
-        constraints_take_out(contact, along);
-        for (int a = 0; a < 3; a++) v[a] += moved[a] - along[a];
+    for (int turn = 0; turn < SWEEPS; turn++) {
+        uint32_t g = first;
+        for (uint32_t i = yield_first(p, block); i < yield_end(p, block); i++) {
+            const bool grips = yield_takes(p, i, &g);
+            const Contact *contact = yield_contacts(p) + i;
+            if (contact->active) visit(p, contact, grips ? &grip[g - 1] : NULL, vector + (size_t)contact->node * W);
+        }
     }
 }
 
 /* W' sum C' (1 - P) v, to the bodies' right side. Uses up the vector. */
-static void fold(const Primal *p, uint32_t first, float *vector)
-{
-    for (int sweep = 0; sweep < SWEEPS; sweep++) sweep_out(p, first, vector);
-}
+static void fold(const Primal *p, uint32_t first, float *vector) { sweep(p, first, vector, take_part); }
 
 /* (1 - P) C W q of the bodies' directions, in one block. */
 static void unfold(const Primal *p, uint32_t first, float vector[BLOCK_FLOATS])
 {
     memset(vector, 0, BLOCK_FLOATS * sizeof *vector);
-    for (int sweep = 0; sweep < SWEEPS; sweep++) sweep_in(p, first, vector);
+    sweep(p, first, vector, give_part);
 }
 
 /* ---- Energy ---- */

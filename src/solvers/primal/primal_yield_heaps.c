@@ -89,19 +89,15 @@ static void keep_alone(Primal *p, uint32_t index)
 
 /* ---- Heaps ---- */
 
-static YieldHeap *heap_of(const Primal *p, uint32_t body)
-{
-    YieldBody *bodies = yield_bodies(p);
-    while (bodies[body].heap != body) body = bodies[body].heap;
-    return &bodies[body].move;
-}
-
+/* The body that stands for a heap. */
 static uint32_t first_of(const Primal *p, uint32_t body)
 {
     const YieldBody *bodies = yield_bodies(p);
     while (bodies[body].heap != body) body = bodies[body].heap;
     return body;
 }
+
+static YieldHeap *heap_of(const Primal *p, uint32_t body) { return &yield_bodies(p)[first_of(p, body)].move; }
 
 /* Null: the block's matter presses no body. */
 static YieldHeap *heap_at(const Primal *p, int32_t block)
