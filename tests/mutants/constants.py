@@ -36,24 +36,20 @@ WORDS = 22
 """Of what a line says about a constant."""
 
 
-def key_of(constant: Constant) -> str:
-    return f"{constant.file} {constant.name} = {constant.value}"
-
-
 def known_verdicts() -> dict[str, dict[str, str]]:
     return json.loads(VERDICTS.read_text(encoding="utf-8")) if VERDICTS.is_file() else {}
 
 
 def gathered(found: list[Constant], campaign: Path) -> dict[str, dict[str, str]]:
     """What is known, brought up to date: by constant, the test for "halved" and "doubled"; "none" where none noticed."""
-    known = {key: verdict for key, verdict in known_verdicts().items() if key in map(key_of, found)}
+    known = {key: verdict for key, verdict in known_verdicts().items() if key in [constant.key for constant in found]}
     judged = [json.loads(line) for line in campaign.read_text(encoding="utf-8").splitlines()]
     for constant in found:
         as_it_is = re.compile(rf"\b{constant.name} (?:= )?{re.escape(constant.value)}(?![\w.]| \*)")
         for verdict in judged:
             if verdict["file"] == constant.file and as_it_is.search(verdict["before"]) and not as_it_is.search(verdict["after"]):
                 found_by = {"found": verdict["by"], "survived": "none", "does not build": "the compiler"}[verdict["verdict"]]
-                known.setdefault(key_of(constant), {})[verdict["kind"]] = str(found_by)
+                known.setdefault(constant.key, {})[verdict["kind"]] = str(found_by)
     return dict(sorted(known.items()))
 
 
@@ -77,7 +73,7 @@ def studied(tried_out: list[Constant]) -> list[str]:
         counts = [f"{base[suite]['passed']} of {base[suite]['of']}" if suite in base else "-" for suite in ("field", "hard")]
         lines.append(f"| all as they are | | {' | '.join(counts)} | | |")
     for constant in tried_out:
-        own = kept.get(key_of(constant), {})
+        own = kept.get(constant.key, {})
         cells = [swapped(own.get(change, {}).get(suite)) for change in ("halved", "doubled") for suite in ("field", "hard")]
         lines.append(f"| `{constant.name}` ({Path(constant.file).name}) | `{constant.value}` | {' | '.join(cells)} |")
     return lines
@@ -94,14 +90,14 @@ def page(found: list[Constant], verdicts: dict[str, dict[str, str]]) -> str:
     rooms: dict[str, list[Constant]] = {}
     for constant in found:
         rooms.setdefault(str(Path(constant.file).parent), []).append(constant)
-    tried = sum(len(verdicts.get(key_of(constant), {})) for constant in found)
-    quiet = [constant for constant in found if "none" in verdicts.get(key_of(constant), {}).values()]
+    tried = sum(len(verdicts.get(constant.key, {})) for constant in found)
+    quiet = [constant for constant in found if "none" in verdicts.get(constant.key, {}).values()]
     tried_out = by_trial(found)
     lines = [HEAD, f"{len(found)} constants, {len(tried_out)} of them by trial; {tried} of {2 * len(found)} changes tried, {len(quiet)} constants with one that no test noticed."]
     for room, own in rooms.items():
         lines += ["", f"## {room}", "", "| Name | Value | What it is for | Halved | Doubled |", "|---|---|---|---|---|"]
         for constant in own:
-            verdict = verdicts.get(key_of(constant), {})
+            verdict = verdicts.get(constant.key, {})
             cells = [f"`{constant.name}` ({Path(constant.file).name})", f"`{constant.value}`", sentence(constant.about) or "see its file"]
             lines.append(f"| {' | '.join([*cells, verdict.get('halved', '-'), verdict.get('doubled', '-')])} |")
     lines += ["", "## By trial", "", BY_TRIAL, "", *studied(tried_out)]

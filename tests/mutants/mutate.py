@@ -23,6 +23,7 @@ import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+from constants import known_verdicts
 from faults import Fault, choose, constant_faults, equivalents
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -235,7 +236,7 @@ class Campaign:
             planned, count = iter([it for it in todo if _is_there(it)]), len(todo)
         elif options.constants:
             wanted = {path for pattern in options.files for path in places[0].tree.glob(pattern)}
-            todo = [it for it in constant_faults(places[0].tree) if places[0].tree / it.file in wanted]
+            todo = [it for it in constant_faults(places[0].tree, known_verdicts()) if places[0].tree / it.file in wanted]
             planned, count = iter(todo), len(todo)
         else:
             copy = places[0].tree  # whatever becomes of the sources meanwhile
@@ -305,7 +306,7 @@ def main() -> int:
     arguments.add_argument("--patience", type=float, default=120.0, help="of the tests with one fault [s]")
     arguments.add_argument("--python", action="store_true", help="run the quicker physics tests of Python, too (needs build/venv)")
     arguments.add_argument("--again", action="store_true", help="try the survivors of before once more")
-    arguments.add_argument("--constants", action="store_true", help="halve and double each named constant instead; see constants.py")
+    arguments.add_argument("--constants", action="store_true", help="halve and double each named constant instead, but for those of which constants.json tells; see constants.py")
     arguments.add_argument("--list", action="store_true", help="print the faults and plant none")
     arguments.add_argument("--folder", type=Path, default=ROOT / "build/mutants", help="where to work and keep verdicts")
     options = arguments.parse_args()

@@ -4,9 +4,10 @@
     build/venv/bin/python tests/mutants/plateau.py judge [--folder build/plateau] [--jobs 2]
     python3 tests/mutants/plateau.py keep [--folder build/plateau]
 
-`build` makes a library for each constant whose comment says "by trial", with half and with double of it, and one without a change. `judge` runs with each
-the field tests at 60 Hz x 5 and the hard cases at their own settings, for minutes of a core; it can be stopped and goes on. It needs nothing but the
-folder, this tree and Python, so a larger machine can do it. `keep` writes what it found to plateaus.json beside this file, for constants.py.
+`build` makes a library for each constant whose comment says "by trial", with half and with double of it, and one without a change. It leaves out what
+plateaus.json beside this file tells already. `judge` runs with each the field tests at 60 Hz x 5 and the hard cases at their own settings, for minutes
+of a core; it can be stopped and goes on. It needs nothing but the folder, this tree and Python, so a larger machine can do it. `keep` adds what it
+found to plateaus.json, for constants.py.
 """
 
 from __future__ import annotations
@@ -20,7 +21,7 @@ import time
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from constants import by_trial, key_of
+from constants import by_trial
 from faults import constants
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -40,15 +41,18 @@ def build(folder: Path) -> None:
     for old in folder.glob("libpbmpm_*"):
         old.unlink()
     index = [{"key": "", "change": AS_IT_IS, "library": save(place.build, folder, 0)}]
+    known = kept_so_far()
     for constant in by_trial(constants(place.tree)):
         path = place.tree / constant.file
         sound = path.read_text(encoding="utf-8")
         for change, factor in FACTORS.items():
+            if len(known.get(constant.key, {}).get(change, {})) == len(SUITES):
+                continue
             lines = sound.split("\n")
             lines[constant.line - 1] = constant.fault(lines[constant.line - 1], factor).after
             path.write_text("\n".join(lines), encoding="utf-8")
             if place.make("pbmpm"):
-                index.append({"key": key_of(constant), "change": change, "library": save(place.build, folder, len(index))})
+                index.append({"key": constant.key, "change": change, "library": save(place.build, folder, len(index))})
             print(f"{len(index)}: {constant.name} {change}", flush=True)
         path.write_text(sound, encoding="utf-8")
     (folder / "index.json").write_text(json.dumps(index, indent=1), encoding="utf-8")
@@ -59,6 +63,16 @@ def save(built: Path, folder: Path, number: int) -> str:
     name = f"libpbmpm_{number}.so"
     subprocess.run(["strip", "-x", "-o", folder / name, built / "lib/libpbmpm.so"], check=True)
     return name
+
+
+def studied_keys() -> set[str]:
+    """Of the constants by trial, as they are now, and of the library as it is."""
+    return {"", *(constant.key for constant in by_trial(constants(ROOT)))}
+
+
+def kept_so_far() -> dict[str, dict[str, dict[str, dict[str, object]]]]:
+    kept = json.loads(KEPT.read_text(encoding="utf-8")) if KEPT.is_file() else {}
+    return {key: found for key, found in kept.items() if key in studied_keys()}
 
 
 def judge(folder: Path, jobs: int, suites: list[str]) -> None:
@@ -99,12 +113,12 @@ def name_of(row: dict[str, object]) -> str:
 def keep(folder: Path) -> None:
     """Counts of what passed, and what changed sides against the library as it is, of what was judged so far."""
     index = json.loads((folder / "index.json").read_text(encoding="utf-8"))
-    kept: dict[str, dict[str, dict[str, object]]] = {}
+    kept = kept_so_far()
     for suite in SUITES:
         results = [json.loads(it.read_text(encoding="utf-8")) if it.is_file() else None for it in (result_of(folder, entry, suite) for entry in index)]
         base = results[0] or {}
         for entry, result in zip(index, results, strict=True):
-            if result is None:
+            if result is None or entry["key"] not in studied_keys():
                 continue
             kept.setdefault(entry["key"], {}).setdefault(entry["change"], {})[suite] = {
                 "passed": sum(result.values()),
