@@ -80,17 +80,16 @@ pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider,
 }
 
 /* What matter gave in the last step, gravity, and the virtual mass by the law that the header states. */
-static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *collider, RigidPush *push)
+static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *collider, const double centre[3], RigidPush *push)
 {
+    const bool begins = !collider->body;
     const FreeBody *body = collider_body(collider, &world->memory);
-    double point[3] = {0};
     if (!body) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     pbmpm_submersion under = {.volume = 0.0};
     const int dimension = world->def.dimension;
     const pbmpm_result result = body->walled || body->met ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
     if (result != PBMPM_OK) return result;
-    for (int a = 0; a < dimension; a++) point[a] = (double)collider->shape.position[a];
-    const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], point, dimension);
+    const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], begins ? centre : body->centre, dimension);
     *push = (RigidPush){.walled = body->walled != 0, .virtual_mass = under.density * under.volume * under.share};
     memcpy(push->yielded, body->yielded, sizeof push->yielded);
     memcpy(push->delayed, body->delayed, sizeof push->delayed);
@@ -121,6 +120,13 @@ static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *s
     }
 }
 
+/* Matter pushes obstacles where they are when a substep begins. So its moment is that about where the centre is then, on average over the substeps. About where it will be a ball that
+ * rolls was driven on by what carries it: the moment was v dt times its weight. */
+static void turn_about(FreeBody *body, const double begin[3], int32_t substeps)
+{
+    for (int a = 0; a < 3; a++) body->centre[a] = begin[a] + 0.5 * (1.0 - 1.0 / substeps) * (body->centre[a] - begin[a]);
+}
+
 /* Sends the obstacle where the body is. */
 static void send(Collider *collider, const pbmpm_rigid_state *state)
 {
@@ -145,21 +151,27 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (w->def.dimension == 2) flatten(&next);
     Collider *found;
     RigidPush push;
+    double begin[3];
     pbmpm_result result = find_body(w, collider, &own, &found);
     const char *problem = rigid_state_problem(&next, w->def.dimension);
     if (!problem) problem = api_step_problem(w, dt);
     if (result == PBMPM_OK && problem) result = api_invalid(problem);
-    if (result == PBMPM_OK) result = find_push(w, collider, found, &push);
+    if (result == PBMPM_OK) {
+        rigid_centre(&own, &next, w->def.dimension, begin);
+        result = find_push(w, collider, found, begin, &push);
+    }
     if (result != PBMPM_OK) LET_GO(result);
     RigidStops stops = {.count = 0};
     if (push.met) rigid_follow(&own, &next, push.went, w->def.dimension);
+    rigid_centre(&own, &next, w->def.dimension, begin);
     rigid_change_velocity(&own, &next, &push, w->def.dimension, (double)dt);
-    if (push.met) rigid_slow_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops); /* what presses it against one may weigh much more */
+    rigid_slow_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops); /* what friction holds does not start */
     rigid_change_pose(&own, &next, w->def.dimension, (double)dt);
     rigid_stop_at_walls(&own, &next, found, &w->domain, w->def.dimension, (double)dt, &stops);
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
     *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
+    turn_about(found->body, begin, w->settings.substeps);
     keep_body(found->body, &push, &stops);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);

@@ -478,6 +478,13 @@ void constraints_exchange(const ContactFrame *frame, const float *gradient, cons
     }
 }
 
+double constraints_exchanged_work(const ContactExchange *all, const double gained[3])
+{
+    double work = all->work;
+    for (int c = 0; c < 3 && all->size > 0.0; c++) work += (gained[c] - all->given[c]) * all->surface[c] / all->size;
+    return work;
+}
+
 void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3])
 {
     if (frame->colliders->contacts == 0) return;

@@ -100,8 +100,8 @@ void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double
 /* The energy that friction of a block takes. */
 double constraints_friction_loss(const ContactFrame *frame, const float *u, float least, int32_t block);
 
-/* The work that moving surfaces do on the nodes of a block, if it is done on them: sum of (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are
- * their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
+/* In the joint solver, and with rigid bodies that yield: the work that moving surfaces do on the nodes of a block, if it is done on them. It is the sum of
+ * (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 
 /* What active contacts of moving surfaces do, with its sign: what recedes takes energy. */
@@ -110,8 +110,14 @@ typedef struct ContactExchange {
     double given[3], surface[3];   /* of impulses, and of surfaces' motions times sizes */
 } ContactExchange;
 
+enum { EXCHANGE_SUMS = sizeof(ContactExchange) / sizeof(double) };
+
 /* Adds those of a block. */
 void constraints_exchange(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block, ContactExchange *sum);
+
+/* The work of moving surfaces on a body that gained this momentum. Impulses of an unfinished solution do not add up to it: what is missing goes with the surfaces' mean
+ * motion. So energies are compared alike by all who move along, however far the solution is. */
+double constraints_exchanged_work(const ContactExchange *all, const double gained[3]);
 
 /* Takes out of a body's mean displacement what the active contacts of a block do not allow; a body that is held stands still. */
 void constraints_turn_aside(const ContactFrame *frame, int32_t block, double displacement[3]);

@@ -262,22 +262,29 @@ static void add_turns(const Spinner *spinner, const double turn[9], FreeBody *bo
     }
 }
 
+void rigid_centre(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, int dimension, double centre[3])
+{
+    double turn[9], own[3], arm[3];
+    rotation_from_quaternion(state->rotation, turn);
+    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
+    to_world(turn, own, arm);
+    for (int a = 0; a < 3; a++) centre[a] = a < dimension ? state->position[a] + arm[a] : 0.0;
+}
+
 FreeBody rigid_free_body(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension)
 {
     FreeBody body = {.ways = 0};
     const Ways moves = ways_to_move(def, dimension);
     const Spinner spinner = spinner_of(def, dimension);
-    double turn[9], own[3], arm[3], lever[3], of_weight[3];
+    double turn[9], own[3], lever[3], of_weight[3];
     rotation_from_quaternion(state->rotation, turn);
     for (; body.ways < moves.count; body.ways++)
         for (int a = 0; a < 3; a++) body.way[body.ways][a] = moves.way[body.ways][a] / sqrt(def->mass);
     add_turns(&spinner, turn, &body);
-    for (int a = 0; a < 3; a++) own[a] = a >= dimension ? 0.0 : is_held(def) ? def->pivot[a] : def->centre[a];
-    to_world(turn, own, arm);
+    rigid_centre(def, state, dimension, body.centre);
     own_lever(def, dimension, own);
     to_world(turn, own, lever);
     for (int a = 0; a < 3; a++) {
-        body.centre[a] = a < dimension ? state->position[a] + arm[a] : 0.0;
         body.push[a] = def->mass * gravity[a] + def->force[a];
     }
     cross3(lever, body.push, of_weight);
@@ -323,12 +330,10 @@ void rigid_change_velocity(const pbmpm_rigid_def *def, pbmpm_rigid_state *state,
     const FreeBody body = rigid_free_body(def, state, push->gravity, dimension);
     const Ways moves = ways_to_move(def, dimension), turns = ways_to_turn(def, dimension);
     const double heavier = push->met ? 0.0 : push->virtual_mass / def->mass; /* who met solids has yielded to them in the step itself */
-    double arm[3], moment[3], impulse[6], asked[6], of_matter[6];
-    for (int a = 0; a < 3; a++) arm[a] = body.centre[a] - (a < dimension ? state->position[a] : 0.0);
-    cross3(arm, push->linear, moment);
+    double impulse[6], asked[6], of_matter[6];
     for (int a = 0; a < 3; a++) {
         impulse[a] = push->linear[a];
-        impulse[3 + a] = push->angular[a] - moment[a];
+        impulse[3 + a] = push->angular[a];
     }
     free_body_yields(&body, impulse, of_matter);
     const double share = push->met && !push->walled ? share_expected(&body, impulse, dt) : 0.0;

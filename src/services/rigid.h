@@ -14,13 +14,16 @@ const char *rigid_state_problem(const pbmpm_rigid_state *state, int dimension);
 /* At rest where the obstacle is. */
 pbmpm_rigid_state rigid_at(const Collider *collider, const pbmpm_rigid_def *def, int dimension);
 
+/* What it turns about: its centre of mass, or its pivot. */
+void rigid_centre(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, int dimension, double centre[3]);
+
 /* How it yields to what pushes it, where `state` has it. */
 FreeBody rigid_free_body(const pbmpm_rigid_def *def, const pbmpm_rigid_state *state, const double gravity[3], int dimension);
 
 /* What changes a body's velocities in a step. */
 typedef struct RigidPush {
     double gravity[3];
-    double linear[3], angular[3]; /* what matter gave; the second about the body's position */
+    double linear[3], angular[3]; /* what matter gave; the second about the body's centre, where matter met it */
     bool walled;         /* matter followed the body's walls: it has yielded to a part of that in the step itself, and */
     double yielded[6];   /* to how much */
     double delayed[6];   /* what it was given to yield to later, and */

@@ -517,9 +517,11 @@ static void test_walls_brake_what_slides(void)
         for (int a = 0; a < dimension; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, body.state.velocity[a]);
         for (int a = 0; a < 3; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-9, 0.0, body.state.angular_velocity[a]);
         TEST_ASSERT_DOUBLE_WITHIN(1e-6, 0.1, body.state.position[1]);
+        const double stands = body.state.position[0];
         set_gravity(body.world, 4.9f, -10, 0);
         for (int n = 0; n < 30; n++) step(&body);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-9, 0.0, body.state.velocity[0], "it stands on less than the friction angle");
+        TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-9, stands, body.state.position[0], "and does not creep");
         set_gravity(body.world, 6, -10, 0);
         for (int n = 0; n < 60; n++) step(&body);
         TEST_ASSERT_DOUBLE_WITHIN_MESSAGE(1e-5, 1.0, body.state.velocity[0], "and slides on more");

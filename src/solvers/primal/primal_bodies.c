@@ -43,8 +43,25 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    if (p->joint || p->yields) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    else {
+        ContactExchange exchange = {0};
+        constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
+        memcpy(sum + CHECK_SUMS, &exchange, sizeof exchange);
+    }
     sum[7] = (double)constraints_active(p->contacts, block);
+}
+
+static void add_exchange(ContactExchange *all, const double sum[EXCHANGE_SUMS])
+{
+    ContactExchange own;
+    memcpy(&own, sum, sizeof own);
+    all->work += own.work;
+    all->size += own.size;
+    for (int c = 0; c < 3; c++) {
+        all->given[c] += own.given[c];
+        all->surface[c] += own.surface[c];
+    }
 }
 
 static bool has_liquid(const World *world, int32_t block)
@@ -101,6 +118,7 @@ uint32_t primal_check_bodies(Primal *p)
             b->moved[c] += sum[9 + c];
         }
         b->touches = b->touches || sum[7] > 0.0;
+        add_exchange(&b->exchange, sum + CHECK_SUMS);
         if (block >= p->world->grid.particle_blocks) continue;
         const double elastic = (double)energy[K_ENERGIES * block], liquid = (double)energy[K_ENERGIES * block + 1], liquid_rest = (double)rest[K_ENERGIES * block + 3];
         b->elastic += elastic;
@@ -110,6 +128,9 @@ uint32_t primal_check_bodies(Primal *p)
         b->pressed_rest += p->joint ? liquid_rest : 0.0;
     }
     for (int32_t i = 0; i < state->bodies.count; i++) {
+        double gave[3];
+        for (int c = 0; c < 3; c++) gave[c] = body[i].moved[c] - body[i].momentum[c];
+        body[i].work += constraints_exchanged_work(&body[i].exchange, gave);
         for (int c = 0; c < 3 && body[i].mass > 0.0; c++) body[i].start[c] = body[i].momentum[c] / body[i].mass;
         body[i].failed = gained(p, &body[i]);
         body[i].unsound = body[i].unsound || body[i].failed;

@@ -23,8 +23,7 @@ static const double IMPACT = 2.0;   /* times its weight: what pushes a body less
 static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
 static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
 
-enum { BOUNCE_SUMS = 7 + sizeof(ContactExchange) / sizeof(double) };
-_Static_assert((int)BOUNCE_SUMS <= (int)SUMS, "a pass adds up so many");
+enum { BOUNCE_SUMS = 7 + EXCHANGE_SUMS };
 
 static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
@@ -46,15 +45,12 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
     sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
-/* W. Impulses of an unfinished solution do not add up to what the body gained: what is missing goes with the surfaces' mean motion. So bounces are the same
- * for one who moves along, however far the solution is. */
+/* W */
 static double exchanged(const double *sum)
 {
     ContactExchange all;
     memcpy(&all, sum + 7, sizeof all);
-    double work = all.work;
-    for (int c = 0; c < 3 && all.size > 0.0; c++) work += (sum[4 + c] - all.given[c]) * all.surface[c] / all.size;
-    return work;
+    return constraints_exchanged_work(&all, sum + 4);
 }
 
 /* Alone with a rigid body that yields, matter shares what both lost with it: its impulses count 1 + s times, too. */

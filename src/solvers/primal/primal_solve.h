@@ -2,6 +2,7 @@
 #ifndef PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
 #define PBMPM_SRC_SOLVERS_PRIMAL_PRIMAL_SOLVE_H
 
+#include "contact/contact_constraints.h"
 #include "world/world.h"
 
 /* In cantilevers the true error of steps was 0.5 to 1.2 residuals (medians) where 10 and 20 iterations were enough, and 1.1 to 2.5 where 2 and
@@ -9,11 +10,14 @@
 #define PRIMAL_ERROR_PER_RESIDUAL 1.3
 #define PRIMAL_ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
 
-enum { W = K_NODE_WIDTH, SUMS = 2 * PRIMAL_MEMORY + 6 };
+/* The energy check adds up most. */
+enum { W = K_NODE_WIDTH, CHECK_SUMS = 13, SUMS = CHECK_SUMS + EXCHANGE_SUMS };
+_Static_assert((int)SUMS >= 2 * PRIMAL_MEMORY + 6, "a step adds up so many");
 
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
     double before, after, work;
+    ContactExchange exchange; /* of moving surfaces, but in the joint solver and with rigid bodies that yield: `work` has it there */
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double stiff;             /* sum of the nodes' stiffnesses */
     double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
