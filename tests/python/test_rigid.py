@@ -274,6 +274,20 @@ def test_a_ball_bounces_off_a_body_as_off_what_is_held(density: float) -> None:
     assert _bounce(density, 1e6) < 1.3
 
 
+@pytest.mark.parametrize(("density", "friction"), [(400, 0.2), (400, 0.8), (2000, 0.2)])
+def test_a_ball_lies_on_rubber(density: float, friction: float) -> None:
+    """For eight seconds. Its moment was that about where it would be, so its weight drove on what rolled: it spun at 6 rad/s, and dug itself in."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (3, 3)), domain_friction=0.5, capacity=20_000, iterations=5) as world:
+        world.fill(pbmpm.Box((1.5, 0.15), (1.5, 0.15)), world.add_material(pbmpm.Elastic(young_modulus=3e5)))
+        ball = pbmpm.RigidBody(world.add_collider(pbmpm.Sphere((1.5, 0.56), 0.25), kinematic=True, measures_impulse=True, friction_coefficient=friction), density=density)
+        for _ in range(480):
+            ball.advance(DT)
+            world.step(DT)
+        assert abs(ball.angular_velocity[2]) < 1  # it still turns by itself, by 0.2 to 0.6 rad/s: docs/limits.md
+        assert ball.position[0] == pytest.approx(1.5, abs=0.4)
+        assert 0.5 < ball.position[1] < 0.56
+
+
 def _pushed(deep: float | None, density: float = 1000.0) -> tuple[float, float]:
     """How deep a box lies in a jelly, and what that pushes it with over its weight; `deep`: it is pressed in so deep."""
     high = 0.4
