@@ -13,7 +13,7 @@
  * (world_def.domain_friction): a body then glides without end. Where one of both slips nothing rubs; else, where one sticks, the body does not slide.
  *
  * Motion. Velocities change first, then poses, each with the new velocities: first order in dt. A fall from rest is at g dt^2 n (n + 1) / 2 after n
- * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so no spin grows by itself. A step is turned in up to 64 parts
+ * steps, its velocity is exact. Turning keeps the angular momentum at any dt, so the spin of a body that nothing touches does not grow. A step is turned in up to 64 parts
  * of at most 1/8 rad; the energy errs by the fourth power of a part's angle.
  *
  * Light bodies. With the dual, the explicit and the convergent solver liquid follows a body's walls. The body yields to it within the step. So it may weigh far less
