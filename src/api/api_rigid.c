@@ -82,14 +82,13 @@ pbmpm_result pbmpm_rigid_begin(pbmpm_world_id world, pbmpm_collider_id collider,
 /* What matter gave in the last step, gravity, and the virtual mass by the law that the header states. */
 static pbmpm_result find_push(World *world, pbmpm_collider_id id, Collider *collider, const double centre[3], RigidPush *push)
 {
-    const bool begins = !collider->body;
     const FreeBody *body = collider_body(collider, &world->memory);
     if (!body) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for a rigid body");
     pbmpm_submersion under = {.volume = 0.0};
     const int dimension = world->def.dimension;
     const pbmpm_result result = body->walled || body->met ? PBMPM_OK : submerged_measure(world, collider, ANY_MATERIAL, &under);
     if (result != PBMPM_OK) return result;
-    const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], begins ? centre : body->centre, dimension);
+    const pbmpm_impulse given = impulse_about(&world->colliders.impulses.sum[id.index], body->met ? body->begins : centre, dimension);
     *push = (RigidPush){.walled = body->walled != 0, .virtual_mass = under.density * under.volume * under.share};
     memcpy(push->yielded, body->yielded, sizeof push->yielded);
     memcpy(push->delayed, body->delayed, sizeof push->delayed);
@@ -120,11 +119,11 @@ static void keep_body(FreeBody *body, const RigidPush *push, const RigidStops *s
     }
 }
 
-/* Matter pushes obstacles where they are when a substep begins. So its moment is that about where the centre is then, on average over the substeps. About where it will be a ball that
- * rolls was driven on by what carries it: the moment was v dt times its weight. */
-static void turn_about(FreeBody *body, const double begin[3], int32_t substeps)
+/* Contacts push obstacles where they are when a substep begins. What yields within the step turns about where its centre is then, on average over the substeps. About where it
+ * will be a ball that rolls was driven on by what carries it: the moment was v dt times its weight. What yields a step late turns where it is then: that keeps angular momentum. */
+static void note_begin(FreeBody *body, const double begin[3], int32_t substeps)
 {
-    for (int a = 0; a < 3; a++) body->centre[a] = begin[a] + 0.5 * (1.0 - 1.0 / substeps) * (body->centre[a] - begin[a]);
+    for (int a = 0; a < 3; a++) body->begins[a] = begin[a] + 0.5 * (1.0 - 1.0 / substeps) * (body->centre[a] - begin[a]);
 }
 
 /* Sends the obstacle where the body is. */
@@ -171,7 +170,7 @@ pbmpm_result pbmpm_rigid_advance(pbmpm_world_id world, pbmpm_collider_id collide
     if (rigid_state_problem(&next, w->def.dimension)) LET_GO(api_invalid("the rigid body would go, or be, farther or faster than 1e9"));
     send(found, &next);
     *found->body = rigid_free_body(&own, &next, push.gravity, w->def.dimension);
-    turn_about(found->body, begin, w->settings.substeps);
+    note_begin(found->body, begin, w->settings.substeps);
     keep_body(found->body, &push, &stops);
     WRITE(pbmpm_rigid_state, state, &next);
     LET_GO(PBMPM_OK);

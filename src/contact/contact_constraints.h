@@ -100,7 +100,7 @@ void constraints_scale_impulses(const ContactFrame *frame, int32_t block, double
 /* The energy that friction of a block takes. */
 double constraints_friction_loss(const ContactFrame *frame, const float *u, float least, int32_t block);
 
-/* In the joint solver, and with rigid bodies that yield: the work that moving surfaces do on the nodes of a block, if it is done on them. It is the sum of
+/* In the joint solver, and where matter pushes rigid bodies: the work that moving surfaces do on the nodes of a block, if it is done on them. It is the sum of
  * (gradient - friction) . surface over active contacts. Nodes that stay (joint.h) are their own surfaces: what walls that stand still do to them adds up to nothing, so they count with their sign. */
 double constraints_work(const ContactFrame *frame, const float *gradient, const float *u, float least, int32_t block);
 

@@ -26,6 +26,7 @@ typedef struct FreeBody {
     double change[FREE_BODY_WAYS]; /* of its velocity by what matter gave instead, along `open` */
     double went[6];     /* where that took it before this substep [m], [rad] */
     double pace[6];     /* and in this substep */
+    double begins[3];   /* where the centre is when a substep begins, on average [m]: there contacts with solids turn it */
 } FreeBody;
 
 /* B B^T times an impulse and its moment. */

@@ -120,6 +120,11 @@ static void move_things(World *world, const Shift *shift)
     for (uint32_t i = 0; i < world->colliders.used; i++) {
         shift_point(shift, world->colliders.slot[i].shape.position);
         shift_point(shift, world->colliders.slot[i].target_position);
+        FreeBody *body = world->colliders.slot[i].body;
+        for (int a = 0; a < shift->dimension && body; a++) {
+            body->centre[a] -= shift->by[a];
+            body->begins[a] -= shift->by[a];
+        }
     }
     for (uint32_t i = 0; i < world->emitters.used; i++) {
         shift_point(shift, world->emitters.slot[i].shape.position);

@@ -289,7 +289,7 @@ static bool body_is_valid(const FreeBody *body)
     for (int k = 0; k < FREE_BODY_WAYS; k++) finite = finite && all_are_finite(body->open[k]) && all_are_finite(body->open[k] + 3) && isfinite(body->change[k]);
     for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->expected + k) && all_are_finite(body->expects + k);
     for (int k = 0; k < 6; k += 3) finite = finite && all_are_finite(body->went + k) && all_are_finite(body->pace + k);
-    return finite && all_are_finite(body->centre) && body->ways >= 0 && body->ways <= FREE_BODY_WAYS;
+    return finite && all_are_finite(body->centre) && all_are_finite(body->begins) && body->ways >= 0 && body->ways <= FREE_BODY_WAYS;
 }
 
 /* Whether it says something of the next step. */

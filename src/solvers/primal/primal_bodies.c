@@ -43,7 +43,7 @@ static void sum_motion(Primal *p, int32_t block, size_t begin, size_t end, doubl
             sum[9 + c] += mass * u;
         }
     }
-    if (p->joint || p->yields) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
+    if (!p->as_sent) sum[2] = constraints_work(p->contacts, p->gradient, p->best, p->slip_min, block);
     else {
         ContactExchange exchange = {0};
         constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
@@ -94,8 +94,17 @@ void primal_note_stiffness(Primal *p)
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) primal_body_of(p, block)->stiff += sums[(size_t)block * SUMS + 1];
 }
 
+/* Whether all obstacles go where the host sends them: not as matter pushes them. */
+static bool move_as_sent(const ContactFrame *frame)
+{
+    for (int i = 0; i < frame->colliders->obstacle_count; i++)
+        if (frame->colliders->obstacle[i].body) return false;
+    return true;
+}
+
 uint32_t primal_check_bodies(Primal *p)
 {
+    p->as_sent = !p->joint && move_as_sent(p->contacts);
     const PrimalState *state = &p->world->primal;
     const double *sums = state->sums.data;
     const float *energy = state->accepted_energy.data, *rest = state->block_energy.data;

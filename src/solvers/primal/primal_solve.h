@@ -17,7 +17,7 @@ _Static_assert((int)SUMS >= 2 * PRIMAL_MEMORY + 6, "a step adds up so many");
 /* What a body had and has: see primal.h. */
 typedef struct BodySum {
     double before, after, work;
-    ContactExchange exchange; /* of moving surfaces, but in the joint solver and with rigid bodies that yield: `work` has it there */
+    ContactExchange exchange; /* of moving surfaces, where all go as they are sent; else `work` has it */
     double fallen;            /* work of gravity and forces, which `after` counts as a loss */
     double stiff;             /* sum of the nodes' stiffnesses */
     double still;             /* sum m/2 |u*|^2: with it the size of the energies that were compared on the way */
@@ -88,6 +88,7 @@ typedef struct Primal {
     double first[PRIMAL_MEMORY], second[PRIMAL_MEMORY]; /* coefficients of the two loops */
     bool mixed;                             /* of solids and liquid */
     bool joint, sketches;                   /* the dual solves too, see joint.h, and has not yet */
+    bool as_sent;                            /* all obstacles go where the host sends them */
     float share;                            /* of the step that is tried */
     double mass, energy, trial_energy, slope_before, slope_after;
     double total[SUMS];                     /* what the last pass added up */

@@ -44,7 +44,7 @@ static void list_grip(YieldGrip *grip, YieldBody *body, const Contact *contact, 
     double arm[3], whole[3], yields = 0.0;
     memcpy(grip->surface, contact->surface, sizeof grip->surface);
     contacts_node_position(contacts, grip->block, contact->node, arm);
-    for (int a = 0; a < 3; a++) arm[a] = a < contacts->grid->dimension ? (arm[a] - body->obstacle->body->centre[a]) / contacts->cell_size : 0.0;
+    for (int a = 0; a < 3; a++) arm[a] = a < contacts->grid->dimension ? (arm[a] - body->obstacle->body->begins[a]) / contacts->cell_size : 0.0;
     for (int k = 0; k < WAYS; k++) {
         double along = 0.0;
         yield_motion_at(body->way[k], arm, grip->move[k]);
@@ -208,7 +208,7 @@ static void find_aim(const Primal *p, YieldBody *body)
 {
     const Obstacle *o = body->obstacle;
     const FreeBody *free = o->body;
-    const pbmpm_impulse given = impulse_about(&p->contacts->colliders->impulses.sum[o->place], free->centre, p->world->def.dimension);
+    const pbmpm_impulse given = impulse_about(&p->contacts->colliders->impulses.sum[o->place], free->begins, p->world->def.dimension);
     const double later = p->contacts->substep->dt * (o->parts - o->part - 1);
     double missing[6];
     memcpy(missing, given.linear, sizeof given.linear);

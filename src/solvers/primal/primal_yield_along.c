@@ -32,7 +32,7 @@ void yield_find_pairs(Primal *p)
 
 void yield_corner(const Primal *p, const YieldPair *pair, int32_t block, double corner[3])
 {
-    const double *centre = yield_bodies(p)[pair->body].obstacle->body->centre;
+    const double *centre = yield_bodies(p)[pair->body].obstacle->body->begins;
     contacts_node_position(p->contacts, block, 0, corner);
     for (int a = 0; a < 3; a++) corner[a] = a < p->world->grid.dimension ? (corner[a] - centre[a]) / p->contacts->cell_size : 0.0;
 }

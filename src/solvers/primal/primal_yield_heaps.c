@@ -286,7 +286,7 @@ static void find_sent(const Primal *p, const YieldBody *body, double z[WAYS])
     double motion[6], trace = 0.0;
     float moved[3];
     SmallMatrix m = {{0}};
-    obstacle_motion(o, o->body->centre, p->contacts->cell_size, p->contacts->max_displacement, moved);
+    obstacle_motion(o, o->body->begins, p->contacts->cell_size, p->contacts->max_displacement, moved);
     for (int a = 0; a < 3; a++) {
         const int b = (a + 1) % 3, c = (a + 2) % 3;
         motion[a] = (double)moved[a];
