@@ -109,7 +109,7 @@ static double rub(WallTouch *touch, pbmpm_rigid_state *state)
 {
     double wanted[2] = {0}, most = 0.0;
     for (int k = 0; k < touch->alongs; k++) wanted[k] = stopping(&touch->along[k], 0.0, state);
-    const double length = hypot(wanted[0], wanted[1]), bound = touch->out.given > 0.0 ? touch->friction * touch->out.given : 0.0;
+    const double length = sqrt(wanted[0] * wanted[0] + wanted[1] * wanted[1]), bound = touch->out.given > 0.0 ? touch->friction * touch->out.given : 0.0;
     const double share = length > bound ? bound / length : 1.0;
     for (int k = 0; k < touch->alongs; k++) most = fmax(most, give(&touch->along[k], share * wanted[k], state));
     return most;
