@@ -162,7 +162,6 @@ struct KernelDual {
     float momentum; /* beta of the extrapolation */
     float fine_carried; /* share that is kept of what a pressure has beside the mean of its cells */
     float grains_carried; /* the same for sand */
-    float grains_free; /* 1 where sand begins to fall and bears nothing; else 0 */
     float crushed_carried; /* share that is kept of a liquid's carried pressure where growth_max cuts its growth short */
     float growth_max; /* largest growth per substep that a crushed liquid is asked for */
 };

@@ -3,12 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "contact/walls.h"
+#include "solvers/dual/dual_gains.h"
 #include "solvers/passes.h"
 #include "world/depth.h"
 #include "world/island_groups.h"
-
-enum { GAIN, BEFORE, KINETIC, MASS, MOMENTUM, AT_OBSTACLE = MOMENTUM + 3, SUMS, BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
 /* (k h)^2 / 4 of eddies of two cells, the smallest that the grid knows: k h = pi / 2. What it does at 60 Hz x 5 (tests/field, standing_wave and still_pool): with
  * 0.2 a wave keeps 0.83 of its height in nine periods, with 0.4 and 0.617 it keeps 0.90, with 1 it keeps 0.94; but with 1 pools that stand turned go on at 16 to
@@ -27,67 +25,22 @@ static bool all_incompressible(const World *world)
     return true;
 }
 
-static bool is_wanted(const World *world) { return solver_uses_dual(world) && (islands_kinds(world) & KIND_LIQUID) && (joint_is_chosen(world) || all_incompressible(world)); }
+bool eddy_damping_acts(const World *world) { return solver_uses_dual(world) && (islands_kinds(world) & KIND_LIQUID) && (joint_is_chosen(world) || all_incompressible(world)); }
 
 bool eddy_damping_prepare(World *world)
 {
     EddyDamping *damping = &world->dual.eddy_damping;
-    if (!is_wanted(world)) return true;
-    if (!array_reserve(&world->memory, &damping->kept, (size_t)world->grid.particle_blocks, sizeof(float))) return false;
-    if (joint_is_chosen(world)) return true; /* the primal's bodies and sums serve */
-    return bodies_find(&damping->bodies, &world->memory, &world->grid) &&
-           array_reserve(&world->memory, &damping->sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double)) &&
-           array_reserve(&world->memory, &damping->body_sums, SUMS * (size_t)world->grid.node_blocks, sizeof(double));
+    if (!eddy_damping_acts(world)) return true;
+    return array_reserve(&world->memory, &damping->kept, (size_t)world->grid.particle_blocks, sizeof(float));
 }
 
-void eddy_damping_free(World *world)
-{
-    EddyDamping *damping = &world->dual.eddy_damping;
-    bodies_free(&damping->bodies, &world->memory);
-    Array *arrays[] = {&damping->sums, &damping->body_sums, &damping->kept};
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
-}
-
-static bool is_at_obstacle(const World *world, int32_t block)
-{
-    const Colliders *colliders = &world->colliders;
-    const uint32_t *begin = colliders->contact_begin.data;
-    if (colliders->contacts > 0 && begin[block + 1] > begin[block]) return true;
-    return walls_any(&world->walls) && ((const uint64_t *)world->walls.marked.data)[block] != 0;
-}
-
-static void sum_block(const World *world, int32_t block, double *sum)
-{
-    const size_t floats = (size_t)world->grid.block_cells * W, start = (size_t)block * floats;
-    const float *node = (const float *)world->grid.node.data + start, *push = world->args.dual.node_push + start, *before = world->args.grid.node_before + start;
-    memset(sum, 0, SUMS * sizeof *sum);
-    sum[AT_OBSTACLE] = is_at_obstacle(world, block) ? 1.0 : 0.0;
-    for (size_t i = 0; i < floats; i += W) {
-        const double mass = (double)node[i + 3];
-        if (mass == 0.0) continue;
-        sum[MASS] += mass;
-        for (size_t c = 0; c < 3; c++) {
-            const double u = (double)node[i + c], brought = (double)before[i + c] - (double)world->args.gravity[c], away = u - brought;
-            sum[BEFORE] += 0.5 * mass * brought * brought;
-            sum[GAIN] += (double)push[i + c] * u - 0.5 * mass * away * away;
-            sum[KINETIC] += 0.5 * mass * u * u;
-            sum[MOMENTUM + c] += mass * u;
-        }
-    }
-}
-
-static void sum_blocks(void *context, int32_t begin, int32_t end)
-{
-    World *world = *(World **)context;
-    double *sums = world->dual.eddy_damping.sums.data;
-    for (int32_t block = begin; block < end; block++) sum_block(world, block, sums + SUMS * (size_t)block);
-}
+void eddy_damping_free(World *world) { array_free(&world->memory, &world->dual.eddy_damping.kept); }
 
 float eddy_damping_share(double gain, double kinetic) { return gain > 0.0 ? (float)sqrt(fmax(0.0, 1.0 - gain / fmax(AFFINE_PART * kinetic, gain))) : 1.0f; }
 
 float *eddy_damping_shares(World *world)
 {
-    float *kept = is_wanted(world) ? world->dual.eddy_damping.kept.data : NULL;
+    float *kept = eddy_damping_acts(world) ? world->dual.eddy_damping.kept.data : NULL;
     world->args.dual.affine_kept = kept;
     return kept;
 }
@@ -127,44 +80,33 @@ void eddy_damping_forget(World *world) { memset(world->dual.eddy_damping.account
 
 /* ---- The dual's bodies ---- */
 
-static bool pays(const double *sum) { return sum[AT_OBSTACLE] > 0.0 && sum[GAIN] > 0.0; }
+static bool pays(const DualGain *body) { return body->at_obstacle > 0.0 && body->gain > 0.0; }
 
-static float share_of(const double *sum, double factor)
+static float share_of(const DualGain *body, double factor)
 {
-    double kinetic = sum[KINETIC];
-    if (!pays(sum)) return 1.0f;
-    for (int c = 0; c < 3; c++) kinetic -= 0.5 * sum[MOMENTUM + c] * sum[MOMENTUM + c] / sum[MASS];
-    return eddy_damping_share(factor * sum[GAIN], kinetic);
+    double kinetic = body->kinetic;
+    if (!pays(body)) return 1.0f;
+    for (int c = 0; c < 3; c++) kinetic -= 0.5 * body->momentum[c] * body->momentum[c] / body->mass;
+    return eddy_damping_share(factor * body->gain, kinetic);
 }
 
-static EddyGains gains_of(const EddyDamping *damping)
+static EddyGains gains_of(const World *world)
 {
     EddyGains gains = {0};
-    const double *sum = damping->body_sums.data;
-    for (int32_t i = 0; i < damping->bodies.count; i++, sum += SUMS) {
-        gains.before += sum[BEFORE];
-        gains.left += sum[KINETIC] - sum[GAIN];
-        if (pays(sum)) gains.gained += sum[GAIN];
+    for (int32_t i = 0; i < world->dual.gains.bodies.count; i++) {
+        const DualGain *body = dual_gain(world, i);
+        gains.before += body->brought;
+        gains.left += body->kinetic - body->gain;
+        if (pays(body)) gains.gained += body->gain;
     }
     return gains;
 }
 
 void eddy_damping_find(World *world)
 {
-    EddyDamping *damping = &world->dual.eddy_damping;
     float *kept = eddy_damping_shares(world);
     if (!kept) return;
-    const int32_t *of_block = damping->bodies.of_block.data;
-    const double *sums = damping->sums.data;
-    double *body = damping->body_sums.data;
-    Loops loops;
-    loops_open(&loops, world->pool);
-    LOOPS_ADD(&loops, grid_nodes(&world->grid, BLOCK_GRAIN), sum_blocks, &world);
-    loops_run(&loops);
-    memset(body, 0, SUMS * (size_t)damping->bodies.count * sizeof *body);
-    for (int32_t block = 0; block < world->grid.node_blocks; block++)
-        for (size_t k = 0; k < SUMS; k++) body[SUMS * (size_t)of_block[block] + k] += sums[SUMS * (size_t)block + k];
-    const EddyGains gains = gains_of(damping);
+    const EddyGains gains = gains_of(world);
     const double factor = eddy_damping_settle(world, &gains);
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) kept[block] = share_of(body + SUMS * (size_t)of_block[block], factor);
+    for (int32_t block = 0; block < world->grid.particle_blocks; block++) kept[block] = share_of(dual_gain_in(world, block), factor);
 }

@@ -1,12 +1,7 @@
 /* Eddy damping: liquids of the dual and the joint solver pay for what their pressures gain.
  *
  * Incompressible liquid stores no energy. What the dual does to mend its volume is work of its pressures that nothing paid for, and where particles move it stirs a
- * pool for ever. With w the displacement that matter brought, u that which was found, and q the push of the pressures, a substep gains
- *
- *     K(u) - m g.u - K(w) = q.u - m/2 |u - w|^2
- *
- * beside the work of walls, and of force fields: the work of the pressures less what backward Euler takes. What mends stirs eddies of some cells, and transfers smooth eddies where
- * particles have no affine velocities: of their energy E, those that turn as fast as k v have the part (k h)^2 / 4 there (h: a cell). So, as if all of a body's
+ * pool for ever. What a body gains is that of dual_gains.h. What mends stirs eddies of some cells, and transfers smooth eddies where particles have no affine velocities: of their energy E, those that turn as fast as k v have the part (k h)^2 / 4 there (h: a cell). So, as if all of a body's
  * kinetic energy K about its mean motion were that of eddies, its affine velocities keep the share s,
  *
  *     s^2 = 1 - gain / (K (k h)^2 / 4).
@@ -33,7 +28,10 @@
 bool eddy_damping_prepare(World *world);
 void eddy_damping_free(World *world);
 
-/* After the dual has ended: finds the shares for the integration. */
+/* Whether there is something to damp. */
+bool eddy_damping_acts(const World *world);
+
+/* After the dual has ended, and dual_gains_find(): finds the shares for the integration. */
 void eddy_damping_find(World *world);
 
 /* s of a body that has to pay this, with this kinetic energy about its mean motion [both in the same unit]. */

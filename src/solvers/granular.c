@@ -90,7 +90,6 @@ void granular_bind(World *world)
 {
     if (is_judged(world)) world->args.dual.pressure = world->particles.pressure;
     world->args.dual.grains_carried = carried(world);
-    world->args.dual.grains_free = world->granular.begins[islands_kinds(world)] ? 1.0f : 0.0f;
 }
 
 /* Counts for how much longer it has done than not done what ends its state, and ends it: what an unfinished solution holds up moves by fits and starts. */
@@ -135,18 +134,14 @@ static bool is_stirred(const World *world)
     return stirred;
 }
 
-/* What was not judged in the substep before, and falls, flows from the start and bears nothing: a substep of the primal would leave stresses that are not in balance,
- * and the dual start from them. Random scene 20452 gained 38 % of its energy; 58935, where the dual started from the pressure of a collision that was over, 70 times
- * as much. What slept rests as it did. */
+/* What was not judged in the substep before flows from the start if it falls. What slept rests as it did. */
 static void begin(World *world, uint32_t kinds)
 {
     GranularState *state = &world->granular.of[kinds];
-    world->granular.begins[kinds] = false;
     if (granular_goes_on(world)) return;
     const bool flows = dual_holds_solids(world, &world->substep) && (double)measure_all(world).speed > FALLS * fall_of(world);
     const bool slept = state->judged > 0 && state->flowed == 0.0 && !flows;
     *state = (GranularState){.flowed = slept ? 0.0 : FORGETS, .judged = world->step_count + 1, .flows = flows};
-    world->granular.begins[kinds] = flows;
 }
 
 pbmpm_result granular_prepare(World *world)

@@ -63,11 +63,15 @@ typedef struct EddyAccount {
 
 /* See eddy_damping.h. */
 typedef struct EddyDamping {
-    Bodies bodies;
     EddyAccount account[ISLAND_GROUPS + 1]; /* of each set of kinds */
-    Array sums, body_sums; /* per node block, and per body */
-    Array kept;            /* see KernelArgs.dual.affine_kept */
+    Array kept; /* see KernelArgs.dual.affine_kept */
 } EddyDamping;
+
+/* See dual_gains.h. */
+typedef struct DualGains {
+    Bodies bodies;
+    Array of_block, of_body; /* DualGain per node block, and per body */
+} DualGains;
 
 /* Sand of the islands with one set of kinds, see granular.h. */
 typedef struct GranularState {
@@ -86,7 +90,6 @@ typedef struct Stirred {
 /* Of all of them. */
 typedef struct Granular {
     GranularState of[ISLAND_GROUPS + 1]; /* each set of kinds */
-    bool begins[ISLAND_GROUPS + 1];      /* to fall, in this substep */
     Stirred stirred;
     Array blocks;                        /* see granular.c */
 } Granular;
@@ -95,7 +98,9 @@ typedef struct Granular {
 typedef struct DualState {
     Array node_push, change2, uphill, cells, cell_solid_growth, cell_change2, cell_uphill; /* see KernelArgs */
     Array kept, moved2; /* displacements and, per node block, what they changed; see dual_error.h */
+    Array bounds, growth; /* see granular_bound.c */
     RoundsState rounds;
+    DualGains gains;
     EddyDamping eddy_damping;
 } DualState;
 

@@ -16,7 +16,7 @@
     FIELD(grid.particle_blocks) FIELD(dual.pressure) FIELD(dual.pressure_old) FIELD(dual.stress) FIELD(dual.stress_old)       \
     FIELD(dual.node_push) FIELD(dual.change2) FIELD(dual.uphill) FIELD(dual.affine_kept) FIELD(dual.stage_last)               \
     FIELD(dual.stage_before) FIELD(dual.stage_change) FIELD(dual.momentum) FIELD(dual.fine_carried)                           \
-    FIELD(dual.grains_carried) FIELD(dual.grains_free) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \
+    FIELD(dual.grains_carried) FIELD(dual.crushed_carried) FIELD(dual.growth_max) FIELD(primal.node_force)                    \
     FIELD(primal.block_share) FIELD(primal.block_energy) FIELD(primal.couple) FIELD(primal.among_liquid)                      \
     FIELD(primal.fed) FIELD(primal.held_pressure) FIELD(primal.sketch) FIELD(primal.node_gap) FIELD(primal.may_feed)          \
     FIELD(primal.held_stiffness) FIELD(cells.mass) FIELD(cells.growth) FIELD(cells.solid_growth) FIELD(cells.softness)              \

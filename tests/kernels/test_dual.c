@@ -123,35 +123,6 @@ static void check_quiet_feedback(DualStage *stage)
 
 static void test_quiet_liquid(void) { check_calm_liquid("quiet liquid", 0.6, check_quiet_feedback); }
 
-/* ---- Sand ---- */
-
-static double largest_of_sand(const DualStage *stage)
-{
-    double largest = 0.0, S[9];
-    for (uint32_t i = 0; i < stage->scene.world->particles.count; i++) {
-        if (scene_particle(&stage->scene, i).material.yields != K_SAND) continue;
-        dual_multiplier(stage, i, S);
-        for (int k = 0; k < 9; k++) largest = fmax(largest, fabs(S[k]));
-    }
-    return largest;
-}
-
-static void check_free_sand(DualStage *stage)
-{
-    scene_run_particles(&stage->scene, stage->scene.kernels->dual_begin);
-    check_true(largest_of_sand(stage) > 0.0, "sand starts from what it bore", 0);
-    stage->scene.world->args.dual.grains_free = 1.0f;
-    scene_run_particles(&stage->scene, stage->scene.kernels->dual_begin);
-    check_true(largest_of_sand(stage) == 0.0, "sand that begins to fall starts from nothing", 0);
-}
-
-static void test_sand_that_begins_to_fall_bears_nothing(void)
-{
-    SceneSpec spec = mixed_scene("dual: sand that begins to fall");
-    spec.material[0] = scene_material(PBMPM_SAND);
-    dual_check_spec(&spec, 1, check_free_sand);
-}
-
 /* ---- ASFLIP ---- */
 
 static void test_fine_motion(void)
@@ -479,7 +450,6 @@ int main(void)
     RUN_TEST(test_calm_liquid);
     RUN_TEST(test_calm_liquid_without_gravity);
     RUN_TEST(test_quiet_liquid);
-    RUN_TEST(test_sand_that_begins_to_fall_bears_nothing);
     RUN_TEST(test_fine_motion);
     RUN_TEST(test_all_fine_motion_is_all_of_the_velocity);
     RUN_TEST(test_stress_of_moderate_strain);

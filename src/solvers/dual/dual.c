@@ -7,6 +7,8 @@
 #include "base/result.h"
 #include "solvers/dual/acceleration.h"
 #include "solvers/dual/dual_error.h"
+#include "solvers/dual/dual_gains.h"
+#include "solvers/dual/granular_bound.h"
 #include "solvers/dual/pressure_guess.h"
 #include "solvers/dual/rounds.h"
 #include "solvers/eddy_damping.h"
@@ -87,6 +89,10 @@ static bool guesses_solids(const World *world)
     return guess_iterations(world) > 0 && !in_cells(world) && (shares_world(world) || solver_holds_sand(world));
 }
 
+static bool is_bounded(const World *world) { return solver_holds_sand(world) && !joint_is_chosen(world); }
+
+static bool measures_gains(const World *world) { return is_bounded(world) || (eddy_damping_acts(world) && !joint_is_chosen(world)); }
+
 pbmpm_result dual_prepare(World *world)
 {
     DualState *dual = &world->dual;
@@ -102,6 +108,8 @@ pbmpm_result dual_prepare(World *world)
     if (ok && guesses_solids(world)) ok = array_reserve(&world->memory, &dual->cell_solid_growth, nodes, sizeof(float));
     if (ok && takes_rounds(world)) ok = rounds_reserve(world);
     ok = ok && dual_error_prepare(world) && eddy_damping_prepare(world);
+    if (ok && measures_gains(world)) ok = dual_gains_prepare(world);
+    if (ok && is_bounded(world)) ok = granular_bound_prepare(world);
     if (!ok) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the dual solver on %d blocks", grid->node_blocks);
     const pbmpm_result result = guess_prepare(world);
     return result == PBMPM_OK ? particles_enable_pressure(&world->particles, &world->memory) : result;
@@ -116,6 +124,8 @@ void dual_free(World *world)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     dual_error_free(world);
     eddy_damping_free(world);
+    dual_gains_free(world);
+    granular_bound_free(world);
 }
 
 static float smallest_relaxation(const World *world)
@@ -381,7 +391,12 @@ void dual_solve_with(World *world, const ContactFrame *contacts, DualSketch *ske
     rounds_run(world, contacts, (rounds + 1) / 2);
     iterate_all(world, contacts, mass);
     rounds_run(world, contacts, rounds / 2);
-    if (!joint_is_chosen(world)) eddy_damping_find(world);
+    if (!measures_gains(world)) return;
+    if (is_bounded(world))
+        granular_bound_keep(world, contacts);
+    else
+        dual_gains_find(world);
+    eddy_damping_find(world);
 }
 
 void dual_set_solids(World *world)
