@@ -191,18 +191,17 @@ static bool pressure_leans(const Bound *bound)
     return fabs(bound->face[0].distance) < WET_CLEAR && fmax(fabs(n[0]), fmax(fabs(n[1]), fabs(n[2]))) < STRAIGHT;
 }
 
-/* The normal goes half way to the push of an even pressure: along the wall's own that works, along the push's matter goes through the wall. By more than planes that
+/* The normal goes half way to the push of an even pressure: along the wall's own, that does work; along the push's, matter goes through the wall. By more than planes that
  * count as one differ the push leans where more than the wall bears it: at surfaces. */
 static void lean(const Builder *b, const Bound *bound, double normal[3])
 {
-    static const double HALF_WAY = 0.5; /* by trial, see above */
     const FlowingSite site = {b->frame, bound->block, {bound->local[0], bound->local[1], bound->local[2]}};
     double push[3], size2 = 0.0;
     flowing_push(&site, push);
     const double size = sqrt(dot3(push, push)), along = dot3(push, normal);
     if (!(along > sqrt(1.0 - LEAST_TURN * LEAST_TURN) * size)) return;
     for (int a = 0; a < 3; a++) {
-        normal[a] = field_rounded(HALF_WAY * (normal[a] + push[a] / size));
+        normal[a] = field_rounded(normal[a] + push[a] / size);
         size2 += normal[a] * normal[a];
     }
     for (int a = 0; a < 3; a++) normal[a] /= sqrt(size2);

@@ -40,7 +40,8 @@ static bool any_rigid(const World *world)
  * volume is lost with 1.2 widths, 0.03 with 0.6). */
 static bool slides_far(const Heap *heap)
 {
-    static const double RUN_OUT = 1.2, FAR = 1.0; /* widths: the law of Lube et al.; by trial: where volume was lost in trays, see above */
+    static const double RUN_OUT = 1.2; /* widths, by the law of Lube et al.: see above */
+    static const double FAR = 1.0;     /* widths; by trial, where volume was lost in trays: see above */
     return RUN_OUT * fmin(heap->slide, heap->depth) > FAR * heap->width * (heap->falls_both_ways ? 0.5 : 1.0);
 }
 

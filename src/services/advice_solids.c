@@ -32,7 +32,8 @@ void advise_modulus_not_held(Adviser *adviser)
 /* A spline reaches 1.5 cells: a body of fewer than three has no inside. Thicker ones float too high among what the grid blurs of the liquid. */
 void advise_body_too_thin(Adviser *adviser)
 {
-    static const double INSIDE = 3.0, AFLOAT = 6.5; /* [cells] twice a reach; and by trial: bodies of six float too high, of seven right (tests/field/run.py floats) */
+    static const double INSIDE = 3.0; /* [cells] twice a reach */
+    static const double AFLOAT = 6.5; /* [cells] by trial: bodies of six float too high, of seven right (tests/field/run.py floats) */
     const World *world = adviser->world;
     const double bound = adviser_any_present(world, PBMPM_LIQUID) ? AFLOAT : INSIDE;
     for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++) {

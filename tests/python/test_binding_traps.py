@@ -105,6 +105,15 @@ def test_the_pickle_of_a_baked_solid_is_looked_at() -> None:
         pickle.loads(pickle.dumps(hull(2)).replace(hull(2).data[-64:], bytes(64)))
 
 
+def test_a_baked_shape_with_its_arguments_swapped_says_so() -> None:
+    with pbmpm.World(2, 0.1) as world:
+        solid = world.load_solid(hull(2))
+        with pytest.raises(TypeError, match=r"Baked\(position, solid\): .*load_solid\(\)"):
+            world.add_collider(pbmpm.Baked(solid, (0.0, 0.0)))  # type: ignore[arg-type]
+        with pytest.raises(TypeError, match="BakedSolid"):
+            world.add_collider(pbmpm.Baked((0.0, 0.0), hull(2)))  # type: ignore[arg-type]
+
+
 # Names of enumerations
 
 

@@ -34,7 +34,6 @@ static DualGain sum_block(const World *world, int32_t block)
 {
     const size_t floats = (size_t)world->grid.block_cells * W, start = (size_t)block * floats;
     const float *node = (const float *)world->grid.node.data + start, *push = world->args.dual.node_push + start, *before = world->args.grid.node_before + start;
-    const float *base = world->args.grid.node_base + start;
     DualGain sum = {.at_obstacle = is_at_obstacle(world, block) ? 1.0 : 0.0};
     for (size_t i = 0; i < floats; i += W) {
         const double mass = (double)node[i + 3];
@@ -42,12 +41,9 @@ static DualGain sum_block(const World *world, int32_t block)
         sum.mass += mass;
         for (size_t c = 0; c < 3; c++) {
             const double u = (double)node[i + c], brought = (double)before[i + c] - (double)world->args.gravity[c], away = u - brought, q = (double)push[i + c];
-            const double free = (double)base[i + c] - brought;
             sum.brought += 0.5 * mass * brought * brought;
             sum.gain += q * u - 0.5 * mass * away * away;
             sum.work += q * u;
-            sum.own += q * q / mass;
-            sum.weighed += 0.5 * mass * free * free;
             sum.kinetic += 0.5 * mass * u * u;
             sum.momentum[c] += mass * u;
         }

@@ -15,8 +15,6 @@ typedef struct DualGain {
     double work;       /* q.u */
     double brought;    /* K(w) */
     double kinetic;    /* K(u) */
-    double own;        /* |q|^2 / m: the work of the push on what it makes by itself */
-    double weighed;    /* m/2 |u* - w|^2: what gravity and fields make by themselves */
     double mass;
     double momentum[3];
     double at_obstacle; /* above 0: it may touch one */

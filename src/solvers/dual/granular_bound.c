@@ -1,31 +1,35 @@
 #include "solvers/dual/granular_bound.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "solvers/dual/dual_gains.h"
 #include "solvers/passes.h"
 
-enum { BLOCK_GRAIN = 8 };
+enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
 /* Of sums of energies in single precision. */
 static const double ROUNDING = 5e-7;
 
-/* Of a body. */
-typedef struct BodyBound {
+/* Of a block and of a body, see the header. */
+typedef struct Bound {
     double growth; /* what it may gain */
-    float kept;    /* the share of its stresses that is left */
-} BodyBound;
+    double answer; /* A */
+    double idle;   /* G */
+    bool gains;
+    float kept; /* the share s of its stresses that is left */
+} Bound;
 
 bool granular_bound_prepare(World *world)
 {
-    return array_reserve(&world->memory, &world->dual.bounds, (size_t)world->grid.node_blocks, sizeof(BodyBound)) &&
-           array_reserve(&world->memory, &world->dual.growth, (size_t)world->grid.particle_blocks, sizeof(double));
+    const size_t blocks = (size_t)world->grid.node_blocks;
+    return array_reserve(&world->memory, &world->dual.bounds, blocks, sizeof(Bound)) && array_reserve(&world->memory, &world->dual.block_bounds, blocks, sizeof(Bound));
 }
 
 void granular_bound_free(World *world)
 {
     array_free(&world->memory, &world->dual.bounds);
-    array_free(&world->memory, &world->dual.growth);
+    array_free(&world->memory, &world->dual.block_bounds);
 }
 
 /* ---- What growth may gain ---- */
@@ -58,8 +62,12 @@ static double growth_in(const World *world, int32_t block)
         const KernelMaterial *material = &world->materials.kernel[grid->run_key[run] >> K_RUN_CELL_BITS];
         for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++) {
             const double mass = 0.25 * (double)world->particles.mass[row];
-            if (material->yields == K_SAND) sum += mass * grain_growth(world, row);
-            else if (material->kind == K_LIQUID) sum += mass * liquid_growth(world, row, material);
+            if (material->yields == K_SAND)
+                sum += mass * grain_growth(world, row);
+            else if (material->kind == K_LIQUID)
+                sum += mass * liquid_growth(world, row, material);
+            else
+                return INFINITY; /* it stores energy: what it gives back is its own */
         }
     }
     return sum;
@@ -70,17 +78,69 @@ static bool gains(const DualGain *gain, double growth) { return gain->gain > gro
 static void sum_growth(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
-    double *growth = world->dual.growth.data;
-    for (int32_t block = begin; block < end; block++) growth[block] = gains(dual_gain_in(world, block), 0.0) ? growth_in(world, block) : 0.0;
+    Bound *of_block = world->dual.block_bounds.data;
+    for (int32_t block = begin; block < end; block++)
+        of_block[block] = (Bound){.growth = block < world->grid.particle_blocks && gains(dual_gain_in(world, block), 0.0) ? growth_in(world, block) : 0.0};
+}
+
+/* Adds up blocks. True if a body gains. */
+static bool find_gaining(World *world)
+{
+    const int32_t *body_of = world->dual.gains.bodies.of_block.data, count = world->dual.gains.bodies.count;
+    const Bound *of_block = world->dual.block_bounds.data;
+    Bound *bound = world->dual.bounds.data;
+    bool any = false;
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_growth, world);
+    for (int32_t body = 0; body < count; body++) bound[body] = (Bound){.kept = 1.0f};
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) bound[body_of[block]].growth += of_block[block].growth;
+    for (int32_t body = 0; body < count; body++) {
+        bound[body].gains = gains(dual_gain(world, body), bound[body].growth);
+        any = any || bound[body].gains;
+    }
+    return any;
 }
 
 /* ---- What is kept ---- */
 
-/* See the header. */
-static double kept_of(const DualGain *gain, double growth)
+/* With nodes at u_0, and those at u_1 in dual.kept. */
+static void sum_answers(void *context, int32_t begin, int32_t end)
 {
-    const double a = 0.5 * gain->own, g = gain->weighed, b = gain->gain - a + g - growth;
-    return a > 0.0 ? fmin(1.0, fmax(0.0, (sqrt(b * b + 4.0 * a * g) - b) / (2.0 * a))) : 1.0;
+    World *world = context;
+    const size_t floats = (size_t)world->grid.block_cells * W;
+    Bound *of_block = world->dual.block_bounds.data;
+    for (int32_t block = begin; block < end; block++) {
+        const float *u = (const float *)world->grid.node.data + (size_t)block * floats, *before = world->args.grid.node_before + (size_t)block * floats;
+        const float *with = (const float *)world->dual.kept.data + (size_t)block * floats;
+        for (size_t i = 0; i < floats; i++) {
+            const size_t c = i % W;
+            const double mass = (double)u[i - c + 3];
+            if (c == 3 || mass == 0.0) continue;
+            const double answer = (double)with[i] - (double)u[i], away = (double)u[i] - ((double)before[i] - (double)world->args.gravity[c]);
+            of_block[block].answer += mass * answer * answer;
+            of_block[block].idle += 0.5 * mass * away * away;
+        }
+    }
+}
+
+/* See the header. */
+static float kept_of(const DualGain *gain, const Bound *bound)
+{
+    const double a = 0.5 * bound->answer, g = bound->idle, b = gain->gain - a + g - bound->growth;
+    return a > 0.0 ? (float)fmin(1.0, fmax(0.0, (sqrt(b * b + 4.0 * a * g) - b) / (2.0 * a))) : 1.0f;
+}
+
+static void find_kept(World *world)
+{
+    const int32_t *body_of = world->dual.gains.bodies.of_block.data;
+    const Bound *of_block = world->dual.block_bounds.data;
+    Bound *bound = world->dual.bounds.data;
+    pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_answers, world);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) {
+        bound[body_of[block]].answer += of_block[block].answer;
+        bound[body_of[block]].idle += of_block[block].idle;
+    }
+    for (int32_t body = 0; body < world->dual.gains.bodies.count; body++)
+        if (bound[body].gains) bound[body].kept = kept_of(dual_gain(world, body), &bound[body]);
 }
 
 static void scale(float *value, size_t count, float kept)
@@ -92,50 +152,39 @@ static void scale_blocks(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
     const Grid *grid = &world->grid;
-    const size_t tile = (size_t)grid->tile_nodes * K_NODE_WIDTH + K_TILE_PAD;
+    const size_t tile = (size_t)grid->tile_nodes * W + K_TILE_PAD;
     const uint32_t *block_begin = grid->block_begin.data;
-    const int32_t *of_block = world->dual.gains.bodies.of_block.data;
+    const int32_t *body_of = world->dual.gains.bodies.of_block.data;
     for (int32_t block = begin; block < end; block++) {
-        const float kept = ((const BodyBound *)world->dual.bounds.data)[of_block[block]].kept;
+        const Bound *bound = (const Bound *)world->dual.bounds.data + body_of[block];
         const size_t first = block_begin[block], count = block_begin[block + 1] - first;
-        if (kept == 1.0f) continue;
-        scale((float *)grid->tile.data + (size_t)block * tile, tile, kept);
-        scale(world->args.dual.pressure + first, count, kept);
-        for (int i = 0; i < 6 && world->args.dual.stress[i]; i++) scale(world->args.dual.stress[i] + first, count, kept);
+        if (!bound->gains) continue;
+        scale((float *)grid->tile.data + (size_t)block * tile, tile, bound->kept);
+        scale(world->args.dual.pressure + first, count, bound->kept);
+        for (int i = 0; i < 6 && world->args.dual.stress[i]; i++) scale(world->args.dual.stress[i] + first, count, bound->kept);
     }
 }
 
-/* How many bodies gain. */
-static int find_kept(World *world, bool last)
+/* Moves nodes by the share `pushed` of what stresses push. */
+static void push(World *world, const ContactFrame *contacts, float pushed)
 {
-    const int32_t *of_block = world->dual.gains.bodies.of_block.data, count = world->dual.gains.bodies.count;
-    const double *growth = world->dual.growth.data;
-    BodyBound *bound = world->dual.bounds.data;
-    int failed = 0;
-    for (int32_t body = 0; body < count; body++) bound[body] = (BodyBound){0.0, 1.0f};
-    for (int32_t block = 0; block < world->grid.particle_blocks; block++) bound[of_block[block]].growth += growth[block];
-    for (int32_t body = 0; body < count; body++) {
-        const DualGain *gain = dual_gain(world, body);
-        if (!gains(gain, bound[body].growth)) continue;
-        bound[body].kept = last ? 0.0f : (float)kept_of(gain, bound[body].growth);
-        failed++;
-    }
-    return failed;
+    Loops loops;
+    memset(world->args.dual.node_push, 0, (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * W * sizeof(float));
+    world->args.dual.momentum = pushed - 1.0f; /* the push of before is 0 now: see push_node_blocks() in ispc/dual.isph */
+    loops_open(&loops, world->pool);
+    solver_add_nodes(&loops, world, world->kernels->push_nodes, &world->args, contacts);
+    loops_run(&loops);
+    world->args.dual.momentum = 0.0f;
 }
 
-/* Where walls are touched s is not exact, so it is sought again; without any stress nothing gains. */
 void granular_bound_keep(World *world, const ContactFrame *contacts)
 {
-    enum { SEARCHES = 3 };
-    world->args.dual.momentum = 0.0f;
-    for (int search = 0;; search++) {
-        Loops loops;
-        dual_gains_find(world);
-        pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, sum_growth, world);
-        if (find_kept(world, search == SEARCHES) == 0 || search > SEARCHES) return;
-        pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, scale_blocks, world);
-        loops_open(&loops, world->pool);
-        solver_add_nodes(&loops, world, world->kernels->push_nodes, &world->args, contacts);
-        loops_run(&loops);
-    }
+    dual_gains_find(world);
+    if (!find_gaining(world)) return;
+    memcpy(world->dual.kept.data, world->grid.node.data, (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * W * sizeof(float));
+    push(world, contacts, 0.0f);
+    find_kept(world);
+    pool_for(world->pool, world->grid.particle_blocks, BLOCK_GRAIN, scale_blocks, world);
+    push(world, contacts, 1.0f);
+    dual_gains_find(world);
 }

@@ -107,6 +107,8 @@ def to_c(shape: Shape, dimension: int) -> Any:
     """The C structure of a shape."""
     if type(shape) not in _KINDS:
         raise TypeError(f"a Plane, Box, Sphere, Capsule or Baked is needed, not {type(shape).__name__}")
+    if isinstance(shape, Baked) and not isinstance(shape.solid, LoadedSolid):
+        raise TypeError(f"Baked(position, solid): the solid is what World.load_solid() returned, not a {type(shape.solid).__name__}")
     out = initialised("pbmpm_shape")
     out.kind = _KINDS[type(shape)]
     assign_vector(out, "position", shape.position, dimension)
