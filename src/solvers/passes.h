@@ -10,6 +10,8 @@ bool solver_uses_dual(const World *world);
 /* Whether the dual and the primal work together in this substep, see joint.h. */
 static inline bool joint_is_chosen(const World *world) { return world->record.solver == SOLVER_JOINT; }
 
+#define ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
+
 /* A kg cell^2 / substep^2 in Joule. */
 double solver_joule(const World *world);
 

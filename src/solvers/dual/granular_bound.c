@@ -8,9 +8,6 @@
 
 enum { BLOCK_GRAIN = 8, W = K_NODE_WIDTH };
 
-/* Of sums of energies in single precision. */
-static const double ROUNDING = 5e-7;
-
 /* Of a block and of a body, see the header. */
 typedef struct Bound {
     double growth; /* what it may gain */
@@ -73,7 +70,7 @@ static double growth_in(const World *world, int32_t block)
     return sum;
 }
 
-static bool gains(const DualGain *gain, double growth) { return gain->gain > growth + ROUNDING * (fabs(gain->work) + gain->brought + gain->kinetic); }
+static bool gains(const DualGain *gain, double growth) { return gain->gain > growth + ENERGY_ROUNDING * (fabs(gain->work) + gain->brought + gain->kinetic); }
 
 static void sum_growth(void *context, int32_t begin, int32_t end)
 {

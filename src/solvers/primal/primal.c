@@ -513,7 +513,7 @@ static bool is_good(const Primal *p)
 {
     if (!isfinite(p->trial_energy) || !isfinite(p->slope_after)) return false;
     if (p->trial_energy <= p->energy + ARMIJO * p->slope_before) return true;
-    const bool rounding = p->trial_energy - p->energy <= PRIMAL_ENERGY_ROUNDING * fabs(p->energy);
+    const bool rounding = p->trial_energy - p->energy <= ENERGY_ROUNDING * fabs(p->energy);
     return rounding && p->slope_before < 0.0 && fabs(p->slope_after) <= SLOPE_SHARE * fabs(p->slope_before);
 }
 

@@ -3,6 +3,7 @@
 
 #include "contact/contact_constraints.h"
 #include "solvers/eddy_damping.h"
+#include "solvers/passes.h"
 #include "solvers/primal/primal_solve.h"
 
 /* ---- The energy check ---- */
@@ -76,7 +77,7 @@ static bool has_liquid(const World *world, int32_t block)
  * about sqrt(k Psi) 2^-24. */
 static double rounding_of(const BodySum *body)
 {
-    return PRIMAL_ENERGY_ROUNDING * (body->before + body->still + body->pressed_rest) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
+    return ENERGY_ROUNDING * (body->before + body->still + body->pressed_rest) + ldexp(1.0, -24) * sqrt(body->before * body->stiff);
 }
 
 /* Whether more energy came out than went in, or than the joint solver's liquid gave. The primal alone judges the elastic energy of matter with liquid: what a truncated

@@ -8,7 +8,6 @@
 /* In cantilevers the true error of steps was 0.5 to 1.2 residuals (medians) where 10 and 20 iterations were enough, and 1.1 to 2.5 where 2 and
  * 5 were too few. Between them, by trial. */
 #define PRIMAL_ERROR_PER_RESIDUAL 1.3
-#define PRIMAL_ENERGY_ROUNDING 5e-7 /* of sums of energies in single precision */
 
 /* The energy check adds up most. */
 enum { W = K_NODE_WIDTH, CHECK_SUMS = 13, SUMS = CHECK_SUMS + EXCHANGE_SUMS };
