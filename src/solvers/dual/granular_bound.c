@@ -31,24 +31,23 @@ void granular_bound_free(World *world)
 
 /* ---- What growth may gain ---- */
 
-static double grain_growth(const World *world, uint32_t row)
+static double trace_of(const World *world, uint32_t row)
 {
-    const KernelArgs *a = &world->args;
-    const int d = world->particles.dimension;
-    const double asked = fmin(1.0 / fmax((double)world->particles.volume_ratio[row], (double)K_LIQUID_RATIO_MIN) - 1.0, (double)a->dual.growth_max);
-    const int place[3] = {0, d == 2 ? 2 : 3, 5};
+    const int d = world->particles.dimension, place[3] = {0, d == 2 ? 2 : 3, 5};
     double trace = 0.0;
-    for (int c = 0; c < d; c++) trace += (double)a->dual.stress[place[c]][row];
-    return fmax(0.0, trace) * (double)a->cells.settle * fmax(0.0, asked);
+    for (int c = 0; c < d; c++) trace += (double)world->args.dual.stress[place[c]][row];
+    return trace;
 }
 
-static double liquid_growth(const World *world, uint32_t row, const KernelMaterial *material)
+/* tr S g of a particle. */
+static double growth_of(const World *world, uint32_t row, bool grain)
 {
     const KernelArgs *a = &world->args;
-    const double inverse = 1.0 / fmax((double)world->particles.volume_ratio[row], (double)K_LIQUID_RATIO_MIN), pressure = (double)a->dual.pressure[row];
-    const double asked = fmin(inverse - 1.0 - pressure * (double)material->inverse_stiffness * inverse * inverse, (double)a->dual.growth_max);
-    return world->particles.dimension * pressure * fmax(0.0, asked);
+    const double missing = 1.0 / fmax((double)world->particles.volume_ratio[row], (double)K_LIQUID_RATIO_MIN) - 1.0, asked = fmax(0.0, fmin(missing, (double)a->dual.growth_max));
+    return grain ? fmax(0.0, trace_of(world, row)) * (double)a->cells.settle * asked : world->particles.dimension * (double)a->dual.pressure[row] * asked;
 }
+
+static bool stores_energy(const KernelMaterial *material) { return material->kind == K_LIQUID ? material->inverse_stiffness > 0.0f : material->yields != K_SAND; }
 
 static double growth_in(const World *world, int32_t block)
 {
@@ -57,15 +56,9 @@ static double growth_in(const World *world, int32_t block)
     double sum = 0.0;
     for (uint32_t run = block_run[block]; run < block_run[block + 1]; run++) {
         const KernelMaterial *material = &world->materials.kernel[grid->run_key[run] >> K_RUN_CELL_BITS];
-        for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++) {
-            const double mass = 0.25 * (double)world->particles.mass[row];
-            if (material->yields == K_SAND)
-                sum += mass * grain_growth(world, row);
-            else if (material->kind == K_LIQUID)
-                sum += mass * liquid_growth(world, row, material);
-            else
-                return INFINITY; /* it stores energy: what it gives back is its own */
-        }
+        if (stores_energy(material)) return INFINITY; /* what it gives back is its own */
+        for (uint32_t row = grid->run_begin[run]; row < grid->run_begin[run + 1]; row++)
+            sum += 0.25 * (double)world->particles.mass[row] * growth_of(world, row, material->yields == K_SAND);
     }
     return sum;
 }

@@ -3,7 +3,7 @@
  * Sand stores no energy. So a body's stresses gain (dual_gains.h) no more than growth takes that crushed matter is asked for: sum_p m_p/4 tr S g, with S the multiplier
  * and g the growth, see next_mean() in ispc/granular.isph. Few iterations leave stresses that stop more than there is to stop, or that go on pushing what has left. Without a
  * bound a random scene with two iterations (194653 of tests/random_scenes.py) gained an eighth of its energy.
- * Bodies with other solids are left out: these store energy, which is theirs to give back.
+ * Bodies with other solids, or a liquid with a bulk modulus, are left out: these store energy, which is theirs to give back.
  *
  * A body that gains more keeps the share s of its stresses. Let u_1 be where all of them lead, u_0 where none do, both as walls allow, and d = u_1 - u_0. s q leads to
  * u_0 + s d, as long as the same walls are touched. What it moves is m d less the push of walls, which do no work on d; so q.d = m |d|^2, and the gain is
