@@ -5,6 +5,7 @@
 #include "contact/wall_bodies.h"
 #include "contact/walls_job.h"
 #include "contact/walls_list.h"
+#include "contact/walls_unilateral.h"
 
 enum { GRAIN = 64, WALL_NODE_NS = 20 };
 
@@ -12,14 +13,14 @@ void walls_free(Walls *walls, Memory *memory)
 {
     Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->shear, &walls->mirror, &walls->corner,
                        &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->faced,  &walls->vector,
-                       &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
+                       &walls->unilateral, &walls->unsure, &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->frees = walls->moves = walls->entries = walls->shears = walls->mirrors = walls->corners = walls->grips = walls->bodies = walls->beside = 0;
+    walls->nodes = walls->frees = walls->moves = walls->entries = walls->shears = walls->mirrors = walls->corners = walls->unilaterals = walls->unsures = walls->grips = walls->bodies = walls->beside = 0;
     walls->rubs = false;
 }
 
@@ -41,16 +42,12 @@ bool walls_hold(const Walls *walls, uint32_t node)
 
 /* ---- Making motion admissible ---- */
 
-static float *nodes_of(const ApplyJob *job) { return job->frame->grid->node.data; }
-
 /* p - m c0 goes back through the entries; what is new of p is taken over. */
 static void send_back(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
-    const WallMotion *motion = job->walls->motion.data;
     for (int32_t i = begin; i < end; i++) {
-        const WallMotion *n = &motion[i];
-        if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load_node(nodes_of(job), n->node);
+        take_momentum(job, (uint32_t)i);
         fold_back(job, (uint32_t)i);
     }
 }
@@ -59,7 +56,7 @@ static void find_free_node(const ApplyJob *job, const WallFree *free)
 {
     const uint32_t i = free->place;
     job->v.free[i] = job->v.moved[i] = times(&free->inverse, folded(job, i, free->link_begin, free->link_moving));
-    store_node(job->v.free[i], nodes_of(job), ((const WallMotion *)job->walls->motion.data)[i].node);
+    store_node(job->v.free[i], job_nodes(job), ((const WallMotion *)job->walls->motion.data)[i].node);
 }
 
 static void find_free(void *context, int32_t begin, int32_t end)
@@ -98,7 +95,7 @@ static void take_free(void *context, int32_t begin, int32_t end)
     const WallFree *free = job->walls->free.data;
     for (int32_t f = begin; f < end; f++) {
         const uint32_t i = free[f].place;
-        job->v.free[i] = job->v.moved[i] = load_node(nodes_of(job), motion[i].node);
+        job->v.free[i] = job->v.moved[i] = load_node(job_nodes(job), motion[i].node);
     }
 }
 
@@ -115,7 +112,7 @@ static void find_moved(void *context, int32_t begin, int32_t end)
         Four u = own_of(job, i, job->v.free[i]) + shift_of(job, n);
         if (n->entry != NO_ENTRY) u += times(&entry[n->entry].matrix, mean_of(job, &entry[n->entry]));
         job->v.moved[i] = u;
-        store_node(u, nodes_of(job), n->node);
+        store_node(u, job_nodes(job), n->node);
     }
 }
 
@@ -188,7 +185,7 @@ static void rub(void *context, int32_t begin, int32_t end)
         for (int a = 0; a < 3; a++) (*u)[a] -= fminf(lost, 1.0f) * v[a];
         if (n->follows) continue; /* find_moved() comes after this */
         job->v.moved[i] = *u;
-        store_node(*u, nodes_of(job), n->node);
+        store_node(*u, job_nodes(job), n->node);
     }
 }
 
@@ -212,6 +209,7 @@ void walls_add(const Walls *walls, const ContactFrame *frame, Loops *loops, bool
     const ApplyJob job = {walls, frame, vectors_of(walls), linear ? 0.0f : 1.0f, mark};
     const Span all = span_of(walls->nodes), free = span_of(walls->frees), moved = span_of(walls->moves);
     if (walls->grips > 0) LOOPS_ADD(loops, span_once(), hold_bodies, &job);
+    if (!linear) unilateral_add(&job, loops);
     LOOPS_ADD(loops, all, send_back, &job);
     LOOPS_ADD(loops, free, find_free, &job);
     if (walls->grips > 0) {
@@ -300,7 +298,7 @@ void walls_book(const Walls *walls, const ContactFrame *frame)
 /* Adds a weight to a node that is free, from the wall of `at`. */
 static void push_free(const ApplyJob *job, const WallNode *at, const WallNode *to, float weight, const float gravity[3], float *base)
 {
-    float *u = nodes_of(job) + (size_t)to->node * K_NODE_WIDTH, *from = base + (size_t)to->node * K_NODE_WIDTH;
+    float *u = job_nodes(job) + (size_t)to->node * K_NODE_WIDTH, *from = base + (size_t)to->node * K_NODE_WIDTH;
     double gained[3];
     for (int a = 0; a < 3; a++) {
         const float more = weight * gravity[a] / to->mass;

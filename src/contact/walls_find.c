@@ -10,65 +10,15 @@
 #include "contact/wall_bodies.h"
 #include "contact/walls.h"
 #include "contact/walls_list.h"
+#include "contact/walls_lump.h"
+#include "contact/walls_unilateral.h"
 #include "contact/wet_side.h"
-
-/* ---- Symmetric matrices ---- */
 
 static void add_product(float m[6], double scale, const double a[3])
 {
     int k = 0;
     for (int r = 0; r < 3; r++)
         for (int c = r; c < 3; c++) m[k++] += (float)(scale * a[r] * a[c]);
-}
-
-/* The inverse where M has mass; what is left of a direction after the others is left at rest where it is rounding. */
-static void invert(const float m[6], float out[6])
-{
-    static const double LEAST = 1e-5; /* of the trace: lumped in single precision */
-    if (m[1] == 0.0f && m[2] == 0.0f && m[4] == 0.0f) { /* for speed: walls along the axes give diagonals, whose inverse by the same law is this */
-        const float least_of_all = (float)LEAST * fmaxf(m[0] + m[3] + m[5], 0.0f);
-        for (int k = 0; k < 6; k++) out[k] = (k == 0 || k == 3 || k == 5) && m[k] > least_of_all ? 1.0f / m[k] : 0.0f;
-        return;
-    }
-    double a[3][3] = {{m[0], m[1], m[2]}, {m[1], m[3], m[4]}, {m[2], m[4], m[5]}}, inverse[3][3] = {{0}};
-    const double least = LEAST * fmax(a[0][0] + a[1][1] + a[2][2], 0.0);
-    int order[3], count = 0;
-    bool used[3] = {false, false, false};
-    double l[3][3] = {{0}};
-    memset(out, 0, 6 * sizeof *out);
-    for (;;) { /* Cholesky with the largest pivot first */
-        int best = -1;
-        for (int i = 0; i < 3; i++)
-            if (!used[i] && (best < 0 || a[i][i] > a[best][best])) best = i;
-        if (best < 0 || !(a[best][best] > least)) break;
-        used[best] = true;
-        order[count] = best;
-        const double root = sqrt(a[best][best]);
-        for (int i = 0; i < 3; i++) l[i][count] = used[i] && i != best ? 0.0 : a[i][best] / root;
-        for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++)
-                if (!used[i] && !used[j]) a[i][j] -= l[i][count] * l[j][count];
-        for (int i = 0; i < 3; i++)
-            if (!used[i]) a[i][best] = a[best][i] = 0.0;
-        count++;
-    }
-    for (int e = 0; e < count; e++) { /* columns of the inverse, among the pivots */
-        double y[3], x[3];
-        for (int i = 0; i < count; i++) {
-            y[i] = i == e ? 1.0 : 0.0;
-            for (int k = 0; k < i; k++) y[i] -= l[order[i]][k] * y[k];
-            y[i] /= l[order[i]][i];
-        }
-        for (int i = count - 1; i >= 0; i--) {
-            x[i] = y[i];
-            for (int k = i + 1; k < count; k++) x[i] -= l[order[k]][i] * x[k];
-            x[i] /= l[order[i]][i];
-        }
-        for (int i = 0; i < count; i++) inverse[order[i]][order[e]] = x[i];
-    }
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) out[k++] = (float)(0.5 * (inverse[r][c] + inverse[c][r]));
 }
 
 /* ---- Geometry ---- */
@@ -401,23 +351,25 @@ static void way_out(const Profile *profile, int count, double way[3])
     }
 }
 
-/* The node follows the wall with the part `share` of its motion, which is more where that is a rigid body's. */
-static void add_grip(Builder *b, uint32_t index, const Profile *profile, const float share[6])
+/* The node follows the wall with the part `share` of its motion, which is more where that is a rigid body's. Returns the number of the grip, or NO_GRIP. */
+static uint32_t add_grip(Builder *b, uint32_t index, const Profile *profile, const float share[6])
 {
-    if (!profile->owner->body) return;
+    if (!profile->owner->body) return NO_GRIP;
     const WallFoot at = {profile->owner, index, profile->foot, share};
     float moved[3];
-    if (wall_bodies_grip(b->walls, b->frame, b->memory, &at, moved))
-        for (int a = 0; a < 3; a++) ((WallNode *)b->walls->node.data)[index].shift[a] += moved[a];
-    else
+    if (!wall_bodies_grip(b->walls, b->frame, b->memory, &at, moved)) {
         b->failed = true;
+        return NO_GRIP;
+    }
+    for (int a = 0; a < 3; a++) ((WallNode *)b->walls->node.data)[index].shift[a] += moved[a];
+    return b->walls->grips - 1;
 }
 
-static void add_grip_along(Builder *b, uint32_t index, const Profile *profile, double scale)
+static uint32_t add_grip_along(Builder *b, uint32_t index, const Profile *profile, double scale)
 {
     float share[6] = {0};
     add_product(share, scale, profile->axis);
-    add_grip(b, index, profile, share);
+    return add_grip(b, index, profile, share);
 }
 
 static void add_grip_whole(Builder *b, uint32_t index, const Profile *profile, double scale)
@@ -449,6 +401,17 @@ static void hold_viscous(Builder *b, const Profile *profile, int count, const do
     for (int a = 0; a < 3 && by < NORMALS_MAX; a++) shear->surface[a] = profile[by].surface[a];
 }
 
+/* What face `j` does to a node that solids reach, from what all faces up to it add to its shift. */
+static void set_face(WallUnilateral *u, const WallNode *node, int j, double scale, uint32_t grip)
+{
+    double along = 0.0;
+    for (int a = 0; a < 3; a++) along += (double)node->shift[a] * (double)node->normal[j][a];
+    u->held = (1u << (j + 1)) - 1u;
+    u->grip[j] = grip;
+    u->scale[j] = (float)scale;
+    u->surface[j] = scale == 1.0 ? 0.0f : (float)(along / (1.0 - scale));
+}
+
 /* The motion of a node closer than half a cell to faces: of nodes before them, along each of these normals in proportion to the distance; `sticks`: so all of it. */
 static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Profile *profile, int count, bool sticks, const float rest[6])
 {
@@ -456,14 +419,14 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
     double distance[NORMALS_MAX], scale[NORMALS_MAX];
     const uint32_t corner_begin = b->walls->corners;
     way_out(profile, count, image.way);
-    const bool found = add_corners(b, bound, &image, profile, count, distance);
+    const bool found = add_corners(b, bound, &image, profile, count, distance), unilateral = found && !sticks && reach_solid(b->frame, bound->node);
     WallNode *node = (WallNode *)b->walls->node.data + index; /* the list may have moved */
     float matrix[6];
     memcpy(matrix, rest, sizeof matrix);
     for (int j = 0; j < count; j++) {
         double along = 0.0;
         scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
-        if (found && leaves(b, bound, corner_begin, &profile[j], scale[j])) scale[j] = 1.0;
+        if (found && !unilateral && leaves(b, bound, corner_begin, &profile[j], scale[j])) scale[j] = 1.0;
         add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
@@ -477,7 +440,12 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         memset(node->own, 0, sizeof node->own);
     }
     if (sticks) add_grip_whole(b, index, &profile[0], 1.0 - scale[0]);
-    for (int j = 0; j < count && !sticks; j++) add_grip_along(b, index, &profile[j], 1.0 - scale[j]);
+    for (int j = 0; j < count && !sticks; j++) {
+        const uint32_t grip = add_grip_along(b, index, &profile[j], 1.0 - scale[j]);
+        if (unilateral) set_face(&((WallUnilateral *)b->walls->unilateral.data)[b->walls->unilaterals], node, j, scale[j], grip);
+    }
+    if (unilateral) ((WallUnilateral *)b->walls->unilateral.data)[b->walls->unilaterals++].follower = index;
+    node->unilateral = unilateral;
     if (!found) return;
     if (b->frame->viscous) hold_viscous(b, profile, count, scale, sticks);
     node->entry = b->walls->entries++;
@@ -629,14 +597,6 @@ static void give_friction(Walls *walls)
     }
 }
 
-static void square(const Columns *m, float out[6])
-{
-    const Four *row = m->column;
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) out[k++] = row[r][0] * row[c][0] + row[r][1] * row[c][1] + row[r][2] * row[c][2];
-}
-
 static WallOwn kind_of_own(const float own[6], int dimension)
 {
     static const float none[6] = {0};
@@ -650,32 +610,19 @@ static WallOwn kind_of_own(const float own[6], int dimension)
 static void list_motion(Walls *walls, uint32_t i, int dimension)
 {
     const WallNode *node = (const WallNode *)walls->node.data + i;
-    const WallOwn own = kind_of_own(node->own, dimension);
+    const WallOwn own = node->unilateral ? OWN_PART : kind_of_own(node->own, dimension);
     const Four shift = {node->shift[0], node->shift[1], node->shift[2]};
     ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry, node->mass, own, shift};
     if (node->follows) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
     if (own == OWN_NONE && node->link_begin == node->link_moving) return;
-    float inverse[6];
-    invert(node->lump, inverse);
-    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){symmetric_columns(inverse), i, node->link_begin, node->link_moving};
+    if (unilateral_beside(walls, node)) ((uint32_t *)walls->unsure.data)[walls->unsures++] = walls->frees;
+    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){walls_inverse(node->lump), i, node->link_begin, node->link_moving};
 }
 
-/* M = sum m W A^2, what a node has itself included. */
-static void lump(Walls *walls, int dimension)
+static void list_motions(Walls *walls, int dimension)
 {
-    WallNode *node = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
     for (uint32_t i = 0; i < walls->nodes; i++) {
-        float *m = node[i].lump, part[6];
-        for (int k = 0; k < 6; k++) m[k] = node[i].mass * node[i].own[k];
-        for (uint32_t l = node[i].link_begin; l < node[i].link_moving; l++) {
-            const WallEntry *e = &entry[link[l].from];
-            const float mass = node[e->follower].mass * link[l].weight;
-            square(&e->matrix, part);
-            for (int k = 0; k < 6; k++) m[k] += mass * part[k];
-        }
-        if (dimension == 2) m[2] = m[4] = m[5] = 0.0f;
+        walls_lump(walls, i, dimension);
         list_motion(walls, i, dimension);
     }
 }
@@ -794,6 +741,7 @@ static bool bind_nodes(Builder *b, Pool *pool)
 static bool reserve_lists(Walls *walls, uint32_t bounds, int dimension, bool viscous, Memory *memory)
 {
     const size_t images = ((size_t)1 << dimension) - 1;
+    if (!array_reserve(memory, &walls->unilateral, bounds, sizeof(WallUnilateral))) return false;
     if (viscous && !array_reserve(memory, &walls->shear, bounds, sizeof(WallShear))) return false;
     return array_reserve(memory, &walls->entry, bounds, sizeof(WallEntry)) && array_reserve(memory, &walls->mirror, images * bounds, sizeof(WallMirror));
 }
@@ -813,6 +761,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
              array_reserve(memory, &walls->free, walls->nodes, sizeof(WallFree)) && array_reserve(memory, &walls->moved, walls->nodes, sizeof(uint32_t)) &&
+             (walls->unilaterals == 0 || array_reserve(memory, &walls->unsure, walls->nodes, sizeof(uint32_t))) &&
              array_reserve(memory, &walls->vector, (WALL_VECTORS + (walls->bodies > 0)) * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
@@ -821,7 +770,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     }
     if (walls->nodes > 0) memset(walls->vector.data, 0, WALL_VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
-    lump(walls, grid->dimension);
+    list_motions(walls, grid->dimension);
     if (!wall_bodies_bind(walls, frame, memory)) {
         walls_clear(walls);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies", walls->bodies);

@@ -37,6 +37,15 @@ typedef struct ApplyJob {
     const uint8_t *mark;
 } ApplyJob;
 
+static inline float *job_nodes(const ApplyJob *job) { return job->frame->grid->node.data; }
+
+/* What is new of p is taken over. */
+static inline void take_momentum(const ApplyJob *job, uint32_t i)
+{
+    const WallMotion *n = (const WallMotion *)job->walls->motion.data + i;
+    if (!job->mark || job->mark[n->node / (uint32_t)job->frame->grid->block_cells]) job->v.momentum[i] = n->mass * load_node(job_nodes(job), n->node);
+}
+
 /* Per node what bodies that yield add to c0, see wall_bodies.h. */
 static inline Four *yields_at(const ApplyJob *job) { return job->v.back + job->walls->entries; }
 

@@ -66,6 +66,8 @@ typedef struct WallNode {
     uint16_t normals;
     float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's rounded image, see walls_weigh() */
     bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
+    bool unilateral;   /* solids reach it: walls hold it or let it go, see walls_unilateral.h */
+    bool switched;     /* in this walls_apply() a wall did the other */
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
 } WallNode;
@@ -105,6 +107,17 @@ typedef struct WallBody {
     double yielded[6];  /* of the last one with the walls' own motion */
 } WallBody;
 
+#define NO_GRIP UINT32_MAX
+
+/* A node that solids reach: what each wall does to it while that holds it, see walls_unilateral.h. */
+typedef struct WallUnilateral {
+    uint32_t follower;
+    uint32_t held;               /* bit j: face j of the node holds it */
+    uint32_t grip[NORMALS_MAX];  /* where that is a rigid body's, or NO_GRIP */
+    float scale[NORMALS_MAX];    /* share of the motion before it; 1: it is clear of that face */
+    float surface[NORMALS_MAX];  /* the wall's own motion along its normal */
+} WallUnilateral;
+
 /* Who follows a node: an entry, or for the density the node itself. */
 typedef struct WallLink {
     uint32_t from;
@@ -127,11 +140,13 @@ typedef struct Walls {
     Array bound;      /* per such node: its faces */
     Array faced;      /* Bound * of those that have any */
     Array vector;     /* per node: what is passed between loops */
+    Array unilateral; /* WallUnilateral, in the order of the nodes that follow */
+    Array unsure;     /* uint32_t: which of the free nodes have other masses once those switch */
     Array grip;       /* WallGrip, in the order of the nodes that follow */
     Array body;       /* WallBody */
     Array scratch;    /* while S is found */
     Array beside_body; /* uint32_t: which of the free nodes rigid bodies move */
-    uint32_t nodes, frees, moves, entries, shears, mirrors, corners, grips, bodies, beside;
+    uint32_t nodes, frees, moves, entries, shears, mirrors, corners, unilaterals, unsures, grips, bodies, beside;
     bool rubs;        /* a wall has friction */
 } Walls;
 
