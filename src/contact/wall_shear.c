@@ -28,10 +28,12 @@ static void hold(void *context, int32_t begin, int32_t end)
         WallShear *shear = (WallShear *)walls->shear.data + e;
         const WallNode *n = (const WallNode *)walls->node.data + entry->follower;
         if (shear->face == NORMALS_MAX) continue;
-        const Four relative = mean_of(&apply, entry) - shear->surface; /* E~ u~ + c~0 is what the walls made of it and E (B - 1) (u~ - s) */
+        /* E~ u~ + c~0 is what the walls made of it and E (B - 1) (u~ - s); of what the node has itself, too, as give() takes B of all */
+        const Four relative = mean_of(&apply, entry) - shear->surface, itself = apply.v.free[entry->follower] - shear->surface;
         float *nodes = job->frame->grid->node.data;
         shear->before = load_node(job->stage->push, n->node);
-        store_node(load_node(nodes, n->node) + times(&entry->matrix, times(&shear->kept, relative) - relative), nodes, n->node);
+        const Four held = times(&entry->matrix, times(&shear->kept, relative) - relative) + own_of(&apply, entry->follower, times(&shear->kept, itself) - itself);
+        store_node(load_node(nodes, n->node) + held, nodes, n->node);
     }
 }
 

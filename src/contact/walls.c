@@ -12,15 +12,15 @@ enum { GRAIN = 64, WALL_NODE_NS = 20 };
 void walls_free(Walls *walls, Memory *memory)
 {
     Array *arrays[] = {&walls->node, &walls->motion, &walls->free,   &walls->moved, &walls->entry, &walls->shear, &walls->mirror, &walls->corner,
-                       &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->faced,  &walls->vector,
-                       &walls->unilateral, &walls->unsure, &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
+                       &walls->link, &walls->place,  &walls->marked, &walls->begin, &walls->bound, &walls->vector,
+                       &walls->unilateral, &walls->grip, &walls->body,   &walls->beside_body, &walls->scratch};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(memory, arrays[i]);
     walls_clear(walls);
 }
 
 void walls_clear(Walls *walls)
 {
-    walls->nodes = walls->frees = walls->moves = walls->entries = walls->shears = walls->mirrors = walls->corners = walls->unilaterals = walls->unsures = walls->grips = walls->bodies = walls->beside = 0;
+    walls->nodes = walls->frees = walls->moves = walls->entries = walls->shears = walls->mirrors = walls->corners = walls->unilaterals = walls->grips = walls->bodies = walls->beside = 0;
     walls->rubs = false;
 }
 

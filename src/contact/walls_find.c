@@ -615,8 +615,8 @@ static void list_motion(Walls *walls, uint32_t i, int dimension)
     ((WallMotion *)walls->motion.data)[i] = (WallMotion){node->node, node->entry, node->mass, own, shift};
     if (node->follows) ((uint32_t *)walls->moved.data)[walls->moves++] = i;
     if (own == OWN_NONE && node->link_begin == node->link_moving) return;
-    if (unilateral_beside(walls, node)) ((uint32_t *)walls->unsure.data)[walls->unsures++] = walls->frees;
-    ((WallFree *)walls->free.data)[walls->frees++] = (WallFree){walls_inverse(node->lump), i, node->link_begin, node->link_moving};
+    ((WallFree *)walls->free.data)[walls->frees++] =
+        (WallFree){walls_inverse(node->lump), i, node->link_begin, node->link_moving, walls->unilaterals > 0 && unilateral_beside(walls, node)};
 }
 
 static void list_motions(Walls *walls, int dimension)
@@ -723,9 +723,9 @@ static bool bind_nodes(Builder *b, Pool *pool)
         begin[block] = count;
         count += (uint32_t)count_bits(marks[block]);
     }
-    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound)) || !array_reserve(b->memory, &walls->faced, count, sizeof(Bound *))) return false;
+    if (!array_reserve(b->memory, &walls->bound, count, sizeof(Bound)) || !array_reserve(b->memory, &walls->scratch, count, sizeof(Bound *))) return false;
     Bound *bound = walls->bound.data;
-    const Bound **faced = walls->faced.data;
+    const Bound **faced = walls->scratch.data;
     BindJob bind = {b->frame, marks, begin, bound};
     pool_for(pool, grid->node_blocks, 4, bind_blocks, &bind);
     b->bound = faced;
@@ -761,7 +761,6 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
         ok = ok && !builder.failed && add_links(walls, memory) &&
              array_reserve(memory, &walls->motion, walls->nodes, sizeof(WallMotion)) &&
              array_reserve(memory, &walls->free, walls->nodes, sizeof(WallFree)) && array_reserve(memory, &walls->moved, walls->nodes, sizeof(uint32_t)) &&
-             (walls->unilaterals == 0 || array_reserve(memory, &walls->unsure, walls->nodes, sizeof(uint32_t))) &&
              array_reserve(memory, &walls->vector, (WALL_VECTORS + (walls->bodies > 0)) * (size_t)walls->nodes + walls->entries, sizeof(Four));
     }
     if (!ok) {
@@ -771,6 +770,7 @@ pbmpm_result walls_find(Walls *walls, const ContactFrame *frame, Memory *memory,
     if (walls->nodes > 0) memset(walls->vector.data, 0, WALL_VECTORS * (size_t)walls->nodes * sizeof(Four)); /* who is not free has no u~ */
     give_friction(walls);
     list_motions(walls, grid->dimension);
+    if (walls->grips > 0) unilateral_begin(walls, frame, pool);
     if (!wall_bodies_bind(walls, frame, memory)) {
         walls_clear(walls);
         return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for %u rigid bodies", walls->bodies);

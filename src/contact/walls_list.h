@@ -85,6 +85,7 @@ typedef struct WallFree {
     Columns inverse; /* M^-1 */
     uint32_t place;  /* in the list */
     uint32_t link_begin, link_moving;
+    uint32_t unsure; /* its masses hang on nodes that walls may let go */
 } WallFree;
 
 /* A node that follows the wall of a rigid body: where that moves by y and turns by r, the node moves by D (y + r x arm). */
@@ -138,15 +139,13 @@ typedef struct Walls {
     Array marked;     /* uint64_t per node block: bit n, node n is at a wall */
     Array begin;      /* uint32_t per node block: how many such nodes are in blocks before */
     Array bound;      /* per such node: its faces */
-    Array faced;      /* Bound * of those that have any */
     Array vector;     /* per node: what is passed between loops */
     Array unilateral; /* WallUnilateral, in the order of the nodes that follow */
-    Array unsure;     /* uint32_t: which of the free nodes have other masses once those switch */
     Array grip;       /* WallGrip, in the order of the nodes that follow */
     Array body;       /* WallBody */
-    Array scratch;    /* while S is found */
+    Array scratch;    /* while they are found */
     Array beside_body; /* uint32_t: which of the free nodes rigid bodies move */
-    uint32_t nodes, frees, moves, entries, shears, mirrors, corners, unilaterals, unsures, grips, bodies, beside;
+    uint32_t nodes, frees, moves, entries, shears, mirrors, corners, unilaterals, grips, bodies, beside;
     bool rubs;        /* a wall has friction */
 } Walls;
 

@@ -119,11 +119,10 @@ static void lump_again(void *context, int32_t begin, int32_t end)
 {
     const ApplyJob *job = context;
     const Walls *walls = job->walls;
-    const uint32_t *unsure = walls->unsure.data;
     for (int32_t i = begin; i < end; i++) {
-        WallFree *free = (WallFree *)walls->free.data + unsure[i];
+        WallFree *free = (WallFree *)walls->free.data + i;
         const WallNode *n = (const WallNode *)walls->node.data + free->place;
-        if (!has_switched(walls, n)) continue;
+        if (!free->unsure || !has_switched(walls, n)) continue;
         walls_lump(walls, free->place, job->frame->grid->dimension);
         free->inverse = walls_inverse(n->lump);
     }
@@ -135,5 +134,14 @@ void unilateral_add(const ApplyJob *job, Loops *loops)
     if (walls->unilaterals == 0) return;
     LOOPS_ADD(loops, ((Span){(int32_t)walls->nodes, GRAIN, (int64_t)walls->nodes * UNILATERAL_NS / 8}), take, job);
     LOOPS_ADD(loops, ((Span){(int32_t)walls->unilaterals, GRAIN, (int64_t)walls->unilaterals * UNILATERAL_NS}), decide, job);
-    LOOPS_ADD(loops, ((Span){(int32_t)walls->unsures, GRAIN, (int64_t)walls->unsures * UNILATERAL_NS}), lump_again, job);
+    LOOPS_ADD(loops, ((Span){(int32_t)walls->frees, GRAIN, (int64_t)walls->unilaterals * UNILATERAL_NS}), lump_again, job);
+}
+
+void unilateral_begin(const Walls *walls, const ContactFrame *frame, Pool *pool)
+{
+    const ApplyJob job = {walls, frame, vectors_of(walls), 1.0f, NULL};
+    Loops loops;
+    loops_open(&loops, pool);
+    unilateral_add(&job, &loops);
+    loops_run(&loops);
 }

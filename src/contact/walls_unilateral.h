@@ -20,4 +20,7 @@ bool unilateral_beside(const Walls *walls, const WallNode *node);
 /* Decides which walls hold. To be added before momenta are sent back. */
 void unilateral_add(const ApplyJob *job, Loops *loops);
 
+/* The same by the predictor, for what is found once: S of wall_bodies.h. */
+void unilateral_begin(const Walls *walls, const ContactFrame *frame, Pool *pool);
+
 #endif

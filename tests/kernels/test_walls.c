@@ -382,12 +382,12 @@ static void test_marks_go_with_the_obstacle(void)
 
 static size_t count_nodes(const Scene *scene) { return (size_t)scene->world->grid.node_blocks * (size_t)scene->world->grid.block_cells; }
 
-/* Lists the nodes at walls of a predicted scene. */
-static ContactFrame find_walls(Scene *scene)
+/* Lists the nodes at walls of a predicted scene. `liquid`: of what walls hold; else of what they let go. */
+static ContactFrame find_walls_of(Scene *scene, bool liquid)
 {
     World *world = scene->world;
     world->substep = substep_of(1.0 / 60.0, CELL);
-    ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = CELL, .substep = &world->substep, .max_displacement = 32.0f};
+    ContactFrame frame = {.colliders = &world->colliders, .grid = &world->grid, .cell_size = CELL, .substep = &world->substep, .max_displacement = 32.0f, .liquid = liquid};
     predict(scene);
     TEST_ASSERT_EQUAL_INT(PBMPM_OK, contacts_measure(&frame, &world->memory, world->pool));
     world->colliders.contacts = 0;
@@ -395,6 +395,8 @@ static ContactFrame find_walls(Scene *scene)
     TEST_ASSERT_TRUE(walls_any(&world->walls));
     return frame;
 }
+
+static ContactFrame find_walls(Scene *scene) { return find_walls_of(scene, true); }
 
 /* Displacements of the nodes from a pressure that is the same everywhere: q = sum_p m w (x_i - x_p), over the node's mass. */
 static void press_evenly(Scene *scene)
@@ -583,17 +585,19 @@ static void set_free(World *world)
 typedef enum WallScene { UPRIGHT, SLOPED, EDGED, FREE } WallScene;
 
 /* Random masses and motions, and the motion that the walls make of themselves most of. */
-static void check_norm(int dimension, int shift, WallScene walls)
+static void check_norm(int dimension, int shift, WallScene walls, bool liquid)
 {
     Random random = {5};
     Scene scene = walls >= EDGED ? box_in_a_box(dimension, 0.1 * shift) : full_box(cpu_isa(), dimension, 0.1 * shift, 2);
     if (walls == SLOPED) add_slope(scene.world);
     if (walls == FREE) set_free(scene.world);
     for (uint32_t i = 0; i < scene.world->particles.count; i++) scene.world->particles.mass[i] *= (float)random_in(&random, 0.2, 2.0);
-    ContactFrame frame = find_walls(&scene);
+    ContactFrame frame = find_walls_of(&scene, liquid);
     const size_t floats = count_nodes(&scene) * K_NODE_WIDTH;
     float *node = scene.world->args.grid.node, *first = malloc(floats * sizeof *first), *second = malloc(floats * sizeof *second), *of_first = malloc(floats * sizeof *first);
     TEST_ASSERT_TRUE(first && second && of_first);
+    shake(&scene, &random);
+    walls_apply(&scene.world->walls, &frame, scene.world->pool, false, NULL); /* those that leave are let go */
     shake(&scene, &random);
     memcpy(first, node, floats * sizeof *node);
     walls_apply(&scene.world->walls, &frame, scene.world->pool, true, NULL);
@@ -713,8 +717,71 @@ static void test_walls_are_symmetric_and_never_add_motion(void)
 {
     for (int dimension = 2; dimension <= 3; dimension++)
         for (int shift = 0; shift < 10; shift++)
-            for (int walls = UPRIGHT; walls <= FREE; walls++) check_norm(dimension, shift, (WallScene)walls);
+            for (int walls = UPRIGHT; walls <= FREE; walls++)
+                for (int liquid = 0; liquid < 2; liquid++) check_norm(dimension, shift, (WallScene)walls, liquid);
     check_report("walls");
+}
+
+/* All matter of a full box goes up or down by half a cell; `part`: the least and the most that nodes below its middle go once walls are obeyed. */
+static void move_all(int dimension, int shift, bool liquid, float way, double part[2])
+{
+    Scene scene = full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    World *world = scene.world;
+    ContactFrame frame = find_walls_of(&scene, liquid);
+    float *node = world->args.grid.node;
+    const double middle = 0.5 * (world->domain.low[1] + world->domain.high[1]);
+    for (size_t i = 0; i < count_nodes(&scene); i++)
+        for (size_t a = 0; a < 3; a++) node[i * K_NODE_WIDTH + a] = a == 1 && node[i * K_NODE_WIDTH + 3] > 0.0f ? way : 0.0f;
+    walls_apply(&world->walls, &frame, world->pool, false, NULL);
+    part[0] = INFINITY;
+    part[1] = -INFINITY;
+    for (size_t i = 0; i < count_nodes(&scene); i++) {
+        const int cells = world->grid.block_cells;
+        double point[3];
+        contacts_node_position(&frame, (int32_t)i / cells, (int)i % cells, point);
+        if (!(node[i * K_NODE_WIDTH + 3] > 0.0f) || point[1] > middle) continue;
+        part[0] = fmin(part[0], (double)node[i * K_NODE_WIDTH + 1]);
+        part[1] = fmax(part[1], (double)node[i * K_NODE_WIDTH + 1]);
+    }
+    scene_close(&scene);
+}
+
+static void check_shaken(int dimension, int shift)
+{
+    Random random = {13};
+    Scene scene = full_box(cpu_isa(), dimension, 0.1 * shift, 2);
+    ContactFrame frame = find_walls_of(&scene, false);
+    const float *node = scene.world->args.grid.node;
+    for (int round = 0; round < 20; round++) {
+        shake(&scene, &random);
+        const double before = product(&scene, node, node);
+        walls_apply(&scene.world->walls, &frame, scene.world->pool, false, NULL);
+        const double after = product(&scene, node, node);
+        check_near(fmin(after, before), after, 1e-5 * before, "moves more", shift);
+        check_true(after > 0.2 * before, "some of it is left", shift);
+    }
+    scene_close(&scene);
+}
+
+/* Where solids reach, a floor stops what comes and lets go what leaves; liquid it holds both ways. What moves anyhow never comes to move more. */
+static void test_walls_push_solids_and_do_not_pull(void)
+{
+    for (int dimension = 2; dimension <= 3; dimension++)
+        for (int shift = 0; shift < 10; shift++) {
+            double solid[2], liquid[2];
+            check_subject("unilateral", cpu_isa(), dimension);
+            move_all(dimension, shift, false, 0.5f, solid);
+            move_all(dimension, shift, true, 0.5f, liquid);
+            check_near(0.5, solid[0], 1e-6, "leaves by", shift);
+            check_true(liquid[0] < 0.3, "liquid is held", shift);
+            move_all(dimension, shift, false, -0.5f, solid);
+            move_all(dimension, shift, true, -0.5f, liquid);
+            check_near(liquid[0], solid[0], 1e-6, "comes by", shift);
+            check_near(liquid[1], solid[1], 1e-6, "is stopped", shift);
+            check_true(solid[1] > -0.3, "the floor stops", shift);
+            check_shaken(dimension, shift);
+        }
+    check_report("unilateral");
 }
 
 /* What a body yields to is what its walls give, in the substep itself. Sums of floats: a thousandth of the impulse is no rounding. */
@@ -764,6 +831,7 @@ int main(void)
     RUN_TEST(test_marks_go_with_the_obstacle);
     RUN_TEST(test_walls_are_symmetric_and_never_add_motion);
     RUN_TEST(test_the_value_of_a_push);
+    RUN_TEST(test_walls_push_solids_and_do_not_pull);
     RUN_TEST(test_an_even_pressure_moves_nothing_in_a_full_box);
     RUN_TEST(test_edges_give_the_weight_that_the_spline_cuts_off);
     RUN_TEST(test_the_density_at_walls_is_folded);
