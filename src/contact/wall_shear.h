@@ -5,8 +5,8 @@
  *     u~ changes by M^-1 E~^T K (E~ u~ + c~0),   E~ = E B.
  * At a node with orthogonal normals n_k and scales s_k (walls_find.c), E = sum_k s_k n_k n_k^T + (1 - sum_k n_k n_k^T) and
  *     B = sum_k (product of s_j, j != k) n_k n_k^T + (product of all s_j) (1 - sum_k n_k n_k^T),
- * products over the walls that hold it. So what viscosity gives a node behind a wall is multiplied by B, and E^T brings it to the nodes before the wall. The map
- * is symmetric. Its norm is at most that without the wall, as long as no factor is greater than 1 in size: M counts the mass behind the wall once.
+ * products over the walls that hold it. So what viscosity gives a node behind a wall is multiplied by B, and E^T brings it to the nodes before the wall. What a node
+ * that was let go has itself (walls_unilateral.h) is part of E, and multiplied by B, too: so the map is symmetric. Its norm is at most that without the wall, as long as no factor is greater than 1 in size: M counts the mass behind the wall once.
  * What B takes away is what the wall gives. It is in proportion to the viscosity: water slips, honey sticks.
  *
  * Rigid bodies do not hold: they yield to E^T alone, and would be pushed back and forth by a shear that they are told of one step late. */

@@ -8,7 +8,8 @@
  *     u = E u~ + c0,   and   u~ = M^-1 E^T (p - m c0)
  * where p is the momentum (mass times displacement), c0 the wall's own motion, and M >= E^T m E is lumped at the nodes. The map from p to u is symmetric, and its
  * norm is at most that of 1/m (Jensen's inequality), as dual.isph needs. Midway between grid lines it is the reflection of all matter in the wall.
- * A wall pushes and does not pull: what leaves it faster than the pressure before it turns it is not held, see leaves() in walls_find.c.
+ * A wall pushes and does not pull. Solids it lets go at once, see walls_unilateral.h. Liquid that leaves faster than the pressure before it turns it is not held, see
+ * leaves() in walls_find.c.
  * What nodes behind a wall do along it by themselves, as a mirror's do off the grid, is a motion that few iterations do not see: it drove fountains.
  *
  * At outer edges, blunt inner ones and curved walls a node has one normal: the slope of the distances at the nodes around it. It turns as slowly as the spline sees
