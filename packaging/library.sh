@@ -20,13 +20,19 @@ pack() { # TARGET: the archive of what is built in build/TARGET
     name=pbmpm-$(version)-$1
     work=$(mktemp -d)
     DESTDIR='' cmake --install "build/$1" --prefix "$work/$name" >/dev/null
-    cp LICENSE README.md CHANGELOG.md "$work/$name"
+    cp LICENSE CHANGELOG.md samples/minimal.c "$work/$name"
+    cp packaging/ARCHIVE.md "$work/$name/README.md"
+    import=$work/$name/lib/libpbmpm.dll.a
+    if [ -e "$import" ]; then cp "$import" "$work/$name/lib/pbmpm.lib"; fi
+    if [ -e "build/$1/lib/pbmpm.pdb" ]; then cp "build/$1/lib/pbmpm.pdb" "$work/$name/bin"; fi
     rm -f "dist/$name".*
     mkdir -p dist
     case $1 in
     windows-*) (cd "$work" && "$tools/bin/python" -m zipfile -c "$name.zip" "$name") && mv "$work/$name.zip" dist ;;
     *) tar -czf "dist/$name.tar.gz" --owner=0 --group=0 -C "$work" "$name" ;;
     esac
+    shared=$(basename "$(library_of "$1")")
+    [ "$1" = web ] || find "$work/$name" -name "$shared" | grep -q . || stop "$shared is not in the archive"
     rm -rf "$work"
     ls -l dist/"$name".*
 }

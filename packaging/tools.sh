@@ -84,14 +84,15 @@ cross_configure() {
     windows-*) system="-DCMAKE_SYSTEM_NAME=Windows -DCMAKE_RC_COMPILER=$(llvm llvm-windres)" ;;
     linux-*) system="-DCMAKE_SYSTEM_NAME=Linux" ;;
     macos-*) system="-DCMAKE_SYSTEM_NAME=Darwin -DCMAKE_OSX_DEPLOYMENT_TARGET=$macos -DCMAKE_OSX_SYSROOT= -DCMAKE_INSTALL_NAME_TOOL=$(llvm llvm-install-name-tool)" ;;
-    web) system="-DCMAKE_SYSTEM_NAME=WASI -DCMAKE_C_FLAGS=-msimd128 -DBUILD_SHARED_LIBS=OFF -DPBMPM_SAMPLES=OFF" ;;
+    web) system="-DCMAKE_SYSTEM_NAME=WASI -DBUILD_SHARED_LIBS=OFF -DPBMPM_SAMPLES=OFF" ;;
     esac
+    flags="\"-ffile-prefix-map=$PWD=.\"" # no paths of this machine in what is handed out
     case $target in
-    web) processor=wasm32 ;;
+    web) processor=wasm32 flags="-msimd128 $flags" ;;
     *-arm64) processor=aarch64 ;;
     *) processor=x86_64 ;;
     esac
     # shellcheck disable=SC2086 # one word per option
     cmake -S . -B "$folder" -G Ninja $system -DCMAKE_SYSTEM_PROCESSOR=$processor -DCMAKE_C_COMPILER="$compiler" -DCMAKE_OBJCOPY="$(llvm llvm-objcopy)" \
-        -DCMAKE_NM="$(llvm llvm-nm)" -DCMAKE_BUILD_TYPE=Release "$@"
+        -DCMAKE_NM="$(llvm llvm-nm)" -DCMAKE_BUILD_TYPE=Release -DCMAKE_C_FLAGS="$flags" "$@"
 }

@@ -5,6 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(package_dir "${CMAKE_INSTALL_LIBDIR}/cmake/pbmpm")
 install(TARGETS ${libraries} EXPORT pbmpm
+    RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}" # a DLL
     LIBRARY DESTINATION "${CMAKE_INSTALL_LIBDIR}"
     ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pbmpm" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp")
@@ -27,7 +28,7 @@ function(write_pc name pc_libs)
     install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 endfunction()
 
-set(archive "\${libdir}/libpbmpm.a -pthread -lm") # by its path: -lpbmpm would take the shared one beside it
+set(archive "\"\${libdir}/libpbmpm.a\" -pthread -lm") # by its path: -lpbmpm would take the shared one beside it
 if(BUILD_SHARED_LIBS)
     write_pc(pbmpm "-L\${libdir} -lpbmpm")
     if(PBMPM_STATIC)

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "bindings").glob("*/README.md"), ROOT / "samples" / "scenes" / "README.md"])
+DOCUMENTS = sorted([ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "bindings").glob("*/README.md"), ROOT / "samples" / "scenes" / "README.md", ROOT / "packaging" / "ARCHIVE.md"])
 NAMES = [str(path.relative_to(ROOT)) for path in DOCUMENTS]
 HEADERS = sorted([*(ROOT / "include" / "pbmpm").glob("*.h"), *(ROOT / "bindings" / "engine").rglob("*.hpp")])
 LONGEST = 20
