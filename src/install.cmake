@@ -28,7 +28,11 @@ function(write_pc name pc_libs)
     install(FILES "${CMAKE_CURRENT_BINARY_DIR}/${name}.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 endfunction()
 
-set(archive "\"\${libdir}/libpbmpm.a\" -pthread -lm") # by its path: -lpbmpm would take the shared one beside it
+set(archive "-L\${libdir} -l:libpbmpm.a") # by its file: -lpbmpm would take the shared one beside it
+if(APPLE) # whose linker knows no such option; a blank in the path ends it
+    set(archive "\${libdir}/libpbmpm.a")
+endif()
+string(APPEND archive " -pthread -lm")
 if(BUILD_SHARED_LIBS)
     write_pc(pbmpm "-L\${libdir} -lpbmpm")
     if(PBMPM_STATIC)
