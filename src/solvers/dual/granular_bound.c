@@ -20,14 +20,16 @@ typedef struct Bound {
 bool granular_bound_prepare(World *world)
 {
     const size_t blocks = (size_t)world->grid.node_blocks;
-    return array_reserve(&world->memory, &world->dual.bounds, blocks, sizeof(Bound)) && array_reserve(&world->memory, &world->dual.block_bounds, blocks, sizeof(Bound));
+    return array_reserve(&world->memory, &world->dual.bounds, 2 * blocks, sizeof(Bound));
 }
 
 void granular_bound_free(World *world)
 {
     array_free(&world->memory, &world->dual.bounds);
-    array_free(&world->memory, &world->dual.block_bounds);
 }
+
+/* Those of blocks stand behind those of bodies, of which there are no more. */
+static Bound *of_blocks(const World *world) { return (Bound *)world->dual.bounds.data + world->grid.node_blocks; }
 
 /* ---- What growth may gain ---- */
 
@@ -68,7 +70,7 @@ static bool gains(const DualGain *gain, double growth) { return gain->gain > gro
 static void sum_growth(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
-    Bound *of_block = world->dual.block_bounds.data;
+    Bound *of_block = of_blocks(world);
     for (int32_t block = begin; block < end; block++)
         of_block[block] = (Bound){.growth = block < world->grid.particle_blocks && gains(dual_gain_in(world, block), 0.0) ? growth_in(world, block) : 0.0};
 }
@@ -77,7 +79,7 @@ static void sum_growth(void *context, int32_t begin, int32_t end)
 static bool find_gaining(World *world)
 {
     const int32_t *body_of = world->dual.gains.bodies.of_block.data, count = world->dual.gains.bodies.count;
-    const Bound *of_block = world->dual.block_bounds.data;
+    const Bound *of_block = of_blocks(world);
     Bound *bound = world->dual.bounds.data;
     bool any = false;
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_growth, world);
@@ -97,7 +99,7 @@ static void sum_answers(void *context, int32_t begin, int32_t end)
 {
     World *world = context;
     const size_t floats = (size_t)world->grid.block_cells * W;
-    Bound *of_block = world->dual.block_bounds.data;
+    Bound *of_block = of_blocks(world);
     for (int32_t block = begin; block < end; block++) {
         const float *u = (const float *)world->grid.node.data + (size_t)block * floats, *before = world->args.grid.node_before + (size_t)block * floats;
         const float *with = (const float *)world->dual.kept.data + (size_t)block * floats;
@@ -122,7 +124,7 @@ static float kept_of(const DualGain *gain, const Bound *bound)
 static void find_kept(World *world)
 {
     const int32_t *body_of = world->dual.gains.bodies.of_block.data;
-    const Bound *of_block = world->dual.block_bounds.data;
+    const Bound *of_block = of_blocks(world);
     Bound *bound = world->dual.bounds.data;
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, sum_answers, world);
     for (int32_t block = 0; block < world->grid.node_blocks; block++) {
