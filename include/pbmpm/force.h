@@ -28,7 +28,8 @@ typedef enum pbmpm_force_kind {
     PBMPM_FORCE_DRAG = 3,    /**< acceleration -k (v - w) with k = strength * s and w = velocity + spin * (n cross r): wind, a whirl, or,
                                   with w = 0, a brake. Negative strengths are refused. */
     PBMPM_FORCE_GRAB = 4,    /**< matter takes on w, as above: DRAG with k = -60 ln(1 - s) per second, infinite where s = 1: there its
-                                  velocity is w but for what materials and obstacles do */
+                                  velocity is w, whatever hangs from it, but within a cell of obstacles these come first. No pull is
+                                  too strong for it: where that matters use DRAG */
     PBMPM_FORCE_KIND_FORCE32 = 0x7fffffff
 } pbmpm_force_kind;
 
@@ -43,7 +44,8 @@ typedef enum pbmpm_falloff {
 
 /** A force. Fill it with pbmpm_force_def_init(), then change what differs.
  *
- *  Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. They act on blocks in range only.
+ *  Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. Nodes that a GRAB holds with s = 1 also keep
+ *  their velocity while materials act. Forces act on blocks in range only.
  *  Let v be a node's velocity after the transfer. a is the sum of gravity and all accelerations. k is that of all drags,
  *  and w the mean of their winds, weighted by k. The velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
  *      v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
@@ -70,7 +72,8 @@ typedef struct pbmpm_force_status {
     uint32_t size;     /**< sizeof(pbmpm_force_status), set by the caller */
     uint32_t nodes;    /**< nodes with matter that felt it in the last substep */
     double impulse[3]; /**< sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
-                            materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w. */
+                            materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.
+                            GRAB where s = 1: and what it bears while materials act, shared alike by those that hold the same node */
 } pbmpm_force_status;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

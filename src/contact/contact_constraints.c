@@ -495,7 +495,7 @@ void constraints_turn_aside(const ContactFrame *frame, int32_t block, double dis
         double inward = 0.0;
         for (int a = 0; a < 3; a++) inward += (displacement[a] - (double)contact->surface[a]) * (double)contact->normal[a];
         for (int a = 0; a < 3; a++) {
-            if (is_held(contact)) displacement[a] = 0.0;
+            if (is_held(contact)) displacement[a] = (double)contact->surface[a];
             if (inward < 0.0) displacement[a] -= inward * (double)contact->normal[a];
         }
     }

@@ -123,6 +123,21 @@ double contacts_momentum_scale(const ContactFrame *frame)
     return pow(frame->cell_size, frame->grid->dimension) * frame->cell_size / frame->substep->dt;
 }
 
+bool contacts_held_gain(const ContactFrame *frame, int32_t block, int node, double gained[3])
+{
+    const Colliders *colliders = frame->colliders;
+    if (colliders->contacts == 0 || !frame->grabbed || !(frame->grabbed[block] >> node & 1)) return false;
+    const uint32_t *begin = (const uint32_t *)colliders->contact_begin.data + block;
+    const double *booked = colliders->impulses.contact.data;
+    for (uint32_t i = begin[0]; i < begin[1]; i++) {
+        const Contact *contact = (const Contact *)colliders->contact.data + i;
+        if (contact->node != node || contact->obstacle != colliders->obstacle_count) continue;
+        for (int a = 0; a < 3; a++) gained[a] = contacts_momentum_scale(frame) * booked[3 * (size_t)i + (size_t)a];
+        return true;
+    }
+    return false;
+}
+
 void contacts_book(const ContactFrame *frame)
 {
     const Colliders *colliders = frame->colliders;

@@ -62,6 +62,7 @@ typedef struct ContactFrame {
     bool viscous;                /* some of it has a viscosity, which walls hold: see wall_shear.h */
     bool apart;                  /* walls leave those nodes to contacts: the joint solver */
     const uint64_t *held;   /* per node block: bit n, node n stands still whatever happens; null: none does */
+    const uint64_t *grabbed; /* likewise: node n goes where the predictor says, where no obstacle is within a cell; null: none does */
     struct ObstacleCache *cache;         /* what may be taken over from the last substep; null: nothing, and nothing is kept */
     const float *gap;            /* Colliders.gap once it is measured; null before */
     const pbmpm_material_def *material; /* of the world, where an obstacle does not act on all matter; null: each does */
@@ -105,6 +106,9 @@ void contacts_hold(const ContactFrame *frame, int32_t begin, int32_t end);
 
 /* kg m/s per mass times displacement as the kernels count them. */
 double contacts_momentum_scale(const ContactFrame *frame);
+
+/* What a node that is grabbed gained in this substep from what grabs it [kg m/s]; false: it is not. */
+bool contacts_held_gain(const ContactFrame *frame, int32_t block, int node, double gained[3]);
 
 /* Adds what the contacts booked in this substep to the impulses of their obstacles. */
 void contacts_book(const ContactFrame *frame);

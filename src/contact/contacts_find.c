@@ -234,16 +234,28 @@ static void look_around(const ContactFrame *frame, int32_t block, Around *around
     for (int i = 0; i < around->near.count; i++) around->reach[i] = reach_of(frame, around->near.obstacle[i], block, centre);
 }
 
-/* Nodes that are held stick to an obstacle that does not move. */
+static bool is_grabbed(const ContactFrame *frame, int32_t block, int node)
+{
+    if (!frame->grabbed || !(frame->grabbed[block] >> node & 1)) return false;
+    return !frame->gap || frame->gap[(size_t)block * (size_t)frame->grid->block_cells + (size_t)node] >= 1.0f;
+}
+
+/* Nodes that are held stick to an obstacle that is nowhere: those that sleep stay, those that are grabbed go where the predictor put them. At obstacles, these come
+ * first. */
 static uint32_t contacts_of_held(const ContactFrame *frame, int32_t block, Contact *out)
 {
     const Grid *grid = frame->grid;
     const float *node = (const float *)grid->node.data + (size_t)block * (size_t)grid->block_cells * K_NODE_WIDTH;
     uint32_t count = 0;
     for (int i = 0; i < grid->block_cells; i++) {
-        if (!(frame->held[block] >> i & 1) || node[i * K_NODE_WIDTH + 3] == 0.0f) continue;
-        if (out)
+        const float *u = node + i * K_NODE_WIDTH;
+        const bool sleeps = frame->held && frame->held[block] >> i & 1;
+        const bool grabbed = !sleeps && is_grabbed(frame, block, i);
+        if (!(sleeps || grabbed) || u[3] == 0.0f) continue;
+        if (out) {
             out[count] = (Contact){.node = (uint16_t)i, .obstacle = (uint16_t)frame->colliders->obstacle_count, .friction = PBMPM_FRICTION_STICK};
+            for (int a = 0; a < 3 && grabbed; a++) out[count].surface[a] = u[a];
+        }
         count++;
     }
     return count;
@@ -275,7 +287,7 @@ static void find_in_blocks(void *context, int32_t begin, int32_t end)
         around.near.count = 0;
         if (may_touch(frame, block)) look_around(frame, block, &around);
         if (around.near.count > 0) contacts = contacts_of_block(frame, &around, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] : NULL);
-        if (frame->held && frame->held[block]) {
+        if ((frame->held && frame->held[block]) || (frame->grabbed && frame->grabbed[block])) {
             contacts += contacts_of_held(frame, block, listed ? (Contact *)colliders->contact.data + contact_begin[block] + contacts : NULL);
         }
         if (!job->write) contact_begin[block + 1] = contacts;
@@ -342,7 +354,7 @@ pbmpm_result contacts_find(const ContactFrame *frame, Memory *memory, Pool *pool
     Colliders *colliders = frame->colliders;
     const int32_t blocks = frame->grid->node_blocks;
     colliders->contacts = 0;
-    if (colliders->obstacle_count == 0 && !frame->held) return PBMPM_OK;
+    if (colliders->obstacle_count == 0 && !frame->held && !frame->grabbed) return PBMPM_OK;
     colliders->obstacle[colliders->obstacle_count] = (Obstacle){0};
     const size_t ends = (size_t)blocks + 1;
     if (!array_reserve(memory, &colliders->contact_begin, ends, sizeof(uint32_t)))

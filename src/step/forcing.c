@@ -71,11 +71,13 @@ static void wind_at(const Force *force, const double point[3], double out[3])
     if (force->solid.dimension == 2) out[2] = 0.0;
 }
 
-/* k dt. Infinity is 1e9: what is left of a velocity is then 0, and of an acceleration a billionth. */
+/* k dt where it is infinite: what is left of a velocity is then 0, and of an acceleration a billionth. */
+static const double INFINITE_DRAG = 1e9;
+
 static double drag_at(const Force *force, double share, const Substep *substep)
 {
     const double rate = force->def.kind == PBMPM_FORCE_DRAG ? (double)force->def.strength * share : -REFERENCE_RATE * log1p(-share);
-    return fmin(rate * substep->dt, 1e9);
+    return fmin(rate * substep->dt, INFINITE_DRAG);
 }
 
 /* ---- At a node ---- */
@@ -187,8 +189,10 @@ static Reaching reaching_block(const ForceJob *job, const double corner[3])
     return reaching;
 }
 
-static void change_block(const ForceJob *job, int32_t block, const double corner[3], const Reaching *reaching, ForceShare *shares)
+/* Returns which nodes are held, as Forces.held says. */
+static uint64_t change_block(const ForceJob *job, int32_t block, const double corner[3], const Reaching *reaching, ForceShare *shares)
 {
+    uint64_t held = 0;
     const World *world = job->world;
     const double dx = (double)world->def.cell_size;
     const size_t first = (size_t)block * (size_t)world->grid.block_cells * K_NODE_WIDTH;
@@ -201,6 +205,7 @@ static void change_block(const ForceJob *job, int32_t block, const double corner
         if (u[3] == 0.0f) continue;
         for (int a = 0; a < world->def.dimension; a++) point[a] = corner[a] + local[a] * dx;
         feel(world, reaching, point, &felt);
+        held |= (uint64_t)(felt.total_drag >= INFINITE_DRAG) << i;
         if (felt.any) {
             change_node(job, &felt, u, gained);
             add_impulses(reaching, &felt, gained, (double)u[3] * world_cell_volume(world), shares);
@@ -208,24 +213,29 @@ static void change_block(const ForceJob *job, int32_t block, const double corner
         for (int a = 0; a < world->def.dimension; a++) reach = fmaxf(reach, fabsf(u[a]));
     }
     ((float *)world->grid.node_reach.data)[block] = reach;
-    if (!world->args.grid.node_base) return;
-    memcpy(world->args.grid.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
+    if (world->args.grid.node_base) memcpy(world->args.grid.node_base + first, node, (size_t)world->grid.block_cells * K_NODE_WIDTH * sizeof(float));
+    return held;
+}
+
+static void block_corner(const World *world, int32_t block, double corner[3])
+{
+    const int32_t *place = (const int32_t *)world->grid.coordinate.data + 3 * block;
+    for (int a = 0; a < 3; a++)
+        corner[a] = a < world->grid.dimension ? (double)(world->grid.anchor[a] + place[a] * K_BLOCK_AXIS) * (double)world->def.cell_size : 0.0;
 }
 
 static void change_blocks(void *context, int32_t begin, int32_t end)
 {
     const ForceJob *job = context;
-    const Grid *grid = &job->world->grid;
     ForceShare *shares = job->world->forces.share.data;
+    uint64_t *held = job->world->forces.held.data;
     for (int32_t block = begin; block < end; block++) {
-        const int32_t *place = (const int32_t *)grid->coordinate.data + 3 * block;
-        double corner[3] = {0};
+        double corner[3];
         ForceShare *own = shares + (size_t)block * job->on;
         memset(own, 0, job->on * sizeof *own);
-        for (int a = 0; a < grid->dimension; a++)
-            corner[a] = (double)(grid->anchor[a] + place[a] * K_BLOCK_AXIS) * (double)job->world->def.cell_size;
+        block_corner(job->world, block, corner);
         const Reaching reaching = reaching_block(job, corner);
-        if (reaching.count) change_block(job, block, corner, &reaching, own);
+        held[block] = reaching.count ? change_block(job, block, corner, &reaching, own) : 0;
     }
 }
 
@@ -233,18 +243,27 @@ static pbmpm_result take_memory(World *world, uint32_t on, size_t floats, bool k
 {
     Forces *forces = &world->forces;
     if (array_reserve(&world->memory, &forces->share, (size_t)world->grid.node_blocks * on, sizeof(ForceShare)) &&
+        array_reserve(&world->memory, &forces->held, (size_t)world->grid.node_blocks, sizeof(uint64_t)) &&
         (!keep || array_reserve(&world->memory, &forces->before, floats, sizeof(float))))
         return PBMPM_OK;
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the forces on %d blocks", world->grid.node_blocks);
 }
 
+static uint32_t forces_that_are_on(World *world, ForceJob *job)
+{
+    Forces *forces = &world->forces;
+    *job = (ForceJob){.world = world};
+    for (uint32_t slot = 0; slot < forces->used; slot++)
+        if (forces->slot[slot].generation != 0 && forces->slot[slot].def.enabled) job->force[job->on++] = &forces->slot[slot];
+    return job->on;
+}
+
 pbmpm_result forces_apply(World *world)
 {
     Forces *forces = &world->forces;
-    ForceJob job = {.world = world};
-    for (uint32_t slot = 0; slot < forces->used; slot++)
-        if (forces->slot[slot].generation != 0 && forces->slot[slot].def.enabled) job.force[job.on++] = &forces->slot[slot];
-    forces->on = job.on;
+    ForceJob job;
+    forces->on = forces_that_are_on(world, &job);
+    forces->holds = false;
     if (job.on == 0) return PBMPM_OK;
     const size_t floats = (size_t)world->grid.node_blocks * (size_t)world->grid.block_cells * K_NODE_WIDTH;
     const bool keep = world->args.grid.node_base != NULL;
@@ -255,11 +274,42 @@ pbmpm_result forces_apply(World *world)
         world->args.grid.node_before = forces->before.data;
     }
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, change_blocks, &job);
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) forces->holds = forces->holds || ((const uint64_t *)forces->held.data)[block];
     return PBMPM_OK;
 }
 
-void forces_account(Forces *forces, int32_t node_blocks)
+/* ---- Accounts ---- */
+
+/* What the solution took from or gave to the nodes that a block's grabs hold. Grabs that hold the same node bear it alike, as they share its wind. */
+static void account_held(World *world, const ForceJob *job, const ContactFrame *contacts, int32_t block)
 {
+    ForceShare *shares = (ForceShare *)world->forces.share.data + (size_t)block * job->on;
+    double corner[3];
+    block_corner(world, block, corner);
+    const Reaching reaching = reaching_block(job, corner);
+    for (int i = 0; i < world->grid.block_cells; i++) {
+        double point[3], gained[3], share[PBMPM_MAX_FORCES], all = 0.0;
+        if (!contacts_held_gain(contacts, block, i, gained)) continue;
+        contacts_node_position(contacts, block, i, point);
+        for (int k = 0; k < reaching.count; k++) {
+            const Force *force = reaching.force[k];
+            const bool holds = is_drag(&force->def) && drag_at(force, share_at(force, point), &world->substep) >= INFINITE_DRAG;
+            all += share[k] = holds ? 1.0 : 0.0;
+        }
+        for (int k = 0; k < reaching.count && all > 0.0; k++)
+            for (int a = 0; a < 3; a++) shares[reaching.place[k]].impulse[a] += share[k] / all * gained[a];
+    }
+}
+
+void forces_account(World *world, const ContactFrame *contacts)
+{
+    Forces *forces = &world->forces;
+    const int32_t node_blocks = world->grid.node_blocks;
+    const uint64_t *held = forces->held.data;
+    ForceJob job;
+    if (forces->holds && forces_that_are_on(world, &job))
+        for (int32_t block = 0; block < node_blocks; block++)
+            if (held[block]) account_held(world, &job, contacts, block);
     const ForceShare *shares = forces->share.data;
     uint32_t place = 0;
     for (uint32_t slot = 0; slot < forces->used && forces->on; slot++) {

@@ -2,11 +2,12 @@
 #ifndef PBMPM_SRC_STEP_FORCING_H
 #define PBMPM_SRC_STEP_FORCING_H
 
+#include "contact/contacts.h"
 #include "world/world.h"
 
 /* Changes the predictor of a substep. On failure (no memory) it is as it was. */
 pbmpm_result forces_apply(World *world);
-/* That substep is done: what the forces did in it counts. */
-void forces_account(Forces *forces, int32_t node_blocks);
+/* That substep is done, and what its contacts gave is booked: what the forces did in it counts. */
+void forces_account(World *world, const ContactFrame *contacts);
 
 #endif

@@ -208,6 +208,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .max_displacement = world->settings.max_displacement,
                                .fall = gravity_fall(world, &world->substep),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
+                               .grabbed = world->forces.holds ? world->forces.held.data : NULL,
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,
@@ -216,6 +217,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .apart = solver == SOLVER_JOINT,
                                .stays = by_ratio ? world->materials.kernel : NULL};
     colliders_begin_substep(&world->colliders, &world->domain, world->def.dimension, part, world->settings.substeps);
+    world->colliders.measures = world->colliders.measures || world->forces.holds; /* a grab's impulse is always known */
     walls_clear(&world->walls);
     pbmpm_result result = reach_find_groups(contacts, world->materials.def, world->particles.of_material, &world->memory);
     if (result == PBMPM_OK) result = obstacle_cache_open(contacts, cache, &world->memory);
@@ -254,7 +256,7 @@ static uint32_t go(World *world, int part, const ContactFrame *contacts)
     if (push.pushes_later) LOOPS_ADD(&loops, grid_rows(&world->grid, BLOCK_GRAIN), push_out_blocks, &push);
     loops_run(&loops);
     contacts_book_push(contacts, &world->particles);
-    forces_account(&world->forces, world->grid.node_blocks);
+    forces_account(world, contacts);
     const uint32_t drained = sinks_mark(world, (uint32_t)part);
     return drained + collect_events(world, (uint32_t)part);
 }

@@ -21,6 +21,8 @@ typedef struct Forces {
     uint32_t used; /* slots [used, PBMPM_MAX_FORCES) were never taken */
     Array share;   /* ForceShare per node block and force that is on */
     Array before;  /* the predictor without forces, for solvers that want it */
+    Array held;    /* uint64_t per node block: bit n, a grab with the share 1 holds node n */
+    bool holds;    /* there is such a node */
     uint32_t on;   /* forces that were on in the present substep */
 } Forces;
 

@@ -217,7 +217,7 @@ static void check_reach(int dimension, uint32_t seed)
     }
     TEST_ASSERT_EQUAL_MEMORY(node, world->grid.node_base.data, node_floats() * sizeof(float));
     TEST_ASSERT_EQUAL_MEMORY(before, world->args.grid.node_before, node_floats() * sizeof(float));
-    forces_account(&world->forces, world->grid.node_blocks);
+    forces_account(world, &(ContactFrame){.colliders = &world->colliders, .grid = &world->grid});
     TEST_ASSERT_DOUBLE_WITHIN(1e-6 * impulse + 1e-9, impulse, forces_find(&world->forces, id)->impulse[1]);
     world_destroy(world);
     world = NULL;
@@ -263,7 +263,7 @@ static void check_drag(pbmpm_force_kind kind)
                 size += fabs(expected - (double)before[at + a]) * 25.0 * (double)before[at + 3] * world_cell_volume(world);
             }
         }
-    forces_account(&world->forces, world->grid.node_blocks);
+    forces_account(world, &(ContactFrame){.colliders = &world->colliders, .grid = &world->grid});
     for (int a = 0; a < 2; a++) TEST_ASSERT_DOUBLE_WITHIN(1e-5 * size, impulse[a], forces_find(&world->forces, id)->impulse[a]);
     world_destroy(world);
     world = NULL;

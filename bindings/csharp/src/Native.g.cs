@@ -395,7 +395,8 @@ namespace Pbmpm
         /// with w = 0, a brake. Negative strengths are refused.</summary>
         Drag = 3,
         /// <summary>matter takes on w, as above: DRAG with k = -60 ln(1 - s) per second, infinite where s = 1: there its
-        /// velocity is w but for what materials and obstacles do</summary>
+        /// velocity is w, whatever hangs from it, but within a cell of obstacles these come first. No pull is
+        /// too strong for it: where that matters use DRAG</summary>
         Grab = 4,
     }
 
@@ -1220,7 +1221,8 @@ namespace Pbmpm
 
     /// <summary>A force. Fill it with pbmpm_force_def_init(), then change what differs.
     ///
-    /// Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. They act on blocks in range only.
+    /// Forces act on the nodes of the grid in the predictor of each substep, before materials and obstacles. Nodes that a GRAB holds with s = 1 also keep
+    /// their velocity while materials act. Forces act on blocks in range only.
     /// Let v be a node's velocity after the transfer. a is the sum of gravity and all accelerations. k is that of all drags,
     /// and w the mean of their winds, weighted by k. The velocity becomes the exact solution of v' = a - k (v - w) after the substep dt:
     /// v exp(-k dt) + w (1 - exp(-k dt)) + a (1 - exp(-k dt)) / k       (k = 0: v + a dt)
@@ -1277,7 +1279,8 @@ namespace Pbmpm
         /// <summary>nodes with matter that felt it in the last substep</summary>
         public uint Nodes;
         /// <summary>sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
-        /// materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.</summary>
+        /// materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.
+        /// GRAB where s = 1: and what it bears while materials act, shared alike by those that hold the same node</summary>
         public Double3 Impulse;
     }
 

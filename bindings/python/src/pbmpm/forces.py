@@ -20,7 +20,7 @@ class ForceKind(Choice):
     RADIAL = ffi.integer_const("PBMPM_FORCE_RADIAL")  #: pushes away from the centre; pulls when negative
     VORTEX = ffi.integer_const("PBMPM_FORCE_VORTEX")  #: accelerates around the axis `direction` (2D: counter-clockwise)
     DRAG = ffi.integer_const("PBMPM_FORCE_DRAG")  #: drags towards `velocity` and `spin`: wind, a whirl, or a brake
-    GRAB = ffi.integer_const("PBMPM_FORCE_GRAB")  #: matter takes on `velocity` and `spin`
+    GRAB = ffi.integer_const("PBMPM_FORCE_GRAB")  #: matter takes on `velocity` and `spin`, and is held
 
 
 class Falloff(Choice):
