@@ -9,6 +9,7 @@
 #include "solvers/passes.h"
 #include "world/sleep_rows.h"
 #include "world/sleep_wake.h"
+#include "world/sleep_waves.h"
 
 /* ---- Beginning and ending ---- */
 
@@ -379,18 +380,33 @@ static bool would_move(const World *world, SleepBlock *block, const float *drift
     return !(gained2 <= limit * limit && fastest <= limit);
 }
 
+/* Whether a still block would move; then all that waves from it reach wake with it. */
+static void find_moving(World *world)
+{
+    Sleep *sleep = &world->sleep;
+    bool any = false;
+    solver_over_still(world, world->kernels->drift);
+    for (int32_t b = 0; b < world->grid.still_blocks; b++) {
+        SleepBlock *block = sleep_list_block(&sleep->active, (uint32_t)b);
+        if (!would_move(world, block, (const float *)sleep->drift.data + (size_t)b * K_DRIFT_WIDTH)) continue;
+        block->woken = 1;
+        sleep->woken_blocks++;
+        any = true;
+    }
+    if (!any) return;
+    sleep->stirred = true;
+    sleep_wake_by_waves(world);
+}
+
 void sleep_judge(World *world)
 {
     Sleep *sleep = &world->sleep;
     Particles *p = &world->particles;
     const uint32_t *begin = world->grid.block_begin.data;
-    solver_over_still(world, world->kernels->drift);
+    find_moving(world);
     for (int32_t b = 0; b < world->grid.still_blocks; b++) {
-        SleepBlock *block = sleep_list_block(&sleep->active, (uint32_t)b);
-        if (would_move(world, block, (const float *)sleep->drift.data + (size_t)b * K_DRIFT_WIDTH)) {
-            block->woken = 1;
-            sleep->stirred = true;
-            sleep->woken_blocks++;
+        const SleepBlock *block = sleep_list_block(&sleep->active, (uint32_t)b);
+        if (block->woken) {
             sleep->still_rows -= block->rows;
             sleep->still_blocks--;
         } else if (p->pressure) {

@@ -11,6 +11,8 @@
  * So awake matter sees a ring of complete matter around it. Nodes that also belong to particles that are asleep have not all of their mass;
  * they are held where they are, as by an obstacle that matter sticks to. They are at least two nodes away from any particle that moves.
  *
+ * Waking spreads: a block that would move wakes what learns of it in the same substep, see sleep_waves.h. So a tower falls as one when its support goes.
+ *
  * Falling asleep: the root mean square speed of the particles of the block and of each neighbour stays below sleep_speed for sleep_time.
  * Waking: something enters, what a drowsy block would do says so (see sleep_judge()), or a call touches it.
  *
@@ -34,7 +36,10 @@ typedef struct SleepBlock {
     uint32_t index;    /* while the list is changed: where it goes; else 0 */
     uint32_t joined;   /* of those, how many have come since it fell asleep */
     float quiet;       /* awake: for how long it has been quiet [s] */
-    float gained[3];   /* drowsy: velocity that it would have got lately [m/s] */
+    union {
+        float gained[3]; /* drowsy: velocity that it would have got lately [m/s] */
+        float crossing;  /* asleep: see sleep_crossing() */
+    };
     float liquid_volume, liquid_mass; /* asleep: of its liquid particles, as Particles.mass counts */
 } SleepBlock;
 

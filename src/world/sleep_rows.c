@@ -1,5 +1,6 @@
 #include "world/sleep_rows.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -113,6 +114,19 @@ void sleep_take_out(World *world)
     sleep_list_index(&sleep->active);
 }
 
+float sleep_crossing(const World *world, uint32_t first, uint32_t count)
+{
+    const double block = K_BLOCK_AXIS * (double)world->def.cell_size;
+    const Particles *p = &world->particles;
+    float least = FLT_MAX;
+    for (uint32_t row = first; row < first + count; row++) {
+        const pbmpm_material_def *def = &world->materials.def[p->material[row]];
+        if ((row > first && p->material[row] == p->material[row - 1]) || def->kind == PBMPM_LIQUID) continue;
+        least = fminf(least, (float)(block / (material_wave_speed(def) * world->sleep.dt)));
+    }
+    return least;
+}
+
 /* The liquid of a block that falls asleep, whose rows begin at `first`. */
 static void weigh(const World *world, SleepBlock *block, uint32_t first)
 {
@@ -135,6 +149,7 @@ void sleep_settle(World *world)
         *block = *sleep_list_block(&sleep->active, leaving);
         block->stage = SLEEP_ASLEEP;
         weigh(world, block, sleep->rows);
+        block->crossing = sleep_crossing(world, sleep->rows, block->rows);
         ((SleepPiece *)sleep->piece.data)[sleep->pieces++] = (SleepPiece){sleep->asleep.count++, sleep->rows, block->rows};
         sleep->rows += block->rows;
     }

@@ -92,3 +92,40 @@ def test_to_remove_nothing_moves_no_row() -> None:
         assert world.remove_in(pbmpm.Sphere((50, 0, 0), 0.1)) == 0
         world.remove(np.zeros((0, 2), np.uint32))
         assert np.array_equal(world.ids.array(), before)
+
+
+TOWERS = {
+    "rubber": pbmpm.Elastic(young_modulus=1e6),
+    "clay": pbmpm.Visco(density=1000, young_modulus=1e6),
+}
+
+
+@pytest.mark.parametrize("material", TOWERS)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_tower_asleep_falls_when_its_floor_goes(dimension: int, material: str) -> None:
+    """A part at the height h learns it when a wave has come there, after h / c. The call that takes the floor, and the waking, each take a substep more."""
+    cell, gravity, high = (0.025, 9.81, 1.2) if dimension == 2 else (0.05, 9.81, 1.0)
+    matter = TOWERS[material]
+    with pbmpm.World(
+        dimension,
+        cell,
+        gravity=(0, -gravity, 0)[:dimension],
+        domain=((0, -1, 0)[:dimension], (1.2, 3, 1.2)[:dimension]),
+        domain_friction=0.5,
+        sleeping=True,
+    ) as world:
+        floor = world.add_collider(pbmpm.Box((0.6, 0.95, 0.6)[:dimension], (0.5, 0.05, 0.5)[:dimension]))
+        body = pbmpm.Box((0.6, 1 + 0.5 * high, 0.6)[:dimension], (0.2, 0.5 * high, 0.2)[:dimension])
+        world.fill(body, world.add_material(matter))
+        for _ in range(5 * RATE):
+            world.step(1 / RATE)
+        assert world.stats.particles_asleep == len(world)
+        floor.destroy()
+        steps = 24
+        for _ in range(steps):
+            world.step(1 / RATE)
+        nu = matter.poisson_ratio
+        modulus = matter.young_modulus * (1 - nu) / ((1 + nu) * (1 - 2 * nu))  # lambda + 2 mu
+        late = 0.5 * high * np.sqrt(1000 / modulus) + 2 / RATE
+        fallen = -float(world.velocities[...][:, 1].mean())
+        assert gravity * (steps / RATE - late) < fallen < gravity * steps / RATE * 1.02  # 2 %: what springs down at its foot
