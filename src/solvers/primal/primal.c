@@ -717,10 +717,10 @@ void primal_solve(World *world, const ContactFrame *contacts)
     primal_yield_keep_momentum(&p);
     primal_find_spin(&p);
     primal_over_blocks(&p, write_motion);
+    primal_find_bounces(&p); /* before impulses are booked, which uses up the gradient */
     if (p.yields)
         primal_yield_book(&p, primal_kept_motion(&p));
     else
         constraints_book_impulses(contacts, p.gradient, p.best, primal_kept_motion(&p), p.base, p.slip_min);
-    primal_find_bounces(&p);
     primal_yield_close(&p);
 }

@@ -19,7 +19,7 @@
 #include "world/sleep_rows.h"
 
 static const double KEPT = 1.0;     /* all of it: with more a ball would bounce higher than it fell */
-static const double IMPACT = 2.0;   /* times its weight: what pushes a body less carries it, or it rolls */
+static const double IMPACT = 2.0;   /* times its load, see load_of(): what pushes a body less carries it, or it rolls */
 static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
 static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
 
@@ -45,23 +45,32 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
     sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
-/* W */
-static double exchanged(const double *sum)
+static ContactExchange exchange_of(const double *sum)
 {
     ContactExchange all;
     memcpy(&all, sum + 7, sizeof all);
-    return constraints_exchanged_work(&all, sum + 4);
+    return all;
+}
+
+/* What a body bears at rest: its weight, and what contacts push against each other where it is squeezed. That changes no momentum, it is half of what sizes add up to
+ * beyond their sum. Were it not counted, what is squeezed without gravity would swing for ever, and push with up to twice its force. */
+static double load_of(const RigidBody *body, const float *g)
+{
+    const ContactExchange all = exchange_of(body->sum);
+    const double given = sqrt(all.given[0] * all.given[0] + all.given[1] * all.given[1] + all.given[2] * all.given[2]);
+    return body->mass[0][0] * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])) + 0.5 * fmax(0.0, all.size - given);
 }
 
 /* Alone with a rigid body that yields, matter shares what both lost with it: its impulses count 1 + s times, too. */
 static void find_bounce(RigidBody *body, const BodySum *of, const float *g, const YieldBounce *other)
 {
-    const double weight = IMPACT * body->mass[0][0] * sqrt((double)(g[0] * g[0] + g[1] * g[1] + g[2] * g[2])), *push = body->sum + 4;
-    const double *sum = body->sum, work = exchanged(body->sum), gave = other ? other->lost : work, lost = KEPT * (of->before + gave - of->after - sum[3]);
+    const ContactExchange all = exchange_of(body->sum);
+    const double load = IMPACT * load_of(body, g), *push = body->sum + 4, *sum = body->sum;
+    const double work = constraints_exchanged_work(&all, push), gave = other ? other->lost : work, lost = KEPT * (of->before + gave - of->after - sum[3]);
     if (other) body->sum[0] += other->square;
     body->sum[1] += other ? other->along : -work;
     body->bounce = 0.0;
-    if (push[0] * push[0] + push[1] * push[1] + push[2] * push[2] < weight * weight) return;
+    if (push[0] * push[0] + push[1] * push[1] + push[2] * push[2] < load * load) return;
     if (!(lost > 0.0) || !(sum[0] > 0.0) || sum[2] > 0.0) return; /* other forces are not known to the particles */
     const double root = sqrt(sum[1] * sum[1] + 2.0 * sum[0] * lost);
     const bool turns_back = sum[1] >= 0.0 || 2.0 * sum[0] * lost > RECEDES * sum[1] * sum[1];
