@@ -23,7 +23,31 @@ static const double IMPACT = 2.0;   /* times its load, see load_of(): what pushe
 static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
 static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
 
-enum { BOUNCE_SUMS = 7 + EXCHANGE_SUMS };
+enum { STORED = 7 + EXCHANGE_SUMS, BOUNCE_SUMS = STORED + 1 };
+
+/* The most that matter gives back of a blow [J/kg]: what it stores when it yields. Steps longer than the blow do not see it yield, and would throw clay back as if it
+ * were rubber. Pressed along one axis, with free sides, by s: |dev e| = yield_strain, and the energy s^2 / 2 E is
+ *     3D: e = (1, -nu, -nu) s / E:          3/2 mu yield_strain^2 / (1 + nu),
+ *     2D: E / (1 - nu^2) in place of E:     2 (1 - nu) mu yield_strain^2. */
+static double stored_by(const pbmpm_material_def *def, int dimension)
+{
+    const double nu = (double)def->poisson_ratio, shear = lame_of((double)def->young_modulus, nu).mu, strain = (double)def->yield_strain;
+    if (def->kind != PBMPM_VISCO) return INFINITY;
+    return (dimension == 3 ? 1.5 / (1.0 + nu) : 2.0 * (1.0 - nu)) * shear * strain * strain / (double)def->density;
+}
+
+/* The same of a block, in the units of the sums. */
+static double sum_stored(const World *world, int32_t block)
+{
+    const Grid *grid = &world->grid;
+    const uint32_t *run = grid->block_run.data;
+    double sum = 0.0;
+    for (uint32_t r = run[block]; block < grid->particle_blocks && r < run[block + 1]; r++) {
+        const double most = stored_by(&world->materials.def[grid->run_key[r] >> K_RUN_CELL_BITS], grid->dimension);
+        for (uint32_t row = grid->run_begin[r]; row < grid->run_begin[r + 1]; row++) sum += (double)world->particles.mass[row] * most;
+    }
+    return sum / (world->substep.to_velocity * world->substep.to_velocity);
+}
 
 static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, double *sum)
 {
@@ -42,6 +66,7 @@ static void sum_change(Primal *p, int32_t block, size_t begin, size_t end, doubl
     ContactExchange exchange = {0};
     constraints_exchange(p->contacts, p->gradient, p->best, p->slip_min, block, &exchange);
     memcpy(sum + 7, &exchange, sizeof exchange);
+    sum[STORED] = sum_stored(p->world, block);
     sum[3] = constraints_friction_loss(p->contacts, p->best, p->slip_min, block);
 }
 
@@ -66,7 +91,7 @@ static void find_bounce(RigidBody *body, const BodySum *of, const float *g, cons
 {
     const ContactExchange all = exchange_of(body->sum);
     const double load = IMPACT * load_of(body, g), *push = body->sum + 4, *sum = body->sum;
-    const double work = constraints_exchanged_work(&all, push), gave = other ? other->lost : work, lost = KEPT * (of->before + gave - of->after - sum[3]);
+    const double work = constraints_exchanged_work(&all, push), gave = other ? other->lost : work, lost = fmin(sum[STORED], KEPT * (of->before + gave - of->after - sum[3]));
     if (other) body->sum[0] += other->square;
     body->sum[1] += other ? other->along : -work;
     body->bounce = 0.0;
