@@ -18,6 +18,7 @@ static const double FALLS = 0.5, CREEPS = 0.003, SETTLES = 0.07;
 static const double SLOW = 0.3;                                  /* [s] longer than what settles or strikes lasts */
 static const double FORGETS = 1.0;                               /* [s] what grains bear beside the means of cells: as long as a bin takes to begin */
 static const double MISSING_MOST = 0.03;                         /* of the volume of sand that rests: as much as random places make the grid miss */
+static const double RETURNS = 0.1;                               /* of what is missing, per second: what gains less stays as it is, pressed by what the iterations leave */
 static const double FEW = 0.25;                                  /* of the grains of the fullest block: what has fewer is its rim, or spray */
 
 /* The grains of a block. */
@@ -141,7 +142,7 @@ static void begin(World *world, uint32_t kinds)
     if (granular_goes_on(world)) return;
     const bool flows = dual_holds_solids(world, &world->substep) && (double)measure_all(world).speed > FALLS * fall_of(world);
     const bool slept = state->judged > 0 && state->flowed == 0.0 && !flows;
-    *state = (GranularState){.flowed = slept ? 0.0 : FORGETS, .judged = world->step_count + 1, .flows = flows};
+    *state = (GranularState){.flowed = slept ? 0.0 : FORGETS, .judged = world->step_count + 1, .flows = flows, .swells = 1};
 }
 
 pbmpm_result granular_prepare(World *world)
@@ -154,15 +155,35 @@ pbmpm_result granular_prepare(World *world)
     return result;
 }
 
+static void note(GranularState *state, double missing, bool swells)
+{
+    state->swells = swells;
+    state->missing = missing;
+    state->waited = 0.0;
+}
+
+/* Whether sand by itself that is slow gets volume back; noted every FORGETS. */
+static bool swells(GranularState *state, double missing, bool slow, double dt)
+{
+    state->waited += dt;
+    if (!slow)
+        note(state, missing, true);
+    else if (state->waited >= FORGETS)
+        note(state, missing, state->missing - missing > RETURNS * missing * state->waited);
+    return missing > MISSING_MOST && state->swells;
+}
+
 static void follow(World *world, GranularState *state, uint32_t kinds, bool rested)
 {
     const GranularBlock all = measure_all(world);
     const double fall = fall_of(world), speed = (double)all.speed;
-    const bool whole = kinds != KIND_SAND || (double)all.missing < MISSING_MOST;
-    if (state->flows)
-        change_state(state, speed < SETTLES * fall && whole, false, &world->substep);
-    else
+    if (state->flows) {
+        const bool slow = speed < SETTLES * fall, waits = swells(state, (double)all.missing, slow, world->substep.dt) && kinds == KIND_SAND;
+        change_state(state, slow && !waits, false, &world->substep);
+    } else {
         change_state(state, speed > CREEPS * fall, speed > FALLS * fall || (rested && is_stirred(world)), &world->substep);
+        note(state, (double)all.missing, true);
+    }
 }
 
 void granular_judge(World *world)

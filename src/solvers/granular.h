@@ -12,8 +12,8 @@
  * Blocks with few grains do not count. It begins at rest if no block moves at FALLS v.
  * It flows when a block moves at FALLS v, or when one has moved at CREEPS v for SLOW seconds longer than it has not, or when an obstacle, a wall of the domain or
  * a drain beside it came, went or changed (world/stirred.h). Without gravity sand that moves flows. In a world that is told to use the dual all sand does.
- * It rests when no block has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST: the dual
- * alone gives it back.
+ * It rests when no block has moved at SETTLES v for SLOW seconds, counted alike. Sand by itself must have its volume back, too, but for MISSING_MOST, or gain no more: the dual
+ * alone gives it back. A bed that the iterations do not hold at its depth would flow for ever.
  *
  * With the dual bodies sink into sand. So sand that they touch rests as soon as it is slow. Solids that the dual would hold softer than they are would spring up
  * when the primal takes over: the sand that touches them always rests. */

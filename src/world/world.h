@@ -79,6 +79,9 @@ typedef struct GranularState {
     double flowed;   /* for how long it has [s]; 0: it rested in the last substep that was judged */
     uint64_t judged; /* the step after that in which it was; 0: never */
     uint64_t flows;  /* or rests */
+    double waited;   /* while it flows: for how long it has been slow since `missing` was noted [s] */
+    double missing;  /* volume that a grain lacked on average then */
+    uint64_t swells; /* whether it gets that back, by the last two notes */
 } GranularState;
 
 /* The box around what stirred.h speaks of. */

@@ -2,9 +2,9 @@
  *
  * Backward Euler takes energy from whatever changes its velocity: a ball that is stopped and thrown back within ten substeps gets back a quarter of its
  * speed. What a substep lost, E, is known per body: energy before and work, less energy after and what friction took. While a body is pushed its
- * velocities get back the share KEPT of it along their change: v + s (v - v*), v* those of the predictor, with
+ * velocities get it back along their change: v + s (v - v*), v* those of the predictor, with
  *
- *     s^2/2 sum m |u - u*|^2 + s (sum m u.(u - u*) - W) = KEPT E,
+ *     s^2/2 sum m |u - u*|^2 + s (sum m u.(u - u*) - W) = E,
  *
  * W the work of moving surfaces in the substep: what contacts give more does that much more. So E and s are the same for one who moves along. The smaller root: a body that
  * is slowed is slowed less, one that is thrown back is thrown more. All forces count 1 + s times, those of contacts too, so momentum is kept and impulses stay exact. No
@@ -18,7 +18,6 @@
 #include "solvers/primal/primal_yield.h"
 #include "world/sleep_rows.h"
 
-static const double KEPT = 1.0;     /* all of it: with more a ball would bounce higher than it fell */
 static const double IMPACT = 2.0;   /* times its load, see load_of(): what pushes a body less carries it, or it rolls */
 static const double RECEDES = 30.0; /* by trial: what lost so much more than its motion along the push has was thrown back, not slowed */
 static const double MOST = 1.0;     /* of the change: the velocity at the end of a step whose mean is that of the solution */
@@ -91,7 +90,7 @@ static void find_bounce(RigidBody *body, const BodySum *of, const float *g, cons
 {
     const ContactExchange all = exchange_of(body->sum);
     const double load = IMPACT * load_of(body, g), *push = body->sum + 4, *sum = body->sum;
-    const double work = constraints_exchanged_work(&all, push), gave = other ? other->lost : work, lost = fmin(sum[STORED], KEPT * (of->before + gave - of->after - sum[3]));
+    const double work = constraints_exchanged_work(&all, push), gave = other ? other->lost : work, lost = fmin(sum[STORED], of->before + gave - of->after - sum[3]);
     if (other) body->sum[0] += other->square;
     body->sum[1] += other ? other->along : -work;
     body->bounce = 0.0;
