@@ -14,13 +14,6 @@
 #include "contact/walls_unilateral.h"
 #include "contact/wet_side.h"
 
-static void add_product(float m[6], double scale, const double a[3])
-{
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) m[k++] += (float)(scale * a[r] * a[c]);
-}
-
 /* ---- Geometry ---- */
 
 static float mass_of(const Grid *grid, int64_t node) { return node < 0 ? 0.0f : ((const float *)grid->node.data)[node * K_NODE_WIDTH + 3]; }
@@ -368,7 +361,7 @@ static uint32_t add_grip(Builder *b, uint32_t index, const Profile *profile, con
 static uint32_t add_grip_along(Builder *b, uint32_t index, const Profile *profile, double scale)
 {
     float share[6] = {0};
-    add_product(share, scale, profile->axis);
+    lump_add_product(share, scale, profile->axis);
     return add_grip(b, index, profile, share);
 }
 
@@ -394,7 +387,7 @@ static void hold_viscous(Builder *b, const Profile *profile, int count, const do
     for (int j = 0; j < count; j++) {
         double others = 1.0;
         for (int k = 0; k < count; k++) others *= k != j ? factor[k] : 1.0;
-        add_product(kept, others - all, profile[j].axis);
+        lump_add_product(kept, others - all, profile[j].axis);
     }
     WallShear *shear = (WallShear *)b->walls->shear.data + b->walls->shears++;
     *shear = (WallShear){.kept = symmetric_columns(kept), .face = by};
@@ -427,10 +420,10 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         double along = 0.0;
         scale[j] = profile[j].distance >= WET_CLEAR ? 1.0 : found ? profile[j].distance / distance[j] : 0.0;
         if (found && !unilateral && leaves(b, bound, corner_begin, &profile[j], scale[j])) scale[j] = 1.0;
-        add_product(matrix, scale[j], profile[j].axis);
+        lump_add_product(matrix, scale[j], profile[j].axis);
         for (int a = 0; a < 3; a++) along += (double)profile[j].surface[a] * profile[j].axis[a];
         for (int a = 0; a < 3; a++) node->shift[a] += (float)((1.0 - scale[j]) * along * profile[j].axis[a]);
-        if (!found && profile[j].distance >= WET_CLEAR) add_product(node->own, 1.0, profile[j].axis);
+        if (!found && profile[j].distance >= WET_CLEAR) lump_add_product(node->own, 1.0, profile[j].axis);
     }
     for (int k = 0; k < 6 && !found; k++) node->own[k] += rest[k];
     if (sticks) {
@@ -445,7 +438,7 @@ static void add_motion(Builder *b, const Bound *bound, uint32_t index, const Pro
         if (unilateral) set_face(&((WallUnilateral *)b->walls->unilateral.data)[b->walls->unilaterals], node, j, scale[j], grip);
     }
     if (unilateral) ((WallUnilateral *)b->walls->unilateral.data)[b->walls->unilaterals++].follower = index;
-    node->unilateral = unilateral;
+    node->unilateral = unilateral ? UNILATERAL : 0;
     if (!found) return;
     if (b->frame->viscous) hold_viscous(b, profile, count, scale, sticks);
     node->entry = b->walls->entries++;
@@ -495,7 +488,7 @@ static void add_follower(Builder *b, uint32_t index)
         for (int a = 0; a < 3; a++) node->normal[j][a] = (float)profile[j].axis[a];
         node->obstacle[j] = (uint16_t)(profile[j].owner - b->frame->colliders->obstacle);
         node->follows = node->follows || profile[j].distance < WET_CLEAR;
-        add_product(rest, -1.0, profile[j].axis);
+        lump_add_product(rest, -1.0, profile[j].axis);
     }
     if (count == b->frame->grid->dimension) memset(rest, 0, sizeof rest); /* else rounding would be left */
     node->mirror_begin = node->mirror_end = walls->mirrors;

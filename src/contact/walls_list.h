@@ -50,6 +50,9 @@ typedef struct WallMirror {
 /* What of u~ a node has itself. */
 typedef enum WallOwn { OWN_NONE, OWN_PART, OWN_ALL } WallOwn;
 
+/* Solids reach a node: walls hold it or let it go, see walls_unilateral.h. In this walls_apply() a wall did the other. */
+enum { UNILATERAL = 1, SWITCHED = 2 };
+
 typedef struct WallNode {
     uint32_t node;  /* of the grid */
     uint32_t entry; /* or NO_ENTRY */
@@ -66,8 +69,7 @@ typedef struct WallNode {
     uint16_t normals;
     float behind;      /* volume [cells^d] that its spline sees between the wall and the wall's rounded image, see walls_weigh() */
     bool follows;      /* its motion is that of others, or of a wall with matter on both sides, but for what `own` leaves it */
-    bool unilateral;   /* solids reach it: walls hold it or let it go, see walls_unilateral.h */
-    bool switched;     /* in this walls_apply() a wall did the other */
+    uint8_t unilateral; /* of these flags */
     float coefficient; /* of friction, on the nearest wall */
     float surface[3];  /* that wall's motion */
 } WallNode;

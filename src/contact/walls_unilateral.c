@@ -6,15 +6,18 @@
 
 enum { GRAIN = 64, UNILATERAL_NS = 40 };
 
-bool unilateral_beside(const Walls *walls, const WallNode *node)
+/* Whether a node or one that follows it has all of these flags. */
+static bool any_beside(const Walls *walls, const WallNode *node, uint32_t flags)
 {
     const WallNode *list = walls->node.data;
     const WallEntry *entry = walls->entry.data;
     const WallLink *link = walls->link.data;
-    bool beside = node->unilateral;
-    for (uint32_t l = node->link_begin; l < node->link_moving && !beside; l++) beside = list[entry[link[l].from].follower].unilateral;
-    return beside;
+    bool any = (node->unilateral & flags) == flags;
+    for (uint32_t l = node->link_begin; l < node->link_moving && !any; l++) any = (list[entry[link[l].from].follower].unilateral & flags) == flags;
+    return any;
 }
+
+bool unilateral_beside(const Walls *walls, const WallNode *node) { return any_beside(walls, node, UNILATERAL); }
 
 static void take(void *context, int32_t begin, int32_t end)
 {
@@ -52,19 +55,13 @@ static uint32_t held_by(const ApplyJob *job, const WallUnilateral *u, const Wall
     return held;
 }
 
-static void add_product(float m[6], float scale, const float a[3])
-{
-    int k = 0;
-    for (int r = 0; r < 3; r++)
-        for (int c = r; c < 3; c++) m[k++] += scale * a[r] * a[c];
-}
-
 /* What the node is left with along its walls. */
 static void free_part(const WallNode *n, int dimension, float part[6])
 {
     const float all[6] = {1.0f, 0.0f, 0.0f, 1.0f, 0.0f, dimension == 3 ? 1.0f : 0.0f};
     for (int k = 0; k < 6; k++) part[k] = n->normals == dimension ? 0.0f : all[k]; /* else rounding would be left */
-    for (int j = 0; j < n->normals && n->normals < dimension; j++) add_product(part, -1.0f, n->normal[j]);
+    for (int j = 0; j < n->normals && n->normals < dimension; j++)
+        lump_add_product(part, -1.0, (const double[]){(double)n->normal[j][0], (double)n->normal[j][1], (double)n->normal[j][2]});
 }
 
 /* The node's A, what it has itself, c0 and grips, where the faces `held` hold it. */
@@ -79,10 +76,11 @@ static void switch_to(const Walls *walls, WallUnilateral *u, uint32_t held, int 
     for (int j = 0; j < n->normals; j++) {
         const float holds = held >> j & 1 ? 1.0f : 0.0f, share = holds * (1.0f - u->scale[j]);
         const Four normal = {n->normal[j][0], n->normal[j][1], n->normal[j][2]};
+        const double along[3] = {(double)normal[0], (double)normal[1], (double)normal[2]};
         float gripped[6] = {0};
-        add_product(matrix, holds * u->scale[j], n->normal[j]);
-        add_product(own, 1.0f - holds, n->normal[j]);
-        add_product(gripped, share, n->normal[j]);
+        lump_add_product(matrix, (double)(holds * u->scale[j]), along);
+        lump_add_product(own, 1.0 - (double)holds, along);
+        lump_add_product(gripped, (double)share, along);
         shift += share * u->surface[j] * normal;
         if (u->grip[j] != NO_GRIP) grip[u->grip[j]].share = symmetric_columns(gripped);
     }
@@ -100,19 +98,9 @@ static void decide(void *context, int32_t begin, int32_t end)
         WallUnilateral *u = (WallUnilateral *)walls->unilateral.data + i;
         WallNode *n = (WallNode *)walls->node.data + u->follower;
         const uint32_t held = held_by(job, u, n);
-        n->switched = held != u->held;
-        if (n->switched) switch_to(walls, u, held, job->frame->grid->dimension);
+        n->unilateral = UNILATERAL | (held != u->held ? SWITCHED : 0);
+        if (held != u->held) switch_to(walls, u, held, job->frame->grid->dimension);
     }
-}
-
-static bool has_switched(const Walls *walls, const WallNode *node)
-{
-    const WallNode *list = walls->node.data;
-    const WallEntry *entry = walls->entry.data;
-    const WallLink *link = walls->link.data;
-    bool switched = node->switched;
-    for (uint32_t l = node->link_begin; l < node->link_moving && !switched; l++) switched = list[entry[link[l].from].follower].switched;
-    return switched;
 }
 
 static void lump_again(void *context, int32_t begin, int32_t end)
@@ -122,7 +110,7 @@ static void lump_again(void *context, int32_t begin, int32_t end)
     for (int32_t i = begin; i < end; i++) {
         WallFree *free = (WallFree *)walls->free.data + i;
         const WallNode *n = (const WallNode *)walls->node.data + free->place;
-        if (!free->unsure || !has_switched(walls, n)) continue;
+        if (!free->unsure || !any_beside(walls, n, SWITCHED)) continue;
         walls_lump(walls, free->place, job->frame->grid->dimension);
         free->inverse = walls_inverse(n->lump);
     }
