@@ -545,13 +545,13 @@ bool constraints_any_stick(const ContactFrame *frame, int32_t block)
 
 float constraints_room(const Contact *contact, const float *u) { return -excess_of(contact, u); }
 
-bool constraints_any_within(const ContactFrame *frame, float most, int32_t block)
+uint64_t constraints_within(const ContactFrame *frame, float most, int32_t block)
 {
-    if (frame->colliders->contacts == 0) return false;
+    uint64_t nodes = 0;
+    if (frame->colliders->contacts == 0) return nodes;
     const BlockContacts list = contacts_of(frame, block);
-    for (uint32_t i = list.begin; i < list.end; i++)
-        if (list.contact[i].gap <= most) return true;
-    return false;
+    for (uint32_t i = list.begin; i < list.end; i++) nodes |= (uint64_t)(list.contact[i].gap <= most) << list.contact[i].node;
+    return nodes;
 }
 
 void constraints_held_share(const ContactFrame *frame, float *share, int32_t begin, int32_t end)

@@ -138,8 +138,8 @@ bool constraints_any_stick(const ContactFrame *frame, int32_t block);
 /* How many contacts a block has. */
 uint32_t constraints_count(const ContactFrame *frame, int32_t block);
 
-/* Whether a node of the block may approach an obstacle by this at most. */
-bool constraints_any_within(const ContactFrame *frame, float most, int32_t block);
+/* Which nodes of the block may approach an obstacle by this at most: a bit each. */
+uint64_t constraints_within(const ContactFrame *frame, float most, int32_t block);
 
 /* How far a displaced node may go on towards the surface. */
 float constraints_room(const Contact *contact, const float *u);

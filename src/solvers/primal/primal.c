@@ -635,9 +635,10 @@ static void start(Primal *p, int32_t block, size_t begin, size_t end, double *su
     }
     const BodySum *body = primal_body_of(p, block);
     const bool balanced = body->leans && (!body->with_liquid || p->mixed);
+    const uint64_t falls = p->falls && !body->with_liquid ? p->falls[block] : 0;
     if (!body->with_liquid) memcpy(p->node + begin, p->base + begin, (end - begin) * sizeof *p->node);
     for (size_t i = begin; i < end && balanced; i += W)
-        for (size_t c = i; c < i + 3; c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
+        for (size_t c = i; c < i + 3 && !(falls >> (i - begin) / W & 1); c++) p->node[c] = p->world->args.grid.node_before[c] - p->world->args.gravity[c - i];
     if (!p->yields) constraints_project(p->contacts, p->node, block, block + 1);
     for (size_t i = begin; i < end; i++) p->best[i] = p->gradient[i] = 0.0f;
 }

@@ -289,8 +289,9 @@ void primal_find_leaning(Primal *p)
     if (!p->sketches) primal_widen_gaps(p); /* the dual needs the spare array */
     for (int32_t block = 0; block < p->world->grid.node_blocks; block++) {
         BodySum *body = primal_body_of(p, block);
-        body->leans = body->leans || constraints_any_within(p->contacts, body->with_liquid ? 0.0f : fall, block);
+        body->leans = body->leans || constraints_within(p->contacts, body->with_liquid ? 0.0f : fall, block) != 0;
         body->held = body->held || constraints_any_stick(p->contacts, block);
         body->meets = body->meets || constraints_count(p->contacts, block) > 0;
     }
+    primal_find_pieces(p, fall);
 }
