@@ -162,6 +162,23 @@ def jelly_in_a_glass(run: Run, thick: int) -> None:
         run.check("rms speed", float(np.sqrt((world.velocities.array() ** 2).sum(1).mean())), 0, 0.02, "m/s", why="at rest in the end; 24 cells deep")
 
 
+@case(slow=dict(cells=1.5), fast=dict(cells=5.0))
+def water_hits_jelly(run: Run, cells: float) -> None:
+    """A block of water of 8 cells hits a jelly of 12 at so many cells per step, in free space, and flows around it."""
+    cell = 0.025
+    with run.world(2, cell, gravity=(0, 0)) as world:
+        water, jelly = world.add_material(Liquid()), world.add_material(Elastic(young_modulus=1e5))
+        world.fill(Box((0, 0), (6 * cell, 6 * cell)), jelly)
+        world.fill(Box((-14 * cell, 0), (4 * cell, 4 * cell)), water, velocity=(cells * cell * run.rate, 0))
+        run.steps(world, 30 / cells / run.rate)
+        wet = rows_of(world, water)
+        p = world.positions.array()
+        way = p[wet][:, None] - p[~wet][None]
+        near = (way**2).sum(2) < cell**2
+        around = [(near & (x * way[..., 0] > 0) & (y * way[..., 1] > 0)).any(1) for x in (-1, 1) for y in (-1, 1)]
+        run.check("share of the water inside the jelly", np.all(around, 0).mean(), 0, 0.01, why="inside: jelly within a cell in all four quarters; a jelly has no holes")
+
+
 @case(from_half_a_metre=dict())
 def dropped_jelly(run: Run) -> None:
     """A jelly of 5e4 Pa that falls half a metre into water is pressed by the fall as elasticity lets it, and keeps its form afterwards."""

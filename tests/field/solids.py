@@ -320,6 +320,31 @@ def collision(run: Run, offset: float) -> None:
         run.check("restitution", second - first, 0.6, 1.0, why="two elastic discs: 0.8 to 1, the rest goes to waves")
 
 
+@case(
+    touching=dict(below=0),
+    below_1=dict(below=1),
+    below_2=dict(below=2),
+    below_4_stiff=dict(below=4, modulus=1e6),
+    beside_4=dict(beside=4),
+    beside_4_stiff=dict(beside=4, modulus=1e6),
+    beside_8_stiff=dict(beside=8, modulus=1e6),
+    beside_10_stiff=dict(beside=10, modulus=1e6),
+)
+def falls_from(run: Run, below: float | None = None, beside: float = 0.0, modulus: float = 1e5) -> None:
+    """A block is let go so many cells below or beside another one, which is held: it falls freely."""
+    cell, half, seconds = 0.025, 0.1, 0.5
+    with run.world(2, cell) as world:
+        held, free = (world.add_material(Elastic(young_modulus=modulus)) for _ in range(2))
+        world.add_collider(Box((0, 0.2), (1, 0.1)), friction=Friction.STICK)
+        world.fill(Box((0, 0), (half, half)), held)
+        away = (0.0, -2 * half - below * cell) if below is not None else (2 * half + beside * cell, -half)
+        world.fill(Box(away, (half, half)), free)
+        start = world.positions.array()[rows_of(world, free), 1].mean()
+        run.steps(world, seconds)
+        way = start - world.positions.array()[rows_of(world, free), 1].mean()
+        run.check("way over true one", way / (G * seconds * (seconds + run.dt) / 2), 0.9, 1.1, why="nothing holds it: Galilei; a tenth")
+
+
 @case(stands=dict(yield_strain=0.05, stands=True), flows=dict(yield_strain=0.0005, stands=False))
 def clay(run: Run, yield_strain: float, stands: bool) -> None:
     """A block of clay stands when its own weight is below what it bears, else it slumps."""

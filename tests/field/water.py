@@ -24,8 +24,10 @@ def _places(kind: str) -> dict[str, dict[str, Any]]:
     two=dict(thick=2),
     two_off=dict(thick=2, shift=0.3),
     two_3d=dict(thick=2, dimension=3),
+    half=dict(thick=0.5),
+    half_3d=dict(thick=0.5, dimension=3),
 )
-def thin_glass(run: Run, thick: int, shift: float = 0.0, dimension: int = 2) -> None:
+def thin_glass(run: Run, thick: float, shift: float = 0.0, dimension: int = 2) -> None:
     """A glass of boxes whose walls are so few cells thick: water rests in it, and none is pressed into its corners."""
     cell, width, depth = 0.05, 1.2 if dimension == 2 else 0.6, 0.6 if dimension == 2 else 0.4
     frame = Frame(dimension, 0, shift * cell)

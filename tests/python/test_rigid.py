@@ -232,23 +232,31 @@ def test_a_tower_stays_where_it_is(density: float) -> None:
         assert box.position == pytest.approx((1, 0.494), abs=0.004)
 
 
-def test_a_high_tower_stands() -> None:
-    """Five stiff crates and five light boxes by turns. What upper solutions leave goes down to the floor; it threw the boxes about at 150 m/s."""
-    high, thick = 0.3, 0.4
+THIN = pytest.mark.xfail(strict=False, reason="matter above and below a plate thinner than eight cells counts as one piece: docs/limits.md")
+
+
+@pytest.mark.parametrize(("thick", "seconds"), [(0.4, 1.5), (0.4, 10), pytest.param(0.2, 10, marks=THIN), pytest.param(0.1, 10, marks=THIN)])
+def test_a_high_tower_stands(thick: float, seconds: float) -> None:
+    """Five stiff crates and five light boxes by turns, eight cells thick, or thinner. What upper solutions leave goes down to the floor; it threw the boxes about at 150 m/s."""
+    high = 0.3
     with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (2, 6)), iterations=5) as world:
-        matter, boxes = _elastic(world, 1e7), []
+        matter, boxes, fastest = _elastic(world, 1e7), [], 0.0
         for level in range(5):
             foot = level * (high + thick)
             world.fill(pbmpm.Box((1, foot + high / 2), (0.4, high / 2)), matter)
             collider = world.add_collider(pbmpm.Box((1, foot + high + thick / 2), (0.45, thick / 2)), kinematic=True, measures_impulse=True)
             boxes.append(pbmpm.RigidBody(collider, density=100))
-        for _ in range(90):
+        for _ in range(round(60 * seconds)):
             for box in boxes:
                 box.advance(DT)
             world.step(DT)
+            fastest = max(fastest, world.stats.max_speed)
+            if fastest > 10:
+                break
+        print(f"plates of {thick / 0.05:.0f} cells: up to {fastest:.2f} m/s")
         assert world.stats.max_speed < 0.2
         for level, box in enumerate(boxes):
-            assert box.position == pytest.approx((1, level * (high + thick) + high + thick / 2), abs=0.05)
+            assert box.position == pytest.approx((1, level * (high + thick) + high + thick / 2), abs=0.05 if seconds < 2 else 0.1)
 
 
 def _bounce(density: float | None, modulus: float) -> float:
