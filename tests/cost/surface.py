@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a surface costs beside a step, at 200,000 liquid particles in 3D and 60 Hz x 5.
+"""What a surface costs beside a step, at 200,000 liquid particles in 3D and 60 Hz x 5; and what that of a sleeping pool costs.
 
     PBMPM_LIBRARY=build/rel/lib/libpbmpm.so build/venv/bin/python tests/cost/surface.py [SCENE...] [--rounds 11]
 
@@ -22,6 +22,7 @@ SCENES: dict[str, tuple[tuple[float, ...], tuple[float, ...], tuple[float, ...] 
     "shallow pool": ((4, 0.2, 4), (4, 0.2, 4), (8, 4, 8), 20),
 }
 """Centre and half size of the water, the domain's far corner, and the steps before the measurement."""
+ASLEEP = "sleeping pool"
 KINDS: dict[str, Callable[[pbmpm.World], object]] = {
     "subdivision 2": lambda world: world.surface(),
     "without keeps_thin": lambda world: world.surface(keeps_thin=False),
@@ -55,13 +56,36 @@ def measure(name: str, rounds: int) -> None:
         print(f"{name}: {len(world)} particles, {len(world.surface().triangles)} triangles, step {step:.0f} ms; {shares}", flush=True)
 
 
+def measure_asleep(rounds: int) -> None:
+    """The surface of the shallow pool once all of it sleeps: anew, as after other options, and again."""
+    centre, half, far, _ = SCENES["shallow pool"]
+    with pbmpm.World(3, CELL, gravity=(0, -9.81, 0), capacity=CAPACITY, domain=((0.0, 0.0, 0.0), far), iterations=5, threads=1, sleeping=True) as world:
+        world.fill(pbmpm.Box(centre, half), world.add_material(pbmpm.Liquid()))
+        for _ in range(1200):
+            world.step(1 / 60)
+            if world.stats.particles_asleep == len(world):
+                break
+        anew: list[float] = []
+        again: list[float] = []
+        for _ in range(rounds):
+            world.surface(subdivision=1)
+            anew.append(milliseconds(world.surface))
+            world.step(1 / 60)
+            again.append(milliseconds(world.surface))
+        asleep = world.stats.particles_asleep
+        print(f"{ASLEEP}: {asleep} of {len(world)} particles asleep; anew {statistics.median(anew):.1f} ms, again after a step {statistics.median(again):.1f} ms", flush=True)
+
+
 def main() -> None:
     arguments = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    arguments.add_argument("scenes", nargs="*", metavar="SCENE", choices=[[], *SCENES], default=[])
+    arguments.add_argument("scenes", nargs="*", metavar="SCENE", choices=[[], *SCENES, ASLEEP], default=[])
     arguments.add_argument("--rounds", type=int, default=11)
     options = arguments.parse_args()
-    for name in options.scenes or SCENES:
-        measure(name, options.rounds)
+    for name in options.scenes or [*SCENES, ASLEEP]:
+        if name == ASLEEP:
+            measure_asleep(options.rounds)
+        else:
+            measure(name, options.rounds)
 
 
 if __name__ == "__main__":

@@ -277,6 +277,29 @@ def rigid_box(run: Run, density: float, angle: float = 0.0) -> None:
         run.near("level", np.mean(levels), depth + side**2 * density / 1000 / width, SURFACE, cell, why="water keeps its volume")
 
 
+@case(light=dict(density=400), ice=dict(density=800))
+def rigid_cube(run: Run, density: float) -> None:
+    """A rigid cube of four cells, turned, is put on water of 8 cells and floats as deep as its density says, without turning on."""
+    cell, width, depth, side = 0.025, 0.4, 0.2, 0.1
+    with run.world(3, cell, domain=((0, 0, 0), (width, 0.5, width))) as world:
+        pool(world, Frame(3), (0, 0, 0), (width, depth, width), Liquid())
+        turned = (0.0, math.sin(0.25), 0.0, math.cos(0.25))
+        cube = Box((width / 2, depth + side / 2, width / 2), (side / 2,) * 3, rotation=turned)
+        body = RigidBody(world.add_collider(cube, friction=Friction.SLIP, kinematic=True, measures_impulse=True), density=density)
+        heights, turns = [], []
+
+        def after(t: float) -> None:
+            if t > 4:
+                heights.append(body.position[1])
+                turns.append(float(np.linalg.norm(body.angular_velocity)))
+
+        run.steps(world, 6, before=lambda _: body.advance(run.dt), after=after)
+        share = density / 1000
+        level = depth + side**3 * share / width**2
+        run.near("height of its centre", np.mean(heights), level + (0.5 - share) * side, 0.8, cell, why="Archimedes; a fifth of its height")
+        run.check("mean spin", np.mean(turns), 0, 0.5, "rad/s", why="what floats does not go on turning; half a radian per second is what is left of its rocking")
+
+
 @case(sand_heap=dict(what="sand"), water_drop=dict(what="water"), clay=dict(what="clay"), water_3d=dict(what="water", dimension=3))
 def far_away(run: Run, what: str, dimension: int = 2) -> None:
     """Other matter somewhere else changes nothing for a bar that hangs."""

@@ -18,7 +18,7 @@ import solids  # noqa: F401
 import water  # noqa: F401
 from harness import VARIANTS, Run
 
-SLOW = {"column_3d[a_1]", "rolling[ball_20_box]", "floats[light_3d]", "floats[heavy_3d]", "glass[wide_off]", "tiled_floor_3d[three_cells]", "thin_glass[two_3d]", "thin_glass[half_3d]", "hourglass[fine_8]", "hourglass[fine_4]", "jelly_on_sand[three_d]", "rigid_on_sand[four_substeps]"}
+SLOW = {"column_3d[a_1]", "rolling[ball_20_box]", "floats[light_3d]", "floats[heavy_3d]", "glass[wide_off]", "tiled_floor_3d[three_cells]", "thin_glass[two_3d]", "thin_glass[half_3d]", "hourglass[fine_8]", "hourglass[fine_4]", "rigid_cube[light]", "rigid_cube[ice]", "jelly_on_sand[three_d]", "rigid_on_sand[four_substeps]"}
 """More than half a second each: run.py has them."""
 
 REASONS = {
