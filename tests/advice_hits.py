@@ -28,6 +28,7 @@ CODES = {
     "calm": {"POOL_STIRS", "POOL_TOO_DEEP", "COLLIDER_TOO_THIN", "COLLIDER_TOO_FAST"},
     "energy": {"POOL_STIRS", "POOL_TOO_DEEP"},
     "grains": {"SAND_NOT_HELD", "STRAIN_CLAMPED", "VOLUME_LOST"},
+    "heaps": set(),
     "grains at rest": {"SAND_NOT_HELD"},
     "flow": {"SAND_NOT_HELD"},
     "slope": set(),
@@ -43,6 +44,7 @@ CODES = {
 
 LIMITS = {
     "grains": "volume|sand in liquid does not settle",
+    "heaps": "crushed",
     "grains at rest": "stirring",
     "start": "too steep",
     "contact": "tips",
@@ -56,6 +58,7 @@ LIMITS = {
 
 SUBJECTS = (
     (r"^far_away", "modulus"),
+    (r"^hourglass.*as soon as half", "heaps"),
     (r"^(jelly|rigid)_on_sand.*(height of the cube|tilt|height, off)", "on sand"),
     (r"^jelly_on_sand.*rms speed|^tilted_tray.*up to 3 degrees below", "grains at rest"),
     (r"^(all_in_a_tank|jelly_in_a_glass).*level", "afloat"),
