@@ -64,6 +64,21 @@ static void mark_cells(const Pieces *pieces)
     }
 }
 
+/* Whether the blocks around one are of one piece already. */
+static bool is_joined(const Pieces *pieces, int32_t block)
+{
+    const Grid *grid = pieces->grid;
+    const int32_t *neighbour = (const int32_t *)grid->neighbour.data + (size_t)block * (size_t)grid->neighbours;
+    int32_t one = -1;
+    for (int n = 0; n < grid->neighbours; n++) {
+        if (neighbour[n] < 0 || neighbour[n] >= grid->particle_blocks) continue;
+        const int32_t root = sets_root(pieces->up, neighbour[n]);
+        if (one >= 0 && root != one) return false;
+        one = root;
+    }
+    return true;
+}
+
 /* Joins the blocks that touch the same nodes of one block. */
 static void join_at(const Pieces *pieces, int32_t block)
 {
@@ -72,6 +87,7 @@ static void join_at(const Pieces *pieces, int32_t block)
         uint64_t nodes;
     } found[27];
     int count = 0;
+    if (is_joined(pieces, block)) return;
     for (int n = 0; n < pieces->grid->neighbours; n++) {
         uint64_t nodes;
         const int32_t other = toucher(pieces, block, n, &nodes);
@@ -100,6 +116,13 @@ static void find_leaning(const Primal *p, const Pieces *pieces, float fall)
     }
 }
 
+static bool any_falls(const Pieces *pieces)
+{
+    for (int32_t b = 0; b < pieces->grid->particle_blocks; b++)
+        if (!pieces->leans[sets_root(pieces->up, b)]) return true;
+    return false;
+}
+
 /* Whether a body without liquid leans on something. */
 static bool any_leans(const Primal *p)
 {
@@ -118,6 +141,7 @@ void primal_find_pieces(Primal *p, float fall)
     mark_cells(&pieces);
     for (int32_t block = 0; block < pieces.grid->node_blocks; block++) join_at(&pieces, block);
     find_leaning(p, &pieces, fall);
+    if (!any_falls(&pieces)) return;
     for (int32_t block = 0; block < pieces.grid->node_blocks; block++) {
         pieces.falls[block] = 0;
         for (int n = 0; n < pieces.grid->neighbours; n++) {
