@@ -105,6 +105,7 @@ static void look_back(const Decision *d, uint32_t blocks)
         const SleepBlock *before = sleep_list_find(&d->sleep->active, now->place);
         d->loud[f] = !(sum2 < d->speed2 * (float)now->rows);
         now->moved = fastest2 != 0.0f;
+        now->disturbed = d->loud[f] != 0.0f || (before && before->disturbed);
         if (bed) { /* something came into a block that was asleep, or was put there */
             bed->woken = 1;
             d->sleep->woken_blocks++;
@@ -380,7 +381,7 @@ static bool would_move(const World *world, SleepBlock *block, const float *drift
     return !(gained2 <= limit * limit && fastest <= limit);
 }
 
-/* Whether a still block would move; then all that waves from it reach wake with it. */
+/* Still blocks that would move wake, and their bodies with them. */
 static void find_moving(World *world)
 {
     Sleep *sleep = &world->sleep;
@@ -393,9 +394,7 @@ static void find_moving(World *world)
         sleep->woken_blocks++;
         any = true;
     }
-    if (!any) return;
-    sleep->stirred = true;
-    sleep_wake_by_waves(world);
+    if (sleep_wake_by_waves(world) || any) sleep->stirred = true;
 }
 
 void sleep_judge(World *world)

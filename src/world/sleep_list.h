@@ -11,9 +11,10 @@
  * So awake matter sees a ring of complete matter around it. Nodes that also belong to particles that are asleep have not all of their mass;
  * they are held where they are, as by an obstacle that matter sticks to. They are at least two nodes away from any particle that moves.
  *
- * Waking spreads: a block that would move wakes what learns of it in the same substep, see sleep_waves.h. So a tower falls as one when its support goes.
+ * Bodies sleep and wake as one, see sleep_waves.h: what is held still by a part that sleeps would tear off from what goes on.
  *
  * Falling asleep: the root mean square speed of the particles of the block and of each neighbour stays below sleep_speed for sleep_time.
+ * That of a body does not count while a part of it is disturbed.
  * Waking: something enters, what a drowsy block would do says so (see sleep_judge()), or a call touches it.
  *
  * Rows of particles: those of blocks that are asleep stand first and stay where they are; those of leaving, drowsy and awake blocks follow and
@@ -34,6 +35,7 @@ typedef struct SleepBlock {
     uint32_t moved;    /* while it is decided: particles of it have a velocity */
     uint32_t rows;     /* particles */
     uint32_t index;    /* while the list is changed: where it goes; else 0 */
+    uint32_t disturbed; /* its particles are not at rest, or a call touched it: see sleep_waves.h */
     uint32_t joined;   /* of those, how many have come since it fell asleep */
     float quiet;       /* awake: for how long it has been quiet [s] */
     union {

@@ -122,7 +122,7 @@ float sleep_crossing(const World *world, uint32_t first, uint32_t count)
     for (uint32_t row = first; row < first + count; row++) {
         const pbmpm_material_def *def = &world->materials.def[p->material[row]];
         if ((row > first && p->material[row] == p->material[row - 1]) || def->kind == PBMPM_LIQUID) continue;
-        least = fminf(least, (float)(block / (material_wave_speed(def) * world->sleep.dt)));
+        least = fminf(least, def->kind == PBMPM_SAND ? (float)(block / (material_wave_speed(def) * world->sleep.dt)) : 0.0f);
     }
     return least;
 }

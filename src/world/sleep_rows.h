@@ -10,7 +10,7 @@ bool sleep_is_still(const World *world, int32_t block);
 /* Blocks that are leaving are asleep from now on; those that are woken are not. The grid of the last substep is no longer that of the rows. */
 void sleep_settle(World *world);
 
-/* Substeps that a wave of pressure takes to cross a block, where these rows are; FLT_MAX in liquid, which tells its neighbours alone. */
+/* Substeps until what happens at one end of a block of these rows is known at the other: 0 in elastic matter and clay, FLT_MAX in liquid alone. */
 float sleep_crossing(const World *world, uint32_t first, uint32_t count);
 
 /* Takes all that are woken or called (stage drowsy) out of those that are asleep; they become active. */

@@ -9,6 +9,7 @@ static void wake(Sleep *sleep, SleepBlock *block)
 {
     if (!block) return;
     block->quiet = 0.0f;
+    block->disturbed = 1;
     if (block->stage == SLEEP_AWAKE || block->woken) return;
     block->woken = 1;
     sleep->woken_blocks++;
@@ -91,10 +92,20 @@ static bool is_on_way(const World *world, const SleepBlock *block, const void *c
     return nearest <= radius + (SLEEP_FELT + sqrt(way)) * dx;
 }
 
+/* Whether a force takes matter along. */
+static bool carries(const Force *force)
+{
+    const pbmpm_force_def *def = &force->def;
+    const float *v = def->velocity;
+    return force->generation != 0 && def->enabled && def->kind == PBMPM_FORCE_GRAB && !def->everywhere && (v[0] != 0.0f || v[1] != 0.0f || v[2] != 0.0f || def->spin != 0.0f);
+}
+
 void sleep_begin_substep(World *world, int part)
 {
     const Colliders *colliders = &world->colliders;
     if (world->sleep.asleep.count + world->sleep.active.count == 0) return;
+    for (uint32_t slot = 0; slot < world->forces.used; slot++)
+        if (carries(&world->forces.slot[slot])) sleep_wake_near(world, &world->forces.slot[slot].solid, 0.0);
     for (uint32_t slot = 0; slot < colliders->used; slot++) {
         if (!collider_moves(&colliders->slot[slot]) || !world_feels(world, &colliders->slot[slot])) continue;
         const Obstacle o = collider_obstacle(&colliders->slot[slot], world->def.dimension, part, world->settings.substeps);

@@ -15,6 +15,7 @@ typedef struct Waves {
         uint32_t waits;
     } *place; /* a ring of those whose neighbours are to be told, and per block whether it is in there */
     uint32_t blocks, begin, waiting;
+    bool woke;
 } Waves;
 
 static SleepBlock *block_of(const Waves *waves, uint32_t i)
@@ -31,23 +32,24 @@ static void arrive(Waves *waves, uint32_t i, float left)
     waves->place[(waves->begin + waves->waiting++) % waves->blocks].block = i;
 }
 
-/* Substeps in which it crosses a block; blocks that are awake know already. */
+/* Substeps in which it crosses a block. */
 static float crossing_of(const Waves *waves, uint32_t i)
 {
     const World *world = waves->world;
-    const uint32_t asleep = world->sleep.asleep.count;
+    const uint32_t asleep = world->sleep.asleep.count, *begin = world->grid.block_begin.data;
     if (i < asleep) return block_of(waves, i)->crossing;
-    const uint32_t *begin = world->grid.block_begin.data, b = i - asleep;
-    return b < (uint32_t)world->grid.still_blocks ? sleep_crossing(world, begin[b], begin[b + 1] - begin[b]) : FLT_MAX;
+    return sleep_crossing(world, begin[i - asleep], begin[i - asleep + 1] - begin[i - asleep]);
 }
 
 static void wake(Waves *waves, uint32_t i)
 {
     Sleep *sleep = &waves->world->sleep;
     SleepBlock *block = block_of(waves, i);
-    if (block->woken) return;
+    block->quiet = 0.0f;
+    if (block->stage == SLEEP_AWAKE || block->woken) return;
     block->woken = 1;
     sleep->woken_blocks++;
+    waves->woke = true;
 }
 
 static void go_on(Waves *waves, uint32_t from, const int32_t there[3])
@@ -57,20 +59,23 @@ static void go_on(Waves *waves, uint32_t from, const int32_t there[3])
     if (!bed && !drowsy) return;
     const uint32_t i = bed ? (uint32_t)(bed - sleep_list_block(&sleep->asleep, 0)) : sleep->asleep.count + (uint32_t)(drowsy - sleep_list_block(&sleep->active, 0));
     const float left = waves->left[from] - crossing_of(waves, i);
-    if (left < 0.0f || (block_of(waves, i)->woken && left <= waves->left[i])) return;
+    if (left < 0.0f || left <= waves->left[i]) return;
     wake(waves, i);
     arrive(waves, i, left);
 }
 
-void sleep_wake_by_waves(World *world)
+bool sleep_wake_by_waves(World *world)
 {
     const Sleep *sleep = &world->sleep;
     const uint32_t asleep = sleep->asleep.count;
     Waves waves = {.world = world, .left = sleep->loud.data, .place = sleep->next.data, .blocks = asleep + sleep->active.count};
-    memset(waves.left, 0, waves.blocks * sizeof *waves.left);
+    for (uint32_t i = 0; i < waves.blocks; i++) waves.left[i] = -1.0f; /* none has come */
     memset(waves.place, 0, waves.blocks * sizeof *waves.place);
-    for (uint32_t b = 0; b < (uint32_t)world->grid.still_blocks; b++)
-        if (sleep_list_block(&sleep->active, b)->woken) arrive(&waves, asleep + b, 1.0f);
+    for (uint32_t b = 0; b < sleep->active.count; b++) {
+        SleepBlock *block = sleep_list_block(&sleep->active, b);
+        if ((block->woken || block->disturbed) && crossing_of(&waves, asleep + b) < FLT_MAX) arrive(&waves, asleep + b, 1.0f);
+        block->disturbed = 0;
+    }
     while (waves.waiting > 0) {
         const uint32_t from = waves.place[waves.begin].block;
         waves.place[from].waits = 0;
@@ -83,4 +88,5 @@ void sleep_wake_by_waves(World *world)
             go_on(&waves, from, there);
         }
     }
+    return waves.woke;
 }

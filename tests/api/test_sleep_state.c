@@ -78,7 +78,7 @@ static void test_a_snapshot_without_sleeping_wakes_all(void)
     free(buffer);
 }
 
-/* A soft body that lies on the floor. */
+/* Soft bodies that lie on the floor, so far apart that one may wake without the other. */
 typedef struct lying {
     pbmpm_world_id world;
     pbmpm_material_id rubber;
@@ -90,7 +90,7 @@ static lying lying_body(int32_t dimension, const way *chosen, int32_t threads)
     pbmpm_world_def def = default_world(dimension, dimension == 2 ? DX : 2 * DX, MOST);
     def.domain_enabled = 1;
     def.domain_friction = 0.5f;
-    def.domain_max[0] = 2.0f;
+    def.domain_max[0] = 4.0f;
     def.domain_max[2] = 0.4f;
     def.thread_count = threads;
     made.world = create_world(&def);
@@ -99,7 +99,8 @@ static lying lying_body(int32_t dimension, const way *chosen, int32_t threads)
     if (chosen->solver == PBMPM_SOLVER_EXPLICIT) set_rate(made.world, 8, 1);
     const pbmpm_material_def soft = soft_material(PBMPM_ELASTIC);
     OK(pbmpm_material_create(made.world, &soft, &made.rubber));
-    fill_shape(made.world, made.rubber, box_shape(1.0f, 0.15f, 0.2f, 0.9f, 0.15f, 0.2f), STILL);
+    fill_shape(made.world, made.rubber, box_shape(0.5f, 0.15f, 0.2f, 0.45f, 0.15f, 0.2f), STILL);
+    fill_shape(made.world, made.rubber, box_shape(3.0f, 0.15f, 0.2f, 0.45f, 0.15f, 0.2f), STILL);
     return made;
 }
 
@@ -140,15 +141,14 @@ static course go_on(pbmpm_world_id world)
     return seen;
 }
 
-/* A smaller body falls onto the end of one that sleeps: saved in the air, with the larger one asleep, and in 2D once more when it
- * has landed. */
+/* A smaller body falls onto one of two that sleep: saved in the air, with both asleep, and in 2D once more when it has landed. */
 static void check_half_asleep(int32_t dimension, const way *chosen)
 {
     const lying made = lying_body(dimension, chosen, 1), other = lying_body(dimension, chosen, 3);
     fall_asleep(made.world, chosen->name);
-    fill_shape(made.world, made.rubber, box_shape(0.3f, 0.65f, 0.2f, 0.1f, 0.1f, 0.1f), (const float[3]){0, -1, 0});
+    fill_shape(made.world, made.rubber, box_shape(0.3f, 1.0f, 0.2f, 0.1f, 0.1f, 0.1f), (const float[3]){0, -1, 0});
     for (int part = 0; part < (dimension == 2 ? 2 : 1); part++) {
-        for (int i = 0; i < 10 + 14 * part; i++) OK(pbmpm_world_step(made.world, DT));
+        for (int i = 0; i < 10 + 60 * part; i++) OK(pbmpm_world_step(made.world, DT));
         const pbmpm_stats stats = world_stats(made.world);
         TEST_ASSERT_TRUE_MESSAGE(stats.particles_asleep > 0 && stats.particles_asleep < stats.particle_count, chosen->name);
         uint64_t bytes;
@@ -163,7 +163,7 @@ static void check_half_asleep(int32_t dimension, const way *chosen)
         const pbmpm_result last = pbmpm_snapshot_restore(made.world, state, bytes, 0);
         free(state);
         TEST_ASSERT_TRUE(kept == PBMPM_OK && back == PBMPM_OK && twin == PBMPM_OK && last == PBMPM_OK);
-        TEST_ASSERT_TRUE_MESSAGE(first.woken > 0 || first.asleep[0] != first.asleep[LOOKS - 1], chosen->name);
+        TEST_ASSERT_TRUE_MESSAGE(part > 0 || first.woken > 0, chosen->name); /* what it lands on wakes */
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&first, &again, sizeof first, chosen->name);
         TEST_ASSERT_EQUAL_MEMORY_MESSAGE(&first, &elsewhere, sizeof first, chosen->name);
     }

@@ -129,3 +129,44 @@ def test_a_tower_asleep_falls_when_its_floor_goes(dimension: int, material: str)
         late = 0.5 * high * np.sqrt(1000 / modulus) + 2 / RATE
         fallen = -float(world.velocities[...][:, 1].mean())
         assert gravity * (steps / RATE - late) < fallen < gravity * steps / RATE * 1.02  # 2 %: what springs down at its foot
+
+
+def drawn(sleeping: bool, speed: float) -> np.ndarray:
+    """Places of a slab of 1.6 x 0.4 m, one end of which a hand has drawn by 10 cm; it lay still before, for 3 s."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, 0), (4, 2)), domain_friction=0.5, sleeping=sleeping, threads=1) as world:
+        world.fill(pbmpm.Box((1.5, 0.2), (0.8, 0.2)), world.add_material(pbmpm.Elastic(young_modulus=1e5)))
+        ids = np.array(world.ids[...])
+        for _ in range(3 * RATE):
+            world.step(1 / RATE)
+        assert world.stats.particles_asleep == (len(world) if sleeping else 0)
+        place = 2.2
+        hand = world.add_force("grab", shape=pbmpm.Sphere((place, 0.2), 0.15), velocity=(speed, 0))
+        for _ in range(round(0.1 / speed * RATE)):
+            hand.change(shape=pbmpm.Sphere((place, 0.2), 0.15))
+            world.step(1 / RATE)
+            place += speed / RATE
+        return np.array(world.positions[...])[world.find(ids)]
+
+
+@pytest.mark.parametrize("speed", [0.02, 0.08])
+def test_a_slab_asleep_is_not_torn_by_a_slow_hand(speed: float) -> None:
+    """Slower than sleep_speed or not: within a cell of where it is if it does not sleep. It was torn along an edge of blocks, 0.2 m apart."""
+    assert np.abs(drawn(True, speed) - drawn(False, speed)).max() < 0.05
+
+
+@pytest.mark.parametrize("material", [pbmpm.Elastic(young_modulus=1e5), pbmpm.Visco(density=1500)])
+def test_what_sleeps_goes_with_a_slow_belt(material: pbmpm.Material) -> None:
+    """At 0.02 m/s, below sleep_speed, all of it: a fifth of the way may be lost to slip. Its foot rode along, and the rest stayed."""
+    with pbmpm.World(2, 0.05, gravity=(0, -9.81), domain=((0, -1), (4, 3)), sleeping=True, threads=1) as world:
+        belt = world.add_collider(pbmpm.Box((2, -0.1), (1.5, 0.1)), kinematic=True, friction_coefficient=0.5)
+        world.fill(pbmpm.Box((1.5, 0.4), (0.2, 0.4)), world.add_material(material))
+        for _ in range(3 * RATE):
+            world.step(1 / RATE)
+        before = np.array(world.positions[...])
+        way = 0.2
+        for i in range(round(way / 0.02 * RATE)):
+            belt.move((2 + 0.02 * (i + 1) / RATE, -0.1))
+            world.step(1 / RATE)
+        after = np.array(world.positions[...])
+        assert 0.8 * way < after[:, 0].mean() - before[:, 0].mean() < 1.05 * way
+        assert np.ptp(after[:, 0]) < np.ptp(before[:, 0]) + 0.05  # it did not come apart
