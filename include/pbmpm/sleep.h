@@ -3,7 +3,8 @@
  * pbmpm_settings.sleeping switches it on. A block is 4^d cells. Its speed is the root mean square of its particles' speeds. It falls asleep when
  * this, and that of each neighbour, has been below sleep_speed for sleep_time. Its particles then stay where they are, with a velocity of 0, and cost nothing;
  * views, queries, snapshots and statistics show them as ever. Blocks next to one that is awake are drowsy: they take part in the solution with
- * their mass and stress, but are not moved. Beyond them matter that sleeps holds like a wall.
+ * their mass and stress, but are not moved. Beyond them matter that sleeps holds like a wall. Bodies of elastic matter and clay sleep and wake as one, with what lies
+ * within two blocks; of sand, what a wave of stress reaches in a substep.
  *
  * A block wakes when
  *   - a particle faster than sleep_speed enters it; or slower ones enter, more than a sixteenth of its own; or particles are added to it;
