@@ -176,6 +176,7 @@ struct KernelPrimal {
     K_PTR(float) block_energy; /* out, K_ENERGIES per particle block: m/4 phi of elastic matter, of liquids, of both at D = 0, and m/4 of -A : D */
     K_PTR(float) couple[3]; /* per particle of a solid: the entries 10, 20 and 21 of A, see balance_couple(); null without solids among liquid */
     K_CONST_PTR(uint32_t) among_liquid; /* per particle block: whether its body has liquid; null without solids among liquid */
+    K_PTR(float) void_room; /* per particle of visco, see void_room(); written in the first pass; null unless there is visco and its volume is measured */
     K_PTR(float) fed; /* out, per particle block, null but for the primal solver: m/4 phi that volume feedback gave its liquid */
     K_PTR(float) held_pressure; /* per particle of a liquid, see held_energy() */
     K_PTR(float) sketch[9]; /* per particle of a solid: its gradient where the sketch ends; null without the joint solver */

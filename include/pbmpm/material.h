@@ -57,7 +57,8 @@ typedef struct pbmpm_material_def {
                                      Acts as a kinematic viscosity of N * viscosity * dx^2 / (8 dt). */
     float volume_feedback;      /**< liquid, visco, and sand with the dual solver: share by which J follows the volume that the grid holds, in [0, 1];
                                      default 0.1. Per substep with the paper's solver, else per 1/60 s, or per substep if that is longer. 0 switches it off,
-                                     which costs nothing. What it does, and where: docs/method.md, "Liquids keep their volume" */
+                                     which costs nothing. What it does, and where: docs/method.md, "Liquids keep their volume". Visco that came apart closes up
+                                     again before it bears pressure, unless this is 0 */
     float elasticity_ratio;     /**< elastic, the paper's solver: beta in [0, 1]; default 1. 1 resists any change of shape, 0 that of volume alone; between it
                                      is beta * rotation + (1 - beta) * the shape at unit volume */
     pbmpm_strain_policy strain_policy; /**< elastic; default PBMPM_STRAIN_CLAMP */

@@ -154,6 +154,13 @@ bool materials_want_volume(const Materials *materials, const Particles *particle
     return false;
 }
 
+bool materials_hold_visco(const Materials *materials, const Particles *particles)
+{
+    for (uint32_t slot = 0; slot < PBMPM_MAX_MATERIALS; slot++)
+        if (particles->of_material[slot] > 0 && materials->kernel[slot].yields == K_VISCO) return true;
+    return false;
+}
+
 double materials_lightest(const Materials *materials, const Particles *particles)
 {
     double lightest = INFINITY;

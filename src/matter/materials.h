@@ -56,6 +56,9 @@ static inline double material_wave_speed(const pbmpm_material_def *def)
 /* Whether there is a particle whose material asks for the volume on the grid. */
 bool materials_want_volume(const Materials *materials, const Particles *particles);
 
+/* Whether there is visco. */
+bool materials_hold_visco(const Materials *materials, const Particles *particles);
+
 /* Density of the lightest liquid with particles; 0 without any. */
 double materials_lightest(const Materials *materials, const Particles *particles);
 

@@ -144,6 +144,7 @@ typedef struct PrimalState {
     double credit;             /* [J] what solutions with liquid lost and volume feedback has not stored yet: see primal_liquid.c */
     Array inverse;             /* per node 1 / (m + k) */
     Array couple, among_liquid; /* see KernelArgs; of islands of solids and liquid */
+    Array void_room;           /* see KernelArgs; of islands with visco */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
     Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */

@@ -8,13 +8,13 @@
     EnergyAll energy_all2##isa, energy_all3##isa;                                                                           \
     CloseAll close_all2##isa, close_all3##isa;                                                                              \
     YieldAll yield_all2##isa, yield_all3##isa, cut_all2##isa, cut_all3##isa;                                              \
-    GiveUpAll give_up_all2##isa, give_up_all3##isa;                                                                              \
+    GiveUpAll give_up_all2##isa, give_up_all3##isa, close_voids_all2##isa, close_voids_all3##isa;                                                                              \
     WriteLayout layout_of_material3##isa, layout_of_args3##isa;
 #define MATRICES(isa)                                                                                                         \
     {{rotate_all2##isa, decompose_all2##isa, stress_all2##isa, pressure_all2##isa, energy_all2##isa, close_all2##isa, yield_all2##isa, cut_all2##isa,                     \
-      give_up_all2##isa},                                                                                                      \
+      give_up_all2##isa, close_voids_all2##isa},                                                                                                      \
      {rotate_all3##isa, decompose_all3##isa, stress_all3##isa, pressure_all3##isa, energy_all3##isa, close_all3##isa, yield_all3##isa, cut_all3##isa,                     \
-      give_up_all3##isa}}
+      give_up_all3##isa, close_voids_all3##isa}}
 #define LAYOUTS(isa) {layout_of_material3##isa, layout_of_args3##isa}
 
 #if defined(__aarch64__) /* with a single target ISPC puts nothing behind names */

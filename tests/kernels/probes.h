@@ -31,7 +31,7 @@ typedef struct Probes {
     EnergyAll *energy_all;
     CloseAll *close_all;
     YieldAll *yield_all, *cut_all;
-    GiveUpAll *give_up_all;
+    GiveUpAll *give_up_all, *close_voids_all;
 } Probes;
 
 const Probes *probes_for(pbmpm_isa isa, int dimension);

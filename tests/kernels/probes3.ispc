@@ -48,6 +48,10 @@ export void give_up_all3(const uniform struct KernelMaterial *uniform material, 
                          uniform float after[], uniform int count) {
     give_up_all(material, room, before, after, count);
 }
+export void close_voids_all3(const uniform struct KernelMaterial *uniform material, const uniform float room[], const uniform float before[],
+                         uniform float after[], uniform int count) {
+    close_voids_all(material, room, before, after, count);
+}
 export void cut_all3(const uniform struct KernelMaterial *uniform material, const uniform float before[], uniform float after[], uniform int count) {
     cut_all(material, before, after, count);
 }

@@ -15,6 +15,7 @@ void tearDown(void) {}
 enum { COUNT = 400, NUMBERS = 9 * COUNT };
 
 static const double SINE = 0.5, RATIO = 2.5, YIELD = 0.05, KEPT = 0.3;
+static const double CLOSING = 2e-3; /* what three rounds leave of a strain of up to ln 2 */
 
 static float before[NUMBERS], after[NUMBERS];
 
@@ -210,6 +211,45 @@ static void test_crowded_visco_gives_up_volume(void)
         }
 }
 
+/* ---- Voids ---- */
+
+/* The stress along each direction over 2 mu, of a strain that is borne. */
+static void stress_of(int dimension, const double *e, double *stress)
+{
+    const double mean = sum_of(dimension, e) / dimension;
+    for (int a = 0; a < dimension; a++) stress[a] = RATIO * mean + e[a] - mean;
+}
+
+/* Voids close by no more than there are; as long as some are left there is no pressure, and what closed bears none. Then the deviator relaxes. */
+static void test_voids_close_before_visco_bears_pressure(void)
+{
+    static float room[COUNT];
+    KernelMaterial material = visco();
+    material.bulk_over_shear = (float)RATIO;
+    for (int dimension = 2; dimension <= 3; dimension++)
+        EACH_ISA(isa)
+        {
+            Random random = {5};
+            int kinds[3] = {0};
+            check_subject("voids", isa, dimension);
+            draw(dimension, 0.6, 1.5, 21);
+            for (int i = 0; i < COUNT; i++) room[i] = i % 3 ? (float)random_in(&random, 0.05, 1.0) : 0.0f;
+            probes_for(isa, dimension)->close_voids_all(&material, room, before, after, COUNT);
+            for (int i = 0; i < COUNT; i++) {
+                double was[3], is[3], stress[3];
+                strains_of(dimension, before + 9 * i, was);
+                strains_of(dimension, after + 9 * i, is);
+                stress_of(dimension, is, stress);
+                const double closed = sum_of(dimension, is) - sum_of(dimension, was), least = fmin(stress[dimension - 1], fmin(stress[0], stress[1]));
+                check_true(closed > -CLOSING && closed < (double)room[i] + CLOSING, "what voids there are", i);
+                if (closed < (double)room[i] - CLOSING) check_true(least > -CLOSING, "no pressure while there are voids", i);
+                if (closed > CLOSING && closed < (double)room[i] - CLOSING) check_near(0.0, least, CLOSING, "what closed", i);
+                kinds[closed < CLOSING ? 0 : (closed < (double)room[i] - CLOSING ? 1 : 2)]++;
+            }
+            for (int kind = 0; kind < 3; kind++) check_true(kinds[kind] > COUNT / 20, "closed not at all, in part, for good", kind);
+        }
+}
+
 /* ---- What no strain should be ---- */
 
 /* Every seventh matrix becomes one that a step would have caught before: no number, infinite, nothing at all, turned inside out. */
@@ -401,6 +441,7 @@ int main(void)
     RUN_TEST(test_visco_relaxes_at_constant_volume);
     RUN_TEST(test_nothing_changes_below_yield);
     RUN_TEST(test_crowded_visco_gives_up_volume);
+    RUN_TEST(test_voids_close_before_visco_bears_pressure);
     RUN_TEST(test_bad_lanes_disturb_nobody);
     RUN_TEST(test_extreme_strains_obey_the_law);
     RUN_TEST(test_stress_in_the_iterations_obeys_friction);

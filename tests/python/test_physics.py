@@ -459,6 +459,42 @@ def test_pool_keeps_its_height(solver: pbmpm.Solver) -> None:
             assert abs(float(world.positions.array()[:, 1].astype(float).mean()) / settled - 1.0) < 0.01
 
 
+def filled_by_poured_clay(dimension: int, rate: int) -> float:
+    """The cells that clay fills two seconds after it was poured into a bin, over its volume."""
+    cell, count = (0.025, 1000) if dimension == 2 else (0.05, 1500)
+    flat = slice(0, dimension)
+    particle = (0.5 * cell) ** dimension
+    with pbmpm.World(dimension, cell, gravity=(0, -GRAVITY, 0)[flat], domain=((0, 0, 0)[flat], (0.6, 1.4, 0.6)[flat]), domain_friction=0.5, capacity=4000, threads=1) as world:
+        clay = world.add_material(pbmpm.Visco(density=1500))
+        mouth = pbmpm.Box((0.3, 1.2, 0.3)[flat], (0.1, 0.05, 0.1)[flat])
+        flow = 0.5 * 0.2 ** (dimension - 1)
+        world.add_emitter(mouth, clay, flow, speed=0.5, budget=count)
+        for _ in range(int((count * particle / flow + 2.0) * rate)):
+            world.step(1 / rate)
+        assert len(world) == count
+        cells = np.unique(np.floor(world.positions.array() / cell), axis=0)
+        return float(len(cells) * cell**dimension / (count * particle))
+
+
+@pytest.mark.parametrize(("dimension", "rate", "most"), [(2, 60, 1.4), (2, 240, 1.4), (3, 60, 2.2)])
+def test_clay_that_is_poured_closes_up(dimension: int, rate: int, most: float) -> None:
+    """It stretches and tears as it falls, and its pieces move together where they land: 1.17 and 1.21 in 2D, 1.77 in 3D. Random close packing fills 1.2 (2D) and 1.6 times (3D) the volume, and at the surface
+    cells are half empty. Where the voids were borne like matter it filled 2.2, 2.6 and 3.6 times
+    its volume."""
+    assert filled_by_poured_clay(dimension, rate) < most
+
+
+@pytest.mark.parametrize("rate", [60, 240])
+def test_a_column_of_clay_keeps_its_height(rate: int) -> None:
+    """At the sides of what was laid the grid is half empty, but there are no voids. A column of two by four cells bears 1.5 kPa and yields
+    at 5; by Hooke's law it is 1 % lower in the mean. It was 2 % lower before voids closed, too."""
+    with pbmpm.World(2, 0.025, gravity=(0, -GRAVITY), domain=((0, 0), (1, 1)), domain_friction=0.5, capacity=100, threads=1) as world:
+        world.fill(pbmpm.Box((0.5, 0.05), (0.025, 0.05)), world.add_material(pbmpm.Visco(density=1500)))
+        for _ in range(6 * rate):
+            world.step(1 / rate)
+        assert 0.96 < float(world.positions.array()[:, 1].mean()) / 0.05 < 1.0
+
+
 def stretched_honey(nu: float) -> tuple[np.ndarray, np.ndarray]:
     """Width [m] and kinetic energy [J] of a square of 20 cells that is drawn out in free flight, after each step of a second."""
     cell, half, rate = 0.01, 0.1, 3.0

@@ -49,6 +49,20 @@ static void bind_couples(Primal *p)
     world->args.primal.among_liquid = among_liquid;
 }
 
+/* ---- Voids of visco, see close_voids() in ispc/plastic.isph ---- */
+
+static bool prepare_voids(World *world)
+{
+    return !materials_hold_visco(&world->materials, &world->particles) ||
+           array_reserve(&world->memory, &world->primal.void_room, world->particles.count + K_MAX_GANG, sizeof(float));
+}
+
+static void bind_voids(World *world)
+{
+    const bool measured = world->args.grid.node_volume && materials_hold_visco(&world->materials, &world->particles);
+    world->args.primal.void_room = measured ? world->primal.void_room.data : NULL;
+}
+
 /* ---- Memory ---- */
 
 void primal_set_materials(World *world)
@@ -79,14 +93,14 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
                     array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
-    if (!ok || !prepare_couples(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
+    if (!ok || !prepare_couples(world) || !prepare_voids(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
     return multistep_prepare(world);
 }
 
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->void_room, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
@@ -112,6 +126,7 @@ static Primal open_solve(World *world, const ContactFrame *contacts)
     }
     world->args.primal.node_force = p.force;
     world->args.primal.block_energy = state->block_energy.data;
+    bind_voids(world);
     p.joint = joint_is_chosen(world);
     world->args.primal.fed = p.joint ? NULL : state->fed.data;
     return p;

@@ -145,7 +145,7 @@ class Visco(Solid):
             shear is sqrt(2) mu yield_strain.
         flow_rate: [1/s]; strain beyond that shrinks by exp(-flow_rate dt), in [0, 1e9].
         volume_feedback: share per 1/60 s by which it gives up volume where the grid holds more than 1.5 times what belongs
-            there, in [0, 1].
+            there, in [0, 1]. Unless it is 0, matter that came apart closes up again before it bears pressure.
     """
 
     yield_strain: float = _default("yield_strain")
