@@ -207,7 +207,7 @@ static void save_counters(const World *world, SnapshotOut *out)
 {
     Counters counters = {world->step_count,        world->deleted_total, world->clamped_total,
                          world->simulated_seconds, world->slow_dt,       world->slow_iterations,
-                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0.0, 0, 0, 0.0, 0.0, 0}}, world->granular.stirred};
+                         world->strain_unchecked,  world->primal.credit, {{0.0, 0.0, 0}}, {{0.0, 0.0, 0, 0, 0, 0.0f, 0.0f}}, world->granular.stirred};
     memcpy(counters.eddy_account, world->dual.eddy_damping.account, sizeof counters.eddy_account);
     memcpy(counters.granular, world->granular.of, sizeof counters.granular);
     snapshot_put_part(out, &counters, sizeof counters);
@@ -215,7 +215,7 @@ static void save_counters(const World *world, SnapshotOut *out)
 
 static bool state_is_sound(const GranularState *state)
 {
-    return state->seconds >= 0.0 && isfinite(state->seconds) && state->flowed >= 0.0 && isfinite(state->flowed) && state->waited >= 0.0 && isfinite(state->waited + state->missing);
+    return state->seconds >= 0.0 && isfinite(state->seconds) && state->flowed >= 0.0 && isfinite(state->flowed) && state->waited >= 0.0f && isfinite(state->waited + state->missing);
 }
 
 static pbmpm_result check_counters(World *world, SnapshotIn in)

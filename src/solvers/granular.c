@@ -158,18 +158,18 @@ pbmpm_result granular_prepare(World *world)
 static void note(GranularState *state, double missing, bool swells)
 {
     state->swells = swells;
-    state->missing = missing;
-    state->waited = 0.0;
+    state->missing = (float)missing;
+    state->waited = 0.0f;
 }
 
 /* Whether sand by itself that is slow gets volume back; noted every FORGETS. */
 static bool swells(GranularState *state, double missing, bool slow, double dt)
 {
-    state->waited += dt;
+    state->waited += (float)dt;
     if (!slow)
         note(state, missing, true);
-    else if (state->waited >= FORGETS)
-        note(state, missing, state->missing - missing > RETURNS * missing * state->waited);
+    else if ((double)state->waited >= FORGETS)
+        note(state, missing, (double)state->missing - missing > RETURNS * missing * (double)state->waited);
     return missing > MISSING_MOST && state->swells;
 }
 

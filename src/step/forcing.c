@@ -126,7 +126,8 @@ static void feel(const World *world, const Reaching *reaching, const double poin
 
 /* The impulse of each force on a node of the mass m that gained `gained` besides gravity: an acceleration's is m a dt. That of a
  * drag is -m k_i times the integral of v - w_i. As v' = a - k (v - w), k times the integral of v - w is a dt - gained, with gravity
- * in both a dt and gained; so with k_i = share k it is m (share (gained - a dt) + k_i dt (w_i - w)). */
+ * in both a dt and gained; so with k_i = share k it is m (share (gained - a dt) + k_i dt (w_i - w)). Hands of infinite k that want different things would
+ * pull with infinite forces, whose sum is 0: the last term does not count. */
 static void add_impulses(const Reaching *reaching, const Felt *felt, const double gained[3], double mass, ForceShare *shares)
 {
     int drags = 0;
@@ -138,7 +139,7 @@ static void add_impulses(const Reaching *reaching, const Felt *felt, const doubl
         for (int a = 0; a < 3; a++) {
             double part = is_drag(&reaching->force[i]->def) ? 0.0 : felt->change[i][a];
             if (felt->drag[i] > 0.0) part = felt->drag[i] / felt->total_drag * (gained[a] - felt->acceleration[a]);
-            if (felt->drag[i] > 0.0 && drags > 1) part += felt->drag[i] * (felt->change[i][a] - felt->wind[a]);
+            if (felt->drag[i] > 0.0 && drags > 1 && felt->total_drag < INFINITE_DRAG) part += felt->drag[i] * (felt->change[i][a] - felt->wind[a]);
             out->impulse[a] += mass * part;
         }
     }
@@ -228,7 +229,7 @@ static void change_blocks(void *context, int32_t begin, int32_t end)
 {
     const ForceJob *job = context;
     ForceShare *shares = job->world->forces.share.data;
-    uint64_t *held = job->world->forces.held.data;
+    uint64_t *held = job->world->forces.held;
     for (int32_t block = begin; block < end; block++) {
         double corner[3];
         ForceShare *own = shares + (size_t)block * job->on;
@@ -242,10 +243,12 @@ static void change_blocks(void *context, int32_t begin, int32_t end)
 static pbmpm_result take_memory(World *world, uint32_t on, size_t floats, bool keep)
 {
     Forces *forces = &world->forces;
-    if (array_reserve(&world->memory, &forces->share, (size_t)world->grid.node_blocks * on, sizeof(ForceShare)) &&
-        array_reserve(&world->memory, &forces->held, (size_t)world->grid.node_blocks, sizeof(uint64_t)) &&
-        (!keep || array_reserve(&world->memory, &forces->before, floats, sizeof(float))))
+    const size_t blocks = (size_t)world->grid.node_blocks, shares = blocks * on * sizeof(ForceShare);
+    if (array_reserve(&world->memory, &forces->share, shares + blocks * sizeof(uint64_t), 1) &&
+        (!keep || array_reserve(&world->memory, &forces->before, floats, sizeof(float)))) {
+        forces->held = (uint64_t *)((char *)forces->share.data + shares);
         return PBMPM_OK;
+    }
     return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the forces on %d blocks", world->grid.node_blocks);
 }
 
@@ -274,7 +277,7 @@ pbmpm_result forces_apply(World *world)
         world->args.grid.node_before = forces->before.data;
     }
     pool_for(world->pool, world->grid.node_blocks, BLOCK_GRAIN, change_blocks, &job);
-    for (int32_t block = 0; block < world->grid.node_blocks; block++) forces->holds = forces->holds || ((const uint64_t *)forces->held.data)[block];
+    for (int32_t block = 0; block < world->grid.node_blocks; block++) forces->holds = forces->holds || forces->held[block];
     return PBMPM_OK;
 }
 
@@ -305,7 +308,7 @@ void forces_account(World *world, const ContactFrame *contacts)
 {
     Forces *forces = &world->forces;
     const int32_t node_blocks = world->grid.node_blocks;
-    const uint64_t *held = forces->held.data;
+    const uint64_t *held = forces->held;
     ForceJob job;
     if (forces->holds && forces_that_are_on(world, &job))
         for (int32_t block = 0; block < node_blocks; block++)

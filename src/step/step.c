@@ -208,7 +208,7 @@ static pbmpm_result find_contacts(World *world, int part, bool with_volume, Cont
                                .max_displacement = world->settings.max_displacement,
                                .fall = gravity_fall(world, &world->substep),
                                .held = world->sleep.holds ? world->sleep.held.data : NULL,
-                               .grabbed = world->forces.holds ? world->forces.held.data : NULL,
+                               .grabbed = world->forces.holds ? world->forces.held : NULL,
                                .pressed = &world->particles,
                                .pressure = solver_uses_dual(world) ? world->particles.pressure : NULL,
                                .kernel = world->materials.kernel,

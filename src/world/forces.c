@@ -41,7 +41,6 @@ void forces_free(Forces *forces, Memory *memory)
     memory_give(memory, forces->slot, PBMPM_MAX_FORCES * sizeof(Force));
     array_free(memory, &forces->share);
     array_free(memory, &forces->before);
-    array_free(memory, &forces->held);
     *forces = (Forces){0};
 }
 

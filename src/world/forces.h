@@ -19,9 +19,9 @@ typedef struct Force {
 typedef struct Forces {
     Force *slot;   /* PBMPM_MAX_FORCES; null until there is one */
     uint32_t used; /* slots [used, PBMPM_MAX_FORCES) were never taken */
-    Array share;   /* ForceShare per node block and force that is on */
+    Array share;   /* ForceShare per node block and force that is on; then what held[] points to */
+    uint64_t *held; /* per node block: bit n, a grab with the share 1 holds node n */
     Array before;  /* the predictor without forces, for solvers that want it */
-    Array held;    /* uint64_t per node block: bit n, a grab with the share 1 holds node n */
     bool holds;    /* there is such a node */
     uint32_t on;   /* forces that were on in the present substep */
 } Forces;

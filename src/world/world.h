@@ -77,11 +77,11 @@ typedef struct DualGains {
 typedef struct GranularState {
     double seconds;  /* for which it has done what ends its state, less those for which it has not */
     double flowed;   /* for how long it has [s]; 0: it rested in the last substep that was judged */
-    uint64_t judged; /* the step after that in which it was; 0: never */
-    uint64_t flows;  /* or rests */
-    double waited;   /* while it flows: for how long it has been slow since `missing` was noted [s] */
-    double missing;  /* volume that a grain lacked on average then */
-    uint64_t swells; /* whether it gets that back, by the last two notes */
+    uint64_t judged : 62; /* the step after that in which it was; 0: never */
+    uint64_t flows : 1;   /* or rests */
+    uint64_t swells : 1;  /* whether it gets back what is missing, by the last two notes */
+    float waited;         /* while it flows: for how long it has been slow since `missing` was noted [s] */
+    float missing;        /* volume that a grain lacked on average then */
 } GranularState;
 
 /* The box around what stirred.h speaks of. */
@@ -143,8 +143,7 @@ typedef struct PrimalState {
     Array fed;                 /* see KernelArgs */
     double credit;             /* [J] what solutions with liquid lost and volume feedback has not stored yet: see primal_liquid.c */
     Array inverse;             /* per node 1 / (m + k) */
-    Array couple, among_liquid; /* see KernelArgs; of islands of solids and liquid */
-    Array void_room;           /* see KernelArgs; of islands with visco */
+    Array kept, among_liquid;  /* per particle couple and void_room of KernelArgs; the latter: see there, of islands of solids and liquid */
     Array sums;                /* what passes add up, per node block */
     Array body_sums;           /* per body */
     Array rigid, friction, moves;   /* per body, see primal_rigid.c, contact_constraints.h and primal_momentum.c */

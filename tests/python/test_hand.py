@@ -74,6 +74,20 @@ def test_hands_at_one_place_bear_alike() -> None:
     held.world.close()
 
 
+def test_hands_that_disagree_share_what_they_give() -> None:
+    """Nodes that both hold go with the mean of their winds. What they pull against each other would be infinite; told is what matter gets."""
+    held = Held(2, "jelly", 1.0)
+    held.grab()
+    held.grab()
+    held.hands[0].velocity, held.hands[1].velocity = (0.1, 0.0), (-0.1, 0.0)
+    for _ in range(30):
+        held.world.step(DT)
+    impulses = np.array([hand.impulse for hand in held.hands]) / DT
+    assert impulses[:, 1] == pytest.approx(0.5 * held.weight, rel=0.02)
+    assert np.abs(impulses[:, 0]).max() < 0.1 * held.weight
+    held.world.close()
+
+
 @pytest.mark.parametrize("dimension", [2, 3])
 def test_a_hand_lifts_a_body_and_lets_it_fall(dimension: int) -> None:
     """It leaves the floor with the hand. Let go, its middle is on the parabola of a body that rested: n(n+1)/2 g dt^2."""

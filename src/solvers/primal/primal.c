@@ -27,16 +27,21 @@ static const double CURVATURE_MIN = 1e-6;   /* cosine between a step and the cha
 /* LANES: floats that a pass takes at once, four nodes; every block is a multiple of it. */
 enum { BLOCK_GRAIN = 8, VECTORS = 4 + 2 * PRIMAL_MEMORY, LANES = 4 * W };
 
-/* ---- Couples of solids among liquid, see primal.h ---- */
+/* ---- What passes keep of particles: couples of solids among liquid, see primal.h; then voids of visco, see close_voids() in ispc/plastic.isph ---- */
 
 /* Skew entries of a matrix. */
-static size_t couples_of(const World *world) { return world->def.dimension == 3 ? 3 : 1; }
+static size_t couples_of(const World *world)
+{
+    if (!primal_is_mixed(world)) return 0;
+    return world->def.dimension == 3 ? 3 : 1;
+}
 
-static bool prepare_couples(World *world)
+static bool prepare_kept(World *world)
 {
     PrimalState *state = &world->primal;
-    return !primal_is_mixed(world) || (array_reserve(&world->memory, &state->couple, couples_of(world) * world->particles.count + K_MAX_GANG, sizeof(float)) &&
-                                       array_reserve(&world->memory, &state->among_liquid, (size_t)world->grid.particle_blocks, sizeof(uint32_t)));
+    const size_t kept = couples_of(world) + materials_hold_visco(&world->materials, &world->particles), blocks = (size_t)world->grid.particle_blocks;
+    return (kept == 0 || array_reserve(&world->memory, &state->kept, kept * world->particles.count + K_MAX_GANG, sizeof(float))) &&
+           (couples_of(world) == 0 || array_reserve(&world->memory, &state->among_liquid, blocks, sizeof(uint32_t)));
 }
 
 static void bind_couples(Primal *p)
@@ -45,22 +50,14 @@ static void bind_couples(Primal *p)
     uint32_t *among_liquid = world->primal.among_liquid.data;
     if (!primal_is_mixed(world)) return;
     for (int32_t block = 0; block < world->grid.particle_blocks; block++) among_liquid[block] = primal_body_of(p, block)->with_liquid;
-    for (size_t k = 0; k < couples_of(world); k++) world->args.primal.couple[k] = (float *)world->primal.couple.data + k * world->particles.count;
+    for (size_t k = 0; k < couples_of(world); k++) world->args.primal.couple[k] = (float *)world->primal.kept.data + k * world->particles.count;
     world->args.primal.among_liquid = among_liquid;
-}
-
-/* ---- Voids of visco, see close_voids() in ispc/plastic.isph ---- */
-
-static bool prepare_voids(World *world)
-{
-    return !materials_hold_visco(&world->materials, &world->particles) ||
-           array_reserve(&world->memory, &world->primal.void_room, world->particles.count + K_MAX_GANG, sizeof(float));
 }
 
 static void bind_voids(World *world)
 {
     const bool measured = world->args.grid.node_volume && materials_hold_visco(&world->materials, &world->particles);
-    world->args.primal.void_room = measured ? world->primal.void_room.data : NULL;
+    world->args.primal.void_room = measured ? (float *)world->primal.kept.data + couples_of(world) * world->particles.count : NULL;
 }
 
 /* ---- Memory ---- */
@@ -93,14 +90,14 @@ pbmpm_result primal_prepare(World *world)
                     array_reserve(memory, &state->moves, (size_t)state->bodies.count, sizeof(BodyMove)) &&
                     array_reserve(memory, &state->rigid, (size_t)state->bodies.count, sizeof(RigidBody)) &&
                     multilevel_build(&state->multilevel, memory, &world->grid, W, LEVELS_OVER_MATTER);
-    if (!ok || !prepare_couples(world) || !prepare_voids(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
+    if (!ok || !prepare_kept(world)) return fail(PBMPM_ERROR_OUT_OF_MEMORY, "no memory for the primal solver on %d blocks", world->grid.node_blocks);
     return multistep_prepare(world);
 }
 
 void primal_free(World *world)
 {
     PrimalState *s = &world->primal;
-    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->couple, &s->among_liquid, &s->void_room, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
+    Array *arrays[] = {&s->force, &s->block_energy, &s->vectors, &s->accepted_energy, &s->fed, &s->inverse, &s->kept, &s->among_liquid, &s->sums, &s->body_sums, &s->rigid, &s->friction, &s->moves};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) array_free(&world->memory, arrays[i]);
     multistep_free(world);
     bodies_free(&s->bodies, &world->memory);
