@@ -73,8 +73,8 @@ typedef struct pbmpm_force_status {
     uint32_t nodes;    /**< nodes with matter that felt it in the last substep */
     double impulse[3]; /**< sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
                             materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.
-                            GRAB where s = 1: and what it bears while materials act, shared alike by those that hold the same node, also if
-                            they want different things */
+                            GRAB where s = 1: and what it bears while materials act. Those that hold the same node share that alike, also
+                            if they want different things */
 } pbmpm_force_status;
 
 /** Writes the defaults. Errors: INVALID_ARGUMENT (null), UNSUPPORTED (unknown size). Any thread. */

@@ -1281,8 +1281,8 @@ namespace Pbmpm
         public uint Nodes;
         /// <summary>sum over nodes and substeps of what it added to their momentum [kg m/s] (2D: per metre of depth), before
         /// materials and obstacles. UNIFORM, RADIAL, VORTEX: m a dt. DRAG, GRAB: -m k times the integral of v - w.
-        /// GRAB where s = 1: and what it bears while materials act, shared alike by those that hold the same node, also if
-        /// they want different things</summary>
+        /// GRAB where s = 1: and what it bears while materials act. Those that hold the same node share that alike, also
+        /// if they want different things</summary>
         public Double3 Impulse;
     }
 
