@@ -43,10 +43,8 @@ APbmpmSandbox::APbmpmSandbox()
 void APbmpmSandbox::MoveHand(const FVector& Place, float Seconds, bool bGrabs)
 {
 	const FVector Before = Hand->GetComponentTransform().GetLocation();
+	const bool bHeld = Hand->bActs; // the way to where it begins to hold is none that matter goes
 	Hand->SetRelativeLocation(Place);
 	Hand->bActs = bGrabs;
-	if (Seconds > 0.0f)
-	{
-		Hand->Velocity = (Hand->GetComponentTransform().GetLocation() - Before) * (1.0 / Seconds);
-	}
+	Hand->Velocity = bHeld && Seconds > 0.0f ? (Hand->GetComponentTransform().GetLocation() - Before) * (1.0 / Seconds) : FVector(0, 0, 0);
 }
