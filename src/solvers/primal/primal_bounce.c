@@ -41,7 +41,8 @@ static double sum_stored(const World *world, int32_t block)
     const Grid *grid = &world->grid;
     const uint32_t *run = grid->block_run.data;
     double sum = 0.0;
-    for (uint32_t r = run[block]; block < grid->particle_blocks && r < run[block + 1]; r++) {
+    if (block >= grid->particle_blocks) return sum;
+    for (uint32_t r = run[block]; r < run[block + 1]; r++) {
         const double most = stored_by(&world->materials.def[grid->run_key[r] >> K_RUN_CELL_BITS], grid->dimension);
         for (uint32_t row = grid->run_begin[r]; row < grid->run_begin[r + 1]; row++) sum += (double)world->particles.mass[row] * most;
     }
