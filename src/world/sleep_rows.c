@@ -87,7 +87,7 @@ static void part_lists(Sleep *sleep)
         block.index = 0;
         if (is_to_go(&block)) {
             SleepBlock *active = sleep_list_block(&sleep->active, sleep->active.count++);
-            *active = (SleepBlock){.stage = block.woken ? SLEEP_AWAKE : SLEEP_DROWSY, .rows = block.rows, .joined = block.joined};
+            *active = (SleepBlock){.stage = block.woken ? SLEEP_AWAKE : SLEEP_DROWSY, .rows = block.rows, .joined = block.joined, .disturbed = block.disturbed};
             memcpy(active->place, block.place, sizeof active->place);
         } else {
             *sleep_list_block(&sleep->asleep, place) = block;

@@ -177,17 +177,17 @@ static void test_every_solver_goes_on_half_asleep(void)
         for (int w = 0; w < way_count; w++) check_half_asleep(dimension, &ways[w]);
 }
 
-/* What sleeps holds the nodes that it shares with what is awake; these are no contacts with obstacles. */
+/* What sleeps holds the nodes that it shares with what is awake; these are no contacts with obstacles. Water, for a body wakes as one. */
 static void test_what_sleeps_is_no_obstacle(void)
 {
     const pbmpm_world_def def = default_world(2, DX, MOST);
     const pbmpm_world_id world = create_world(&def);
     const pbmpm_shape corner = sphere_shape(-0.6f, 0, 0, 0.02f);
-    pbmpm_material_id rubber = create_material(world, PBMPM_ELASTIC);
+    pbmpm_material_id water = create_material(world, PBMPM_LIQUID);
     change_settings(world, to_sleep);
     set_gravity(world, 0, 0, 0);
-    fill_shape(world, rubber, box_shape(0, 0, 0, 0.6f, 0.2f, 1), STILL);
-    fall_asleep(world, "a free body");
+    fill_shape(world, water, box_shape(0, 0, 0, 0.6f, 0.2f, 1), STILL);
+    fall_asleep(world, "a drop");
     OK(pbmpm_world_wake(world, &corner));
     OK(pbmpm_world_step(world, DT));
     const pbmpm_stats stats = world_stats(world);

@@ -170,3 +170,19 @@ def test_what_sleeps_goes_with_a_slow_belt(material: pbmpm.Material) -> None:
         after = np.array(world.positions[...])
         assert 0.8 * way < after[:, 0].mean() - before[:, 0].mean() < 1.05 * way
         assert np.ptp(after[:, 0]) < np.ptp(before[:, 0]) + 0.05  # it did not come apart
+
+
+@pytest.mark.parametrize("material", TOWERS)
+def test_a_block_asleep_falls_when_its_ledge_goes(material: str) -> None:
+    """So small that its foot could hang from what sleeps above it: it fell by a millimetre, and hung. One substep late."""
+    with pbmpm.World(2, 0.025, gravity=(0, -9.81), domain=((0, 0), (2, 1.6)), sleeping=True, threads=1) as world:
+        ledge = world.add_collider(pbmpm.Box((0.3, 0.95), (0.125, 0.05)))
+        world.fill(pbmpm.Box((0.3, 1.125), (0.125, 0.125)), world.add_material(TOWERS[material]))
+        for _ in range(150):
+            world.step(1 / RATE)
+        assert world.stats.particles_asleep == len(world)
+        before = float(world.positions[...][:, 1].mean())
+        ledge.destroy()
+        for _ in range(15):
+            world.step(1 / RATE)
+        assert before - float(world.positions[...][:, 1].mean()) > 0.5 * 9.81 * 14 * 13 / RATE**2
